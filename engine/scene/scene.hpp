@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene: the truth. Plain structs in tables, ids between them; heavy data is shared and immutable, so that a duplicate
+// of an object costs one instance. Nothing here knows files, plugins or GPUs. It changes only through edits (edit.hpp).
+// Frames: right-handed or mirrored as imported; camera and lights look along +z as in pbrt. Lengths in scene units,
+// angles in degrees, colours linear sRGB, radiometry relative as in pbrt.
+#pragma once
+
+#include "scene/id.hpp"
+#include "scene/params.hpp"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <restage/scene_io.h>
+#include <string>
+#include <vector>
+
+namespace restage::scene {
+
+// Where a thing came from, and what its importer did not understand: one "key value" line each, written back verbatim.
+struct Origin {
+    std::string verbatim;
+    std::string format; // "pbrt-v4", ...
+    bool operator==(const Origin&) const = default;
+};
+
+struct MeshData { // immutable once shared
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;    // as many as positions, or none
+    std::vector<glm::vec2> uvs;        // as many as positions, or none
+    std::vector<glm::uvec3> triangles; // indices < positions.size()
+    glm::vec3 lower{0}, upper{0};      // bounds of the positions
+};
+
+struct Mesh {
+    std::string name;
+    std::shared_ptr<const MeshData> data;
+    std::string source_file; // exporters may refer to it
+    std::string primitive;   // `sphere "float radius" 1`: what the triangles stand for
+    Origin origin;
+    bool operator==(const Mesh&) const = default; // data compares by identity
+};
+
+struct PixelData { // immutable once shared; linear
+    std::uint32_t width = 0, height = 0, channels = 0; // 1, 3 or 4; row 0 is the top
+    std::vector<float> values;                         // width * height * channels
+};
+
+struct Image {
+    std::string name;
+    std::string path; // absolute; "" = only in memory
+    RestageEncoding encoding = RESTAGE_SRGB;
+    float gamma = 2.2f;
+    std::shared_ptr<const PixelData> data; // null = the file could not be read (reported); shades as `missing`
+    Origin origin;
+    bool operator==(const Image&) const = default;
+};
+
+struct Texture { // types and values: restage/scene_io.h, RestageTexture
+    std::string name;
+    std::string type;
+    bool is_float = false;
+    Id<Image> image;
+    ParamSet params;
+    Origin origin;
+    bool operator==(const Texture&) const = default;
+};
+
+struct Material {
+    std::string name;
+    std::string type; // of a material plugin; an unknown one shades as a placeholder and is kept
+    ParamSet params;
+    Origin origin;
+    bool operator==(const Material&) const = default;
+};
+
+struct Medium { // homogeneous; absorption is rendered, scattering is kept and reported
+    std::string name;
+    glm::vec3 sigma_a{0}, sigma_s{0}; // [1/unit]
+    float g = 0;
+    Origin origin;
+    bool operator==(const Medium&) const = default;
+};
+
+struct Group {
+    std::string name;
+    Id<Group> parent;
+    Origin origin;
+    bool operator==(const Group&) const = default;
+};
+
+struct Emission {
+    glm::vec3 radiance{0}; // [W/(m^2 sr)]
+    bool two_sided = false;
+    bool operator==(const Emission&) const = default;
+};
+
+struct MediumInterface {
+    Id<Medium> interior, exterior; // none = vacuum
+    bool operator==(const MediumInterface&) const = default;
+};
+
+struct Instance {
+    std::string name;
+    Id<Mesh> mesh;
+    Id<Material> material;
+    Id<Group> group;
+    glm::dmat4 object_to_world{1}; // affine
+    std::optional<Emission> emission;
+    std::optional<MediumInterface> media;
+    Id<Texture> alpha_texture; // scalar; stands for alpha
+    float alpha = 1;
+    bool reverse_orientation = false;
+    bool hidden = false;
+    Origin origin;
+    bool operator==(const Instance&) const = default;
+};
+
+struct Light { // without a surface
+    std::string name;
+    RestageLightKind kind = RESTAGE_LIGHT_POINT;
+    glm::vec3 value{1}; // point, spot: [W/sr]; distant: [W/m^2]
+    glm::dmat4 light_to_world{1};
+    float cone_angle = 30, cone_delta = 5; // spot [deg]
+    Origin origin;
+    bool operator==(const Light&) const = default;
+};
+
+struct Environment {
+    std::string name;
+    Id<Image> image; // none = constant
+    RestageMapping mapping = RESTAGE_EQUIRECT;
+    glm::vec3 scale{1};
+    glm::dmat4 light_to_world{1};
+    Origin origin;
+    bool operator==(const Environment&) const = default;
+};
+
+struct Camera {
+    std::string name;
+    glm::dmat4 camera_to_world{1};
+    float fov = 45;                            // [deg], of the shorter side
+    std::optional<glm::vec4> screen_window;    // x0 x1 y0 y1
+    float lens_radius = 0, focal_distance = 1; // 0 = pinhole
+    float frame_aspect = 0;                    // 0 = width/height
+    Origin origin;
+    bool operator==(const Camera&) const = default;
+};
+
+enum class FilterKind { box, triangle, gaussian, mitchell, sinc };
+struct Filter {
+    FilterKind kind = FilterKind::box;
+    glm::vec2 radius{0.5f};  // [pixel]
+    glm::vec2 params{0.f};   // gaussian: sigma | mitchell: B, C | sinc: tau
+    bool operator==(const Filter&) const = default;
+};
+
+struct Film {
+    std::uint32_t width = 640, height = 360;
+    glm::vec4 crop{0, 1, 0, 1}; // x0 x1 y0 y1
+    Filter filter;
+    float exposure = 1;
+    std::string filename;
+    bool operator==(const Film&) const = default;
+};
+
+// What changes the image but is no thing in the scene.
+struct Settings {
+    std::uint32_t max_depth = 8; // pbrt's maxdepth
+    std::uint32_t samples = 64;
+    bool russian_roulette = true;
+    float clamp_direct = 0, clamp_indirect = 0; // biased; 0 = off
+    float ray_epsilon = 0;                      // 0 = error-bounded offsets; else an offset in scene units
+    Id<Medium> camera_medium;
+    Origin origin; // integrator, sampler, options
+    bool operator==(const Settings&) const = default;
+};
+
+struct Scene {
+    Table<Mesh> meshes;
+    Table<Image> images;
+    Table<Texture> textures;
+    Table<Material> materials;
+    Table<Medium> media;
+    Table<Group> groups;
+    Table<Instance> instances;
+    Table<Light> lights;
+    Table<Camera> cameras;
+
+    // Single things with a version each.
+    template <class T>
+    struct One {
+        T value{};
+        Version version = 0;
+    };
+    One<std::optional<Environment>> environment;
+    One<Id<Camera>> active_camera;
+    One<Film> film;
+    One<Settings> settings;
+
+    Version clock = 0; // of the latest change
+    std::string format; // what it was imported from: "pbrt-v3", "pbrt-v4", "gltf", ...
+};
+
+} // namespace restage::scene
