@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A buffer and its memory, known to shaders by its address. Made by Device::create_buffer.
+#pragma once
+
+#include <volk.h>
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <string>
+
+struct VmaAllocation_T;
+
+namespace restage::gpu {
+
+class Device;
+
+enum class BufferKind {
+    device,   // fastest for the GPU; mapped only where memory is unified
+    host,     // always mapped, coherent, 64-byte aligned; device-local where possible. The host writes, the GPU reads
+    readback, // always mapped, coherent, 64-byte aligned, cached on the host. The GPU writes, the host reads (or both)
+};
+
+// Move-only. Usable as storage, transfer source and target, indirect arguments, and where the device traces rays as
+// input of acceleration structures.
+class Buffer {
+public:
+    Buffer() = default; // empty: no memory, address 0
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
+    VkBuffer handle() const { return buffer_; }
+    VkDeviceAddress address() const { return address_; } // at least 256-byte aligned
+    std::size_t size() const { return size_; }           // as asked for
+    std::byte* mapped() const { return mapped_; }        // nullptr where the host cannot see it
+    const char* name() const { return name_.c_str(); }
+
+    // The mapped memory as an array of T; what is left over at the end is not part of it.
+    template <class T>
+    std::span<T> span() const {
+        assert((mapped_ || size_ == 0) && "the host cannot see this buffer: use BufferKind::host or readback");
+        return {reinterpret_cast<T*>(mapped_), size_ / sizeof(T)};
+    }
+
+private:
+    friend class Device;
+    void release();
+
+    Device* device_ = nullptr;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VmaAllocation_T* allocation_ = nullptr;
+    VkDeviceAddress address_ = 0;
+    std::size_t size_ = 0;
+    std::byte* mapped_ = nullptr;
+    std::string name_;
+};
+
+} // namespace restage::gpu

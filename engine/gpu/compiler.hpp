@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL -> SPIR-V at run time, with includes, a disk cache, and errors that point at the file and line somebody wrote.
+// Any thread; many may compile at once.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace restage::gpu {
+
+enum class ShaderStage { compute, raygen, closest_hit, any_hit, miss, callable };
+
+struct ShaderSource {
+    std::string name; // how errors call the text: "shaders/wave_generate.comp", "<composed for diffuse>"
+    std::string text; // begins with #version
+    ShaderStage stage = ShaderStage::compute;
+    std::vector<std::pair<std::string, std::string>> defines; // name, value
+    // Files that exist in memory only: the name as #include "name" says it -> text. They hide files on disk.
+    std::map<std::string, std::string> files;
+    // Looked in before the compiler's own include folders (the plugin's folder).
+    std::vector<std::filesystem::path> include_dirs;
+};
+
+struct Spirv {
+    std::vector<std::uint32_t> words;
+    std::string name;
+    ShaderStage stage = ShaderStage::compute;
+    std::string key;                         // of the disk cache: equal keys, equal words
+    std::vector<std::filesystem::path> files; // what was included from disk, for reloading when one changes
+    bool from_cache = false;
+};
+
+struct ShaderCompilerOptions {
+    std::vector<std::filesystem::path> include_dirs;
+    std::filesystem::path cache_dir; // empty: no cache. Usually default_cache_dir() / "spirv"
+    bool optimize = true;            // spirv-opt's performance passes
+    bool debug_info = false;         // names and lines for debuggers and validation
+};
+
+class ShaderCompiler {
+public:
+    explicit ShaderCompiler(ShaderCompilerOptions options);
+    ~ShaderCompiler();
+    ShaderCompiler(ShaderCompiler&&) noexcept;
+    ShaderCompiler& operator=(ShaderCompiler&&) noexcept;
+
+    // Includes are found, in this order: in `files`; next to the file that includes; in the source's include_dirs; in the
+    // compiler's. `#pragma once` works. An error has one line per message: "oak/wood.glsl:12: 'x' : undeclared identifier".
+    Result<Spirv> compile(const ShaderSource& source) const;
+
+private:
+    ShaderCompilerOptions options_;
+};
+
+} // namespace restage::gpu

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compute and ray-tracing pipelines. Their only input is push constants (which carry addresses) and specialization
+// constants. Creating or destroying one may block until running work ends (lavapipe does): do it between tiles.
+#pragma once
+
+#include "base/result.hpp"
+#include "gpu/buffer.hpp"
+#include "gpu/compiler.hpp"
+
+#include <volk.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace restage::gpu {
+
+// layout(constant_id = id) const uint|int|bool. Ids that a shader does not have are ignored. For float: std::bit_cast.
+struct SpecConstant {
+    std::uint32_t id = 0;
+    std::uint32_t value = 0;
+};
+
+class ComputePipeline {
+public:
+    // The workgroup size is the shader's; it may come from specialization constants (local_size_x_id).
+    static Result<ComputePipeline> create(Device& device, const Spirv& shader, std::uint32_t push_constant_bytes,
+                                          std::span<const SpecConstant> constants, const char* name);
+    ComputePipeline() = default;
+    ~ComputePipeline();
+    ComputePipeline(ComputePipeline&& other) noexcept;
+    ComputePipeline& operator=(ComputePipeline&& other) noexcept;
+
+    explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
+    VkPipeline handle() const { return pipeline_; }
+    VkPipelineLayout layout() const { return layout_; }
+    std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
+
+private:
+    Device* device_ = nullptr;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    std::uint32_t push_constant_bytes_ = 0;
+};
+
+// One kind of surface: what runs at the closest hit, and (nullptr: nothing) at every candidate hit that is not opaque.
+struct HitGroup {
+    const Spirv* closest_hit = nullptr;
+    const Spirv* any_hit = nullptr;
+};
+
+struct RayTracingShaders {
+    const Spirv* raygen = nullptr;
+    std::span<const Spirv* const> misses;    // index = missIndex of traceRayEXT
+    std::span<const HitGroup> hit_groups;    // index = sbtRecordOffset of traceRayEXT + the instance's hit_group
+    std::span<const Spirv* const> callables; // index = sbtRecordIndex of executeCallableEXT
+};
+
+// Recursion depth is 1: only raygen traces. Geometry contributes nothing to the hit group index (sbtRecordStride 0).
+class RayTracingPipeline {
+public:
+    static Result<RayTracingPipeline> create(Device& device, const RayTracingShaders& shaders,
+                                             std::uint32_t push_constant_bytes,
+                                             std::span<const SpecConstant> constants, const char* name);
+    RayTracingPipeline() = default;
+    ~RayTracingPipeline();
+    RayTracingPipeline(RayTracingPipeline&& other) noexcept;
+    RayTracingPipeline& operator=(RayTracingPipeline&& other) noexcept;
+
+    explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
+    VkPipeline handle() const { return pipeline_; }
+    VkPipelineLayout layout() const { return layout_; }
+    std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
+
+private:
+    friend class CommandList;
+    Device* device_ = nullptr;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    std::uint32_t push_constant_bytes_ = 0;
+    Buffer binding_table_;
+    VkStridedDeviceAddressRegionKHR raygen_{}, misses_{}, hits_{}, callables_{};
+};
+
+} // namespace restage::gpu
