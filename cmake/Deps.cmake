@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+# Third-party libraries, under our own names dep::<x>: a package with a CMake config first (vcpkg, Debian), else the
+# headers Debian installs without one, else the sources tools/setup unpacked into RESTAGE_DEPS_DIR.
+# What is compiled from source (imgui and the like, volk) is built only when something links it.
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+
+# dep::<name> = the first of the given targets that exists, with its headers taken as system headers.
+function(restage_dep name)
+    foreach(candidate IN LISTS ARGN)
+        if(TARGET ${candidate})
+            add_library(dep_${name} INTERFACE)
+            target_link_libraries(dep_${name} INTERFACE ${candidate})
+            add_library(dep::${name} ALIAS dep_${name})
+            return()
+        endif()
+    endforeach()
+    message(FATAL_ERROR "dep::${name}: none of the targets ${ARGN} is there. On Debian run tools/setup; elsewhere "
+        "configure with vcpkg's toolchain file (vcpkg.json lists what is needed).")
+endfunction()
+
+# dep::<name> = headers found by one of them, and optionally a library.
+function(restage_dep_headers name header) # [SUFFIXES ..] [LIBRARY ..]
+    cmake_parse_arguments(PARSE_ARGV 2 arg "" "LIBRARY" "SUFFIXES")
+    find_path(RESTAGE_${name}_INCLUDE "${header}" PATH_SUFFIXES ${arg_SUFFIXES} REQUIRED)
+    mark_as_advanced(RESTAGE_${name}_INCLUDE)
+    add_library(dep_${name} INTERFACE)
+    target_include_directories(dep_${name} SYSTEM INTERFACE "${RESTAGE_${name}_INCLUDE}")
+    if(arg_LIBRARY)
+        find_library(RESTAGE_${name}_LIBRARY "${arg_LIBRARY}" REQUIRED)
+        mark_as_advanced(RESTAGE_${name}_LIBRARY)
+        target_link_libraries(dep_${name} INTERFACE "${RESTAGE_${name}_LIBRARY}")
+    endif()
+    add_library(dep::${name} ALIAS dep_${name})
+endfunction()
+
+# --- Vulkan -----------------------------------------------------------------------------------------------------------
+find_package(VulkanHeaders CONFIG REQUIRED)
+restage_dep(vulkan_headers Vulkan::Headers)
+
+find_package(volk CONFIG QUIET)
+if(NOT TARGET volk::volk)
+    find_path(RESTAGE_volk_SOURCE volk.c REQUIRED)
+    add_library(restage_volk STATIC EXCLUDE_FROM_ALL "${RESTAGE_volk_SOURCE}/volk.c")
+    target_link_libraries(restage_volk PUBLIC Vulkan::Headers ${CMAKE_DL_LIBS})
+    target_compile_definitions(restage_volk PUBLIC VK_NO_PROTOTYPES)
+endif()
+restage_dep(volk volk::volk restage_volk)
+
+find_package(VulkanMemoryAllocator CONFIG REQUIRED)
+restage_dep(vma GPUOpen::VulkanMemoryAllocator)
+
+# GLSL to SPIR-V at run time. The pieces are one library each up to glslang 12 and fewer after that.
+find_package(SPIRV-Tools-opt CONFIG QUIET)
+find_package(glslang CONFIG REQUIRED)
+add_library(dep_glslang INTERFACE)
+foreach(piece glslang MachineIndependent GenericCodeGen OGLCompiler OSDependent SPIRV glslang-default-resource-limits)
+    if(TARGET glslang::${piece})
+        target_link_libraries(dep_glslang INTERFACE glslang::${piece})
+    elseif(TARGET ${piece})
+        target_link_libraries(dep_glslang INTERFACE ${piece})
+    endif()
+endforeach()
+foreach(piece SPIRV-Tools-opt SPIRV-Tools-static SPIRV-Tools)
+    if(TARGET ${piece})
+        target_link_libraries(dep_glslang INTERFACE ${piece})
+    endif()
+endforeach()
+target_link_libraries(dep_glslang INTERFACE Threads::Threads)
+add_library(dep::glslang ALIAS dep_glslang)
+
+# --- geometry, scenes, images ---------------------------------------------------------------------------------------------
+# Embree 3 on Debian 12, Embree 4 elsewhere: RESTAGE_EMBREE_MAJOR tells the code which API it has.
+find_package(embree CONFIG REQUIRED)
+restage_dep(embree embree)
+target_compile_definitions(dep_embree INTERFACE RESTAGE_EMBREE_MAJOR=${embree_VERSION_MAJOR})
+
+find_package(glm CONFIG REQUIRED)
+restage_dep(glm glm::glm glm)
+target_compile_definitions(dep_glm INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_CTOR_INIT)
+
+find_package(tl-expected CONFIG REQUIRED)
+restage_dep(expected tl::expected)
+find_package(nlohmann_json CONFIG REQUIRED)
+restage_dep(json nlohmann_json::nlohmann_json)
+find_package(OpenEXR CONFIG QUIET REQUIRED) # QUIET: Debian's Imath complains of Python bindings nobody asked for
+restage_dep(openexr OpenEXR::OpenEXR)
+find_package(ZLIB REQUIRED)
+restage_dep(zlib ZLIB::ZLIB)
+# Debian's OpenSubdivConfig.cmake names programs its packages do not hold, so it cannot be used.
+restage_dep_headers(opensubdiv opensubdiv/far/topologyRefiner.h LIBRARY osdCPU)
+find_package(TinyGLTF CONFIG QUIET)
+if(TARGET TinyGLTF::TinyGLTF)
+    restage_dep(tinygltf TinyGLTF::TinyGLTF)
+else()
+    restage_dep_headers(tinygltf tiny_gltf.h)
+endif()
+find_package(tinyobjloader CONFIG REQUIRED)
+restage_dep(tinyobjloader tinyobjloader::tinyobjloader tinyobjloader)
+restage_dep_headers(stb stb_image.h SUFFIXES stb) # headers; whoever needs the code defines STB_..._IMPLEMENTATION once
+restage_dep_headers(ply rply.h LIBRARY rply)
+
+# --- program and tests ------------------------------------------------------------------------------------------------------
+find_package(CLI11 CONFIG REQUIRED)
+restage_dep(cli11 CLI11::CLI11)
+find_package(fmt CONFIG REQUIRED)
+restage_dep(fmt fmt::fmt)
+find_package(spdlog CONFIG REQUIRED)
+restage_dep(spdlog spdlog::spdlog)
+find_package(glfw3 CONFIG REQUIRED)
+restage_dep(glfw glfw)
+target_compile_definitions(dep_glfw INTERFACE GLFW_INCLUDE_NONE)
+if(RESTAGE_BUILD_TESTS)
+    find_package(Catch2 3 CONFIG REQUIRED)
+    restage_dep(catch2 Catch2::Catch2WithMain)
+    restage_dep(catch2_no_main Catch2::Catch2)
+endif()
+
+include(DepsImgui)
+
+# --- Open Image Denoise: opened at run time, never linked ----------------------------------------------------------------
+set(RESTAGE_OIDN_LIB_DIR "${RESTAGE_DEPS_DIR}/pyoidn/pyoidn/oidn/lib" CACHE PATH
+    "Folder with libOpenImageDenoise.so.2 and the libraries it opens; it must be called 'lib'")
+
+# --- a software Vulkan device for tests ----------------------------------------------------------------------------------
+# The name of lavapipe's driver file differs between Mesa packages. Tests run on it wherever it is installed.
+file(GLOB lavapipe_files /usr/share/vulkan/icd.d/lvp_icd*.json /usr/local/share/vulkan/icd.d/lvp_icd*.json)
+if(lavapipe_files)
+    list(GET lavapipe_files 0 lavapipe_files)
+endif()
+set(RESTAGE_LAVAPIPE_ICD "${lavapipe_files}" CACHE FILEPATH "Driver file of Mesa's lavapipe; tests use it when set")

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+# Dear ImGui (docking) with its GLFW and Vulkan backends, test engine, ImGuizmo, ImPlot and portable-file-dialogs, compiled
+# from the sources in RESTAGE_DEPS_DIR, or taken from vcpkg. None of it is built unless a target links it.
+set(bundle "${RESTAGE_DEPS_DIR}/imgui-bundle/external")
+if(NOT EXISTS "${bundle}/imgui/imgui/imgui.h")
+    find_package(imgui CONFIG QUIET)
+    if(TARGET imgui::imgui)
+        restage_dep(imgui imgui::imgui)
+        find_package(imguizmo CONFIG QUIET)
+        find_package(implot CONFIG QUIET)
+        if(TARGET imguizmo::imguizmo)
+            restage_dep(imguizmo imguizmo::imguizmo)
+        endif()
+        if(TARGET implot::implot)
+            restage_dep(implot implot::implot)
+        endif()
+    endif()
+    return()
+endif()
+
+function(restage_imgui_library name folder) # sources..., relative to the folder
+    list(TRANSFORM ARGN PREPEND "${folder}/" OUTPUT_VARIABLE sources)
+    add_library(dep_${name} STATIC EXCLUDE_FROM_ALL ${sources})
+    target_include_directories(dep_${name} SYSTEM PUBLIC "${folder}")
+    target_compile_options(dep_${name} PRIVATE -w)
+    add_library(dep::${name} ALIAS dep_${name})
+endfunction()
+
+restage_imgui_library(imgui "${bundle}/imgui/imgui"
+    imgui.cpp imgui_demo.cpp imgui_draw.cpp imgui_tables.cpp imgui_widgets.cpp imgui_stacklayout.cpp
+    misc/cpp/imgui_stdlib.cpp backends/imgui_impl_glfw.cpp backends/imgui_impl_vulkan.cpp)
+target_include_directories(dep_imgui SYSTEM PUBLIC "${bundle}/imgui/imgui/backends" "${bundle}/imgui/imgui/misc/cpp")
+target_link_libraries(dep_imgui PUBLIC dep::glfw dep::volk)
+# Every user must see the same configuration: volk loads Vulkan; the test engine's hooks are compiled in where it is linked.
+target_compile_definitions(dep_imgui PUBLIC IMGUI_IMPL_VULKAN_USE_VOLK IMGUI_DISABLE_OBSOLETE_FUNCTIONS
+    IMGUI_ENABLE_TEST_ENGINE IMGUI_TEST_ENGINE_ENABLE_STD_FUNCTION=1 IMGUI_TEST_ENGINE_ENABLE_COROUTINE_STDTHREAD_IMPL=1)
+
+restage_imgui_library(imguizmo "${bundle}/ImGuizmo/ImGuizmo/src" ImGuizmo.cpp)
+target_link_libraries(dep_imguizmo PUBLIC dep::imgui)
+
+restage_imgui_library(implot "${bundle}/implot/implot" implot.cpp implot_items.cpp)
+target_link_libraries(dep_implot PUBLIC dep::imgui)
+# ImPlot instantiates every plot for ten number types; two are enough, and -O3 on that file takes minutes.
+target_compile_definitions(dep_implot PUBLIC "IMPLOT_CUSTOM_NUMERIC_TYPES=(float)(double)")
+target_compile_options(dep_implot PRIVATE -O1)
+
+file(GLOB engine_sources RELATIVE "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine"
+    "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine/*.cpp")
+restage_imgui_library(imgui_test_engine "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine" ${engine_sources})
+target_include_directories(dep_imgui_test_engine SYSTEM PUBLIC "${bundle}/imgui_test_engine/imgui_test_engine")
+target_link_libraries(dep_imgui_test_engine PUBLIC dep::imgui Threads::Threads)
+# Dear ImGui calls the engine's hooks and the engine calls Dear ImGui: one links with the other.
+target_link_libraries(dep_imgui PUBLIC dep_imgui_test_engine)
+
+add_library(dep_portable_file_dialogs INTERFACE)
+target_include_directories(dep_portable_file_dialogs SYSTEM INTERFACE 
+    "${bundle}/portable_file_dialogs/portable_file_dialogs")
+add_library(dep::portable_file_dialogs ALIAS dep_portable_file_dialogs)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+# restage_add_plugin(NAME <name> KIND material|importer|exporter|denoiser SOURCES <files> MANIFEST plugin.json
+#                    [GLSL <files>] [FILES <files and folders>] [LINK <third-party targets>])
+# Builds lib/restage/plugins/<kind>-<name>/ in the build tree: <name>.so, its manifest, its GLSL and what else it needs at
+# run time (FILES). A plugin sees the SDK headers and the third-party targets it names, nothing of the engine.
+
+# Puts files into a folder of the build tree: links, so that an edited file needs no build; copies where links need rights.
+function(restage_place_files target folder)
+    foreach(file IN LISTS ARGN)
+        get_filename_component(source "${file}" ABSOLUTE)
+        get_filename_component(name "${file}" NAME)
+        if(CMAKE_HOST_UNIX)
+            file(MAKE_DIRECTORY "${folder}")
+            file(CREATE_LINK "${source}" "${folder}/${name}" SYMBOLIC)
+        elseif(IS_DIRECTORY "${source}")
+            add_custom_command(TARGET ${target} POST_BUILD
+                COMMAND ${CMAKE_COMMAND} -E copy_directory "${source}" "${folder}/${name}")
+        else()
+            add_custom_command(OUTPUT "${folder}/${name}"
+                COMMAND ${CMAKE_COMMAND} -E copy "${source}" "${folder}/${name}" DEPENDS "${source}")
+            list(APPEND copies "${folder}/${name}")
+        endif()
+    endforeach()
+    if(copies)
+        add_custom_target(${target}_files ALL DEPENDS ${copies})
+        add_dependencies(${target} ${target}_files)
+    endif()
+endfunction()
+
+function(restage_add_plugin)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;KIND;MANIFEST" "SOURCES;GLSL;FILES;LINK")
+    set(usage "restage_add_plugin(NAME n KIND material|importer|exporter|denoiser SOURCES .. MANIFEST plugin.json)")
+    if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_SOURCES OR NOT arg_MANIFEST)
+        message(FATAL_ERROR "${usage}: incomplete, or not understood: '${arg_UNPARSED_ARGUMENTS}'")
+    endif()
+    if(NOT arg_KIND MATCHES "^(material|importer|exporter|denoiser)$")
+        message(FATAL_ERROR "${usage}: plugin '${arg_NAME}' has the unknown kind '${arg_KIND}'")
+    endif()
+    set(target restage_${arg_KIND}_${arg_NAME})
+    # A folder of its own for each plugin; an importer and an exporter may share a name, so the kind is part of it.
+    set(folder "${RESTAGE_PLUGIN_DIR}/${arg_KIND}-${arg_NAME}")
+
+    add_library(${target} MODULE ${arg_SOURCES})
+    target_link_libraries(${target} PRIVATE restage_sdk ${arg_LINK})
+    if(TARGET restage_warnings)
+        target_link_libraries(${target} PRIVATE restage_warnings)
+    endif()
+    set_target_properties(${target} PROPERTIES
+        PREFIX "" OUTPUT_NAME "${arg_NAME}"
+        C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+        LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${folder}")
+    restage_place_files(${target} "${CMAKE_BINARY_DIR}/${folder}" ${arg_MANIFEST} ${arg_GLSL} ${arg_FILES})
+    install(TARGETS ${target} LIBRARY DESTINATION "${folder}")
+    install(FILES ${arg_MANIFEST} ${arg_GLSL} DESTINATION "${folder}")
+    foreach(file IN LISTS arg_FILES)
+        if(IS_DIRECTORY "${file}")
+            install(DIRECTORY "${file}" DESTINATION "${folder}")
+        else()
+            install(FILES "${file}" DESTINATION "${folder}")
+        endif()
+    endforeach()
+    set_property(GLOBAL APPEND PROPERTY RESTAGE_PLUGINS ${target})
+endfunction()
