@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights: choosing one by power (alias table), sampling a point on it, and the density of having done so.
+#ifndef RESTAGE_LIB_LIGHT
+#define RESTAGE_LIB_LIGHT
+#include "lib/bsdf.glsl"
+#include "lib/scene.glsl"
+
+struct LightSample {
+    vec3 wi;       // unit, towards the light
+    float dist;    // to it; 1e30 = infinitely far
+    vec3 radiance; // arriving, unoccluded; of delta lights divided by nothing but distance
+    float pdf;     // solid angle, times the probability of choosing this light; 0 = no sample
+    bool delta;    // point, spot, distant: cannot be hit, no MIS
+};
+
+uint alias_pick(address table, uint count, inout float u) {
+    float x = u * float(count);
+    uint i = min(uint(x), count - 1u);
+    AliasEntry e = AliasArray(table).at[i];
+    float f = x - float(i);
+    // u is stretched back to [0,1) within what was chosen
+    bool keep = f < e.q;
+    u = min(keep ? f / e.q : (f - e.q) / (1.0 - e.q), 0.99999994);
+    return keep ? i : e.alias;
+}
+
+// ---- equal-area octahedral map of the sphere: Clarberg 2008; pbrt 4ed, 3.8.3 --------------------------------------
+vec3 octahedral_to_direction(vec2 p) {
+    vec2 uv = 2.0 * p - 1.0;
+    vec2 a = abs(uv);
+    float d = 1.0 - (a.x + a.y);
+    float r = 1.0 - abs(d);
+    float phi = r == 0.0 ? PI * 0.25 : ((a.y - a.x) / r + 1.0) * PI * 0.25;
+    float z = (d < 0.0 ? -1.0 : 1.0) * (1.0 - r * r);
+    float s = r * sqrt(max(0.0, 2.0 - r * r));
+    return vec3((uv.x < 0.0 ? -1.0 : 1.0) * cos(phi) * s, (uv.y < 0.0 ? -1.0 : 1.0) * sin(phi) * s, z);
+}
+vec2 direction_to_octahedral(vec3 w) {
+    vec3 a = abs(w);
+    float r = sqrt(max(0.0, 1.0 - a.z));
+    float hi = max(a.x, a.y), lo = min(a.x, a.y);
+    float phi = (hi == 0.0 ? 0.0 : atan(lo / hi)) * (2.0 / PI);
+    if (a.x < a.y) phi = 1.0 - phi;
+    float v = phi * r;
+    float u = r - v;
+    if (w.z < 0.0) {
+        float t = u;
+        u = 1.0 - v;
+        v = 1.0 - t;
+    }
+    return 0.5 * (vec2(w.x < 0.0 ? -u : u, w.y < 0.0 ? -v : v) + 1.0);
+}
+
+// ---- environment: radiance is constant over a texel, so that its importance sampling is exact ---------------------
+vec2 environment_uv(EnvironmentData env, vec3 w) { // w in the environment's frame
+    if (env.mapping == ENV_OCTAHEDRAL) return direction_to_octahedral(w);
+    float phi = atan(w.y, w.x);
+    return vec2((phi < 0.0 ? phi + TWO_PI : phi) * (0.5 * INV_PI), acos(clamp(w.z, -1.0, 1.0)) * INV_PI);
+}
+uint environment_texel(EnvironmentData env, vec2 uv) {
+    uvec2 p = min(uvec2(uv * vec2(env.width, env.height)), uvec2(env.width - 1u, env.height - 1u));
+    return p.y * env.width + p.x;
+}
+// Solid-angle density of the texel's pmf.
+float environment_density(EnvironmentData env, float pmf, float sin_theta) {
+    float n = float(env.width) * float(env.height);
+    if (env.mapping == ENV_OCTAHEDRAL) return pmf * n / (4.0 * PI);
+    return sin_theta <= 0.0 ? 0.0 : pmf * n / (2.0 * PI * PI * sin_theta);
+}
+// Radiance from direction w (world), and the density with which light sampling finds it (without the light's pmf).
+vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
+    if (env.mapping == ENV_CONSTANT) {
+        pdf = 0.25 * INV_PI;
+        return env.scale;
+    }
+    vec3 local = env.env_from_world * w;
+    uint i = environment_texel(env, environment_uv(env, local));
+    pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, sqrt(max(0.0, 1.0 - local.z * local.z)));
+    return env.scale * Vec4Array(env.texels).at[i].xyz;
+}
+LightSample environment_sample(EnvironmentData env, vec2 u) {
+    LightSample s = LightSample(vec3(0, 0, 1), 1e30, env.scale, 0.25 * INV_PI, false);
+    if (env.mapping == ENV_CONSTANT) {
+        float z = 1.0 - 2.0 * u.x;
+        float r = sqrt(max(0.0, 1.0 - z * z));
+        s.wi = vec3(r * cos(TWO_PI * u.y), r * sin(TWO_PI * u.y), z);
+        return s;
+    }
+    uint n = env.width * env.height;
+    uint i = alias_pick(env.alias, n, u.x);
+    vec2 uv = (vec2(i % env.width, i / env.width) + u) / vec2(env.width, env.height);
+    vec3 local;
+    float sin_theta = 1.0;
+    if (env.mapping == ENV_OCTAHEDRAL) {
+        local = octahedral_to_direction(uv);
+    } else {
+        float theta = uv.y * PI, phi = uv.x * TWO_PI;
+        sin_theta = sin(theta);
+        local = vec3(sin_theta * cos(phi), sin_theta * sin(phi), cos(theta));
+    }
+    s.wi = env.world_from_env * local;
+    s.radiance = env.scale * Vec4Array(env.texels).at[i].xyz;
+    s.pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, sin_theta);
+    return s;
+}
+
+// Density, in solid angle from a point `dist` away, of sampling a point on a triangle light of this area.
+float triangle_density(float area, float dist, float cos_light) {
+    return cos_light <= 0.0 ? 0.0 : dist * dist / (cos_light * area);
+}
+
+LightSample light_sample(SceneData scene, vec3 p, float u_pick, vec2 u) {
+    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), 0.0, false);
+    uint index = alias_pick(scene.light_alias, scene.light_count, u_pick);
+    LightData light = LightArray(scene.lights).at[index];
+    uint kind = light.kind & 255u;
+    if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
+        s = environment_sample(scene.environment, u);
+        s.pdf *= light.pmf;
+        return s;
+    }
+    if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, light.value, light.pmf, true);
+    vec3 q = light.a;
+    if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
+        float x = u.x, y = u.y;
+        if (y > x) {
+            x *= 0.5;
+            y -= x;
+        } else {
+            y *= 0.5;
+            x -= y;
+        }
+        q += x * light.b + y * light.c;
+    }
+    vec3 d = q - p;
+    float d2 = dot(d, d);
+    if (d2 <= 0.0) return s;
+    s.dist = sqrt(d2);
+    s.wi = d / s.dist;
+    if (kind == LIGHT_TRIANGLE) {
+        vec3 n = normalize(cross(light.b, light.c)); // the emitting side, set when the light table is built
+        float c = -dot(n, s.wi);
+        if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
+        if (c <= 0.0) return s;
+        s.radiance = light.value;
+        s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
+    } else {
+        s.delta = true;
+        s.radiance = light.value / d2;
+        s.pdf = light.pmf;
+        if (kind == LIGHT_SPOT) { // pbrt 4ed, 12.2.1
+            float t = clamp((-dot(light.b, s.wi) - light.c.x) / max(light.c.y - light.c.x, 1e-7), 0.0, 1.0);
+            s.radiance *= t * t * (3.0 - 2.0 * t);
+        }
+    }
+    return s;
+}
+
+// Power heuristic, beta = 2. Veach 1997, eq. 9.14
+float mis_weight(float a, float b) {
+    if (STRATEGY == 1) return 1.0; // asked by the only strategy in use
+    float r = b / a;               // a > 0; b may be +inf
+    return 1.0 / (1.0 + r * r);
+}
+
+#endif

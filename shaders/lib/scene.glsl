@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Device addresses as typed arrays, and the root every kernel starts from.
+#ifndef RESTAGE_LIB_SCENE
+#define RESTAGE_LIB_SCENE
+#include "shared/scene_data.h"
+
+#define ARRAY_OF(NAME, TYPE)                                                                                           \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NAME { TYPE at[]; }
+
+ARRAY_OF(FloatArray, float);
+ARRAY_OF(UintArray, uint);
+ARRAY_OF(Vec2Array, vec2);
+ARRAY_OF(Vec3Array, vec3);
+ARRAY_OF(Vec4Array, vec4);
+ARRAY_OF(Uvec2Array, uvec2);
+ARRAY_OF(Uvec3Array, uvec3);
+ARRAY_OF(MaterialArray, MaterialData);
+ARRAY_OF(TextureArray, TextureProgram);
+ARRAY_OF(TextureOpArray, TextureOp);
+ARRAY_OF(AliasArray, AliasEntry);
+ARRAY_OF(LightArray, LightData);
+ARRAY_OF(MediumArray, MediumData);
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InstanceArray { InstanceData at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ImageArray { ImageData at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneRef { SceneData scene; };
+
+// What this scene does not use costs nothing: settled at pipeline creation.
+layout(constant_id = 0) const bool HAS_ENVIRONMENT = true;
+layout(constant_id = 1) const bool HAS_TEXTURES = true;
+layout(constant_id = 2) const bool HAS_BUMP = true;    // bump or normal maps
+layout(constant_id = 3) const bool HAS_LENS = true;
+layout(constant_id = 4) const bool HAS_MEDIA = true;
+layout(constant_id = 5) const bool HAS_GUIDES = true;
+layout(constant_id = 6) const int STRATEGY = 0;        // 0 MIS, 1 light sampling only, 2 BSDF sampling only
+layout(constant_id = 7) const bool HAS_TANGENTS = true; // anisotropic materials or bump: dp/du is needed
+layout(constant_id = 8) const bool HAS_FILTER_TABLE = true;
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a path sees when it leaves the scene.
+#ifndef RESTAGE_PATH_ESCAPE
+#define RESTAGE_PATH_ESCAPE
+#include "lib/light.glsl"
+#include "shared/path_data.h"
+
+// Biased; 0 = off.
+vec3 clamp_contribution(SceneData scene, vec3 c, uint depth) {
+    float limit = depth == 0u ? scene.clamp_direct : scene.clamp_indirect;
+    float m = max_component(c);
+    return limit > 0.0 && m > limit ? c * (limit / m) : c;
+}
+
+// Radiance of the environment for a path that left the scene.
+void path_escape(SceneData scene, vec3 direction, inout PathState path) {
+    if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
+    float pdf_env;
+    vec3 le = environment_eval(scene.environment, direction, pdf_env);
+    float w = 1.0;
+    if ((path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2) {
+        float pdf_light = pdf_env * LightArray(scene.lights).at[scene.environment.light].pmf;
+        w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
+    }
+    uint depth = path.flags & PATH_DEPTH_MASK;
+    path.radiance += clamp_contribution(scene, path.throughput * le * w, depth);
+}
+
+#endif

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// One path step, the physics of a path vertex, used by every tracer: emission with its MIS weight, next-event
+// estimation (gives a shadow ray), BSDF sampling (gives the next ray, which is also the BSDF half of the MIS), Russian
+// roulette. pbrt 4ed, 13.4; Veach 1997, ch. 9. Who finds the hits is not known here.
+//
+// The material composer defines before this file: Material (the parameter struct), material_fetch, material_eval,
+// material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore.
+#ifndef RESTAGE_PATH_STEP
+#define RESTAGE_PATH_STEP
+#include "lib/bsdf.glsl"
+#include "lib/light.glsl"
+#include "lib/sampler.glsl"
+#include "path/escape.glsl"
+#include "path/surface.glsl"
+#include "shared/path_data.h"
+
+struct StepRay {
+    vec3 origin;
+    vec3 direction;
+    float tmax; // < 0: there is none
+};
+
+bool finite(vec3 c) { return !(any(isnan(c)) || any(isinf(c))); }
+
+vec3 absorb(SceneData scene, uint medium, float distance_) { // Beer-Lambert
+    return HAS_MEDIA && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
+}
+
+// From a hit to the next rays. Returns false when something was not finite: the path then ends, and carries nothing on.
+bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, uint prim, vec2 bary, float t,
+               vec3 ray_direction, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
+               out StepRay next, out GuideSample guide) {
+    shadow.tmax = -1.0;
+    next.tmax = -1.0;
+    shadow_contribution = vec3(0);
+    vec3 wo_world = -ray_direction;
+    uint depth = path.flags & PATH_DEPTH_MASK;
+    bool specular = (path.flags & PATH_SPECULAR) != 0u;
+
+    Surface s = make_surface(scene, inst, material_data, prim, bary, wo_world);
+    if (HAS_MEDIA) path.throughput *= absorb(scene, path.medium, t);
+
+    // Emission
+    if ((inst.flags & INSTANCE_EMITS) != 0u) {
+        float c = dot(wo_world, s.ng);
+        if ((inst.flags & INSTANCE_TWO_SIDED) != 0u) c = abs(c);
+        if (c > 0.0) {
+            float w = 1.0;
+            if (!specular && STRATEGY != 2 && inst.light_base != NONE) {
+                LightData light = LightArray(scene.lights).at[inst.light_base + prim];
+                float pdf_light = light.pmf * triangle_density(light.area, t, c);
+                w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
+            }
+            path.radiance += clamp_contribution(scene, path.throughput * inst.emission * w, depth);
+        }
+    }
+
+    Material m = material_fetch(scene, material_data.params, s.uv);
+    vec3 wo = to_local(s, wo_world);
+    if (HAS_GUIDES && depth == 0u) {
+        guide.albedo = clamp(material_albedo(m, wo), vec3(0), vec3(1));
+        guide.normal = s.ns;
+        guide.depth = t;
+        guide.instance_id = inst.object_id;
+        guide.material_id = material_data.id;
+    }
+    if (depth >= scene.max_depth) return finite(path.radiance);
+    Rng rng = Rng(pcg_hash(path.sampler ^ pcg_hash(path.sample_index * 64u + depth)));
+    vec2 u_pick = sample_pair(path.sampler, path.sample_index, pair_light_pick(depth));
+
+    // Next-event estimation
+    if (scene.light_count > 0u) {
+        LightSample light = light_sample(scene, s.p, u_pick.x, sample_pair(path.sampler, path.sample_index, pair_light(depth)));
+        if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta)) {
+            vec3 wi = to_local(s, light.wi);
+            // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
+            bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
+            vec3 f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : vec3(0);
+            if (max_component(f) > 0.0) {
+                float w = light.delta ? 1.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
+                vec3 c = path.throughput * f * light.radiance * (w / light.pdf);
+                uint medium = path.medium;
+                if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
+                    medium = dot(light.wi, s.ng) > 0.0 ? inst.exterior : inst.interior;
+                if (HAS_MEDIA && light.dist < 1e30) c *= absorb(scene, medium, light.dist);
+                shadow_contribution = clamp_contribution(scene, c, depth);
+                shadow.origin = offset_origin(s.p, s.ng, s.offset, light.wi);
+                shadow.direction = light.wi;
+                // The last 1e-4 of the way belongs to the light itself (pbrt's ShadowEpsilon), relative to the distance.
+                shadow.tmax = light.dist < 1e30 ? light.dist * (1.0 - 1e-4) : 1e30;
+            }
+        }
+    }
+
+    // BSDF sampling
+    vec2 u = sample_pair(path.sampler, path.sample_index, pair_bsdf(depth));
+    float u_lobe = sample_pair(path.sampler, path.sample_index, pair_lobe(depth)).x;
+    BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
+    bool ok = finite(shadow_contribution) && finite(b.weight) && finite(path.radiance);
+    if (!ok) {
+        shadow.tmax = -1.0;
+        return false;
+    }
+    if (b.flags == 0u || !(max_component(b.weight) > 0.0)) return true;
+    vec3 wi_world = to_world(s, b.wi);
+    bool same_side = dot(wi_world, s.ng) * dot(wo_world, s.ng) > 0.0;
+    if (same_side != ((b.flags & BSDF_REFLECT) != 0u)) return true;
+    path.throughput *= b.weight;
+    path.pdf = b.pdf;
+    path.eta_scale *= b.eta * b.eta;
+    if (HAS_MEDIA && !same_side && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
+        path.medium = dot(wi_world, s.ng) > 0.0 ? inst.exterior : inst.interior;
+    path.flags = (depth + 1u) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR : 0u);
+
+    // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2
+    if (scene.russian_roulette != 0u && depth > 0u) {
+        float survive = max_component(path.throughput) * path.eta_scale;
+        if (survive < 1.0) {
+            if (u_pick.y >= survive) return true;
+            path.throughput /= survive;
+        }
+    }
+    next.origin = offset_origin(s.p, s.ng, s.offset, wi_world);
+    next.direction = normalize(wi_world);
+    next.tmax = 1e30;
+    return true;
+}
+
+#endif

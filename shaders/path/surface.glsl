@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surface: what a hit looks like to the path step. Built from the triangle, in world space, with the shading frame and
+// the bound of its own rounding error.
+#ifndef RESTAGE_PATH_SURFACE
+#define RESTAGE_PATH_SURFACE
+#include "lib/bsdf.glsl"
+#include "lib/ray_offset.glsl"
+#include "lib/scene.glsl"
+#include "lib/texture.glsl"
+
+struct Surface {
+    vec3 p;
+    vec3 ng;      // unit, geometric, the outside
+    vec3 ns;      // unit, shading
+    vec3 ss, ts;  // with ns an orthonormal, right-handed frame
+    vec2 uv;
+    float offset; // along ng, that a leaving ray needs
+};
+
+// Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+void orthonormal_basis(vec3 n, out vec3 s, out vec3 t) {
+    float g = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (g + n.z);
+    float b = n.x * n.y * a;
+    s = vec3(1.0 + g * n.x * n.x * a, g * b, -g * n.x);
+    t = vec3(b, g + n.y * n.y * a, -n.y);
+}
+
+vec3 to_local(Surface s, vec3 w) { return vec3(dot(w, s.ss), dot(w, s.ts), dot(w, s.ns)); }
+vec3 to_world(Surface s, vec3 w) { return s.ss * w.x + s.ts * w.y + s.ns * w.z; }
+
+// Frame around ns with s as near dpdu as it can be.
+void set_frame(inout Surface s, vec3 dpdu) {
+    vec3 t = dpdu - s.ns * dot(dpdu, s.ns);
+    float l = dot(t, t);
+    if (l > 1e-20 * dot(dpdu, dpdu) && l > 0.0) {
+        s.ss = t * inversesqrt(l);
+        s.ts = cross(s.ns, s.ss);
+    } else {
+        orthonormal_basis(s.ns, s.ss, s.ts);
+    }
+}
+
+// Bump map: the normal of the displaced surface p + d(uv) n. Blinn 1978; pbrt 4ed, 10.5.3.
+void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Surface s) {
+    const float h = 0.0005; // in uv, as pbrt without ray differentials
+    float d = texture_eval(scene, texture_id, s.uv).x;
+    float du = (texture_eval(scene, texture_id, s.uv + vec2(h, 0)).x - d) / h;
+    float dv = (texture_eval(scene, texture_id, s.uv + vec2(0, h)).x - d) / h;
+    vec3 n = s.ns;
+    vec3 a = dpdu + du * n, b = dpdv + dv * n;
+    vec3 m = cross(a, b);
+    float l = dot(m, m);
+    if (!(l > 0.0)) return;
+    m *= inversesqrt(l);
+    s.ns = dot(m, n) < 0.0 ? -m : m;
+    set_frame(s, a);
+}
+
+void apply_normal_map(SceneData scene, uint texture_id, vec3 dpdu, inout Surface s) {
+    vec3 m = 2.0 * texture_eval(scene, texture_id, s.uv) - 1.0;
+    if (!(dot(m, m) > 1e-6)) return;
+    set_frame(s, dpdu);
+    s.ns = normalize(to_world(s, normalize(m)));
+    set_frame(s, dpdu);
+}
+
+// Turns the shading normal just enough for wo to lie on the same side of it as of the geometry, so that light neither
+// leaks nor vanishes at silhouettes. Keller et al. 2017, "The Iray Light Transport Simulation and Rendering System", A.3.
+void adapt_shading_normal(vec3 wo, inout Surface s) {
+    float side = dot(wo, s.ng) < 0.0 ? -1.0 : 1.0;
+    float c = dot(wo, s.ns) * side;
+    if (c >= 1e-3) return;
+    vec3 n = normalize(s.ns * side + wo * (1e-3 - c)) * side;
+    s.ns = n;
+    vec3 t = s.ss - n * dot(s.ss, n);
+    float l = dot(t, t);
+    if (l > 1e-8) {
+        s.ss = t * inversesqrt(l);
+        s.ts = cross(n, s.ss);
+    } else {
+        orthonormal_basis(n, s.ss, s.ts);
+    }
+}
+
+Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, uint prim, vec2 bary, vec3 wo) {
+    Surface s;
+    uvec3 tri = Uvec3Array(inst.indices).at[prim];
+    Vec3Array positions = Vec3Array(inst.positions);
+    vec3 p0 = positions.at[tri.x];
+    vec3 e1 = positions.at[tri.y] - p0, e2 = positions.at[tri.z] - p0;
+    vec3 p = p0 + (bary.x * e1 + bary.y * e2);
+    s.p = inst.object_to_world * vec4(p, 1.0);
+    vec3 ng = normalize(inst.normal_to_world * cross(e1, e2));
+    if ((inst.flags & INSTANCE_FLIP_NORMAL) != 0u) ng = -ng;
+    s.ns = ng;
+    if ((inst.flags & INSTANCE_HAS_NORMALS) != 0u) {
+        Vec3Array normals = Vec3Array(inst.normals);
+        vec3 n = (1.0 - bary.x - bary.y) * normals.at[tri.x] + bary.x * normals.at[tri.y] + bary.y * normals.at[tri.z];
+        n = inst.normal_to_world * n;
+        float l = dot(n, n);
+        if (l > 0.0) {
+            s.ns = n * inversesqrt(l);
+            if ((inst.flags & INSTANCE_FLIP_NORMAL) != 0u) s.ns = -s.ns;
+            if (dot(ng, s.ns) < 0.0) ng = -ng; // the shading normals say which side is out; pbrt 4ed, 6.5.3
+        }
+    }
+    s.ng = ng;
+    s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon
+                                       : ray_offset(p0, e1, e2, p, s.p, inst.object_to_world, inst.normal_to_world, ng);
+
+    s.uv = bary;
+    vec2 duv1 = vec2(1, 0), duv2 = vec2(0, 1);
+    if ((HAS_TEXTURES || HAS_TANGENTS) && (inst.flags & INSTANCE_HAS_UVS) != 0u) {
+        Vec2Array uvs = Vec2Array(inst.uvs);
+        vec2 uv0 = uvs.at[tri.x];
+        duv1 = uvs.at[tri.y] - uv0;
+        duv2 = uvs.at[tri.z] - uv0;
+        s.uv = uv0 + bary.x * duv1 + bary.y * duv2;
+    }
+    if (HAS_TANGENTS) { // pbrt 4ed, 6.5.3: solve for dp/du, dp/dv
+        mat3 lin = mat3(inst.object_to_world[0], inst.object_to_world[1], inst.object_to_world[2]);
+        float det = duv1.x * duv2.y - duv1.y * duv2.x;
+        vec3 dpdu, dpdv;
+        if (abs(det) > 1e-12) {
+            dpdu = lin * ((duv2.y * e1 - duv1.y * e2) / det);
+            dpdv = lin * ((duv1.x * e2 - duv2.x * e1) / det);
+        } else {
+            orthonormal_basis(s.ns, dpdu, dpdv);
+        }
+        set_frame(s, dpdu);
+        if (HAS_BUMP && material.bump != 0u) apply_bump(scene, material.bump, dpdu, dpdv, s);
+        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, dpdu, s);
+    } else {
+        orthonormal_basis(s.ns, s.ss, s.ts);
+    }
+    adapt_shading_normal(wo, s);
+    return s;
+}
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path state, rays and film as kernels and the CPU pass share them. RayHit has the layout of Embree's RTCRayHit and
+// ShadowRay starts with RTCRay, so Embree works on the kernels' memory in place.
+#ifndef RESTAGE_SHARED_PATH_DATA_H
+#define RESTAGE_SHARED_PATH_DATA_H
+#include "shared/types.h"
+
+RESTAGE_SHARED_BEGIN
+
+struct RayHit { // 80 bytes
+    vec3 origin;
+    float tnear;
+    vec3 direction;
+    float time;
+    float tfar; // in: infinity, or negative for a dead path; out: hit distance
+    uint mask;
+    uint id;
+    uint flags;
+    vec3 ng; // not used
+    float u, v;
+    uint prim;
+    uint geom; // out: NONE = missed; else the CPU pass writes the resolved material here
+    uint inst; // out: InstanceData index
+};
+
+struct ShadowRay { // 64 bytes
+    vec3 origin;
+    float tnear;
+    vec3 direction;
+    float time;
+    float tfar; // <= 0: no shadow ray. After Embree: -inf = occluded
+    uint mask;
+    uint id;
+    uint flags;
+    vec3 contribution; // added to the path's radiance when the light is seen
+    uint pad0;
+};
+
+#define PATH_SPECULAR 0x10000u // the last bounce was a delta lobe (or the camera)
+#define PATH_DEPTH_MASK 0xffffu
+struct PathState { // 48 bytes
+    vec3 throughput;
+    float pdf; // of the last BSDF sample, solid angle
+    vec3 radiance;
+    uint flags;       // depth | PATH_*
+    float eta_scale;  // product of eta^2 on transmissions; Russian roulette looks through it
+    uint medium;
+    uint sampler;     // seed of the pixel
+    uint sample_index;
+};
+
+struct GuideSample { // 44 bytes, of the first hit
+    vec3 albedo;
+    vec3 normal; // world space, shading
+    float depth; // distance along the ray; 0 = nothing hit
+    uint instance_id, material_id;
+    float weight; // of the filter
+    uint pad0;
+};
+
+struct FilmPixel { // 40 bytes
+    vec3 sum;  // of radiance
+    float count;
+    float sum_sq_luminance;
+    float pad0;
+    vec3 sum_sq; // of each channel
+    float pad1;
+};
+struct GuidePixel {
+    vec3 albedo;
+    float count;
+    vec3 normal;
+    float depth;
+    uint instance_id, material_id; // of the first sample
+};
+
+// What kernels count when something is wrong: index = material type.
+#define COUNTER_MAX_TYPES 64
+
+struct FrameData { // behind the push constant
+    address scene;     // SceneData
+    address rays;      // RayHit[]
+    address shadows;   // ShadowRay[]
+    address paths;     // PathState[]
+    address guides;    // GuideSample[] or 0
+    address queue;     // uint[]: path indices, all types one after the other
+    address film;      // FilmPixel[]
+    address film_guides; // GuidePixel[]
+    address counters;  // uint[COUNTER_MAX_TYPES]: samples that were not finite
+    uint first_pixel, pixel_count; // this wave: pixels of the crop window, row by row
+    uint samples;      // a pixel in this wave: path index = sample * pixel_count + pixel
+    uint first_sample;
+    uint crop_x, crop_y, crop_width;
+    uint seed;
+};
+
+struct WavePush {
+    address frame;
+    uint queue_first, queue_count;
+};
+
+RESTAGE_SHARED_END
+#endif

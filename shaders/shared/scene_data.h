@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as shaders see it: flat records behind device addresses. World space is translated by GpuScene::origin so
+// that floats are precise near the camera (pbrt 4ed, 5.1.1, "camera-world" rendering space).
+#ifndef RESTAGE_SHARED_SCENE_DATA_H
+#define RESTAGE_SHARED_SCENE_DATA_H
+#include "shared/types.h"
+
+RESTAGE_SHARED_BEGIN
+
+#define NONE 0xffffffffu
+
+// InstanceData.flags
+#define INSTANCE_FLIP_NORMAL 1u // reverse_orientation
+#define INSTANCE_EMITS 2u
+#define INSTANCE_TWO_SIDED 4u
+#define INSTANCE_HAS_NORMALS 8u
+#define INSTANCE_HAS_UVS 16u
+#define INSTANCE_HAS_ALPHA 32u
+#define INSTANCE_HAS_MEDIA 64u
+
+struct InstanceData { // 168 bytes
+    mat4x3 object_to_world;
+    mat3 normal_to_world; // inverse transpose of the linear part, no sign changes
+    vec3 emission;        // radiance
+    address positions;    // vec3[]
+    address normals;      // vec3[] or 0
+    address uvs;          // vec2[] or 0
+    address indices;      // uvec3[]
+    uint material;
+    uint light_base;      // index of the light of triangle 0, or NONE
+    uint flags;
+    uint alpha_texture;   // 0 = `alpha`
+    float alpha;
+    uint interior, exterior; // media, 0 = vacuum
+    uint object_id;          // Id<Instance>
+    uint pad0, pad1;
+};
+
+struct MaterialData { // 32 bytes
+    uint type;           // index of the material type in this scene
+    uint params;         // first word in SceneData.params
+    uint bump;           // texture or 0
+    uint normal_map;     // texture or 0
+    uint id;             // Id<Material>
+    uint mix_first, mix_second; // MaterialData indices when the type is a mix; its first parameter is `amount`
+    uint pad0;
+};
+
+// A texture is a short postfix program over uv.
+#define OP_CONSTANT 0u
+#define OP_IMAGE 1u
+#define OP_MULTIPLY 2u // a b -> a*b
+#define OP_MIX 3u      // a b t -> lerp
+#define OP_CHECKER 4u  // a b -> a where floor(s)+floor(t) is even, else b
+#define WRAP_REPEAT 0u
+#define WRAP_BLACK 1u
+#define WRAP_CLAMP 2u
+struct TextureOp { // 48 bytes
+    uint kind;
+    uint image;
+    uint wrap;
+    uint invert; // OP_IMAGE: 1 - texel before `value` multiplies
+    vec4 uv;     // scale.xy, offset.xy
+    vec4 value;  // OP_CONSTANT: rgb; OP_IMAGE: factor
+};
+struct TextureProgram { // index = texture; 0 is none
+    uint first, count;
+};
+
+#define TEXEL_HALF4 0u
+#define TEXEL_FLOAT4 1u
+struct ImageData { // 24 bytes
+    address texels; // uvec2[] (4 halves) or vec4[], row 0 on top
+    uint width, height;
+    uint format;
+    uint pad0;
+};
+
+#define LIGHT_TRIANGLE 0u // a = p0, b = p1-p0, c = p2-p0
+#define LIGHT_POINT 1u    // a = position
+#define LIGHT_SPOT 2u     // a = position, b = axis, c = (cos total, cos falloff start, 0)
+#define LIGHT_DISTANT 3u  // b = direction towards the light
+#define LIGHT_ENVIRONMENT 4u
+struct LightData { // 64 bytes
+    vec3 a;
+    uint kind; // LIGHT_* | two-sided << 8
+    vec3 b;
+    float pmf; // of being chosen
+    vec3 c;
+    float area;
+    vec3 value; // radiance, intensity or irradiance
+    uint pad0;
+};
+#define LIGHT_TWO_SIDED 256u
+
+struct AliasEntry { // Vose 1991
+    float q;        // keep when u < q
+    uint alias;
+    float pmf;
+};
+
+#define ENV_CONSTANT 0u
+#define ENV_EQUIRECT 1u
+#define ENV_OCTAHEDRAL 2u
+struct EnvironmentData {
+    mat3 env_from_world;
+    mat3 world_from_env;
+    vec3 scale;
+    uint mapping;
+    address texels; // vec4[]
+    address alias;  // AliasEntry[], one a texel; 0 for a constant
+    uint width, height;
+    uint light; // its index in the lights, or NONE
+    uint pad0;
+};
+
+struct CameraData {
+    mat4x3 camera_to_world;
+    vec2 screen_min, screen_max; // at z = 1, of the whole film: min is the top left corner
+    float lens_radius, focal_distance;
+    uint width, height; // of the whole film
+};
+
+#define FILTER_BOX 0u
+#define FILTER_TRIANGLE 1u
+#define FILTER_TABLE 2u
+struct FilterData {
+    vec2 radius;
+    uint kind;
+    uint table_size;    // entries an axis
+    address table;      // float cdf_x[n+1], cdf_y[n+1], sign_x[n], sign_y[n] of |f|
+    vec2 weight;        // integral of |f| / integral of f, an axis
+};
+
+struct MediumData {
+    vec3 sigma_a;
+};
+
+struct SceneData {
+    address instances, materials, params, textures, texture_ops, images, lights, light_alias, media;
+    EnvironmentData environment;
+    CameraData camera;
+    FilterData filter_;
+    uint light_count;
+    uint max_depth;
+    uint russian_roulette;
+    uint camera_medium;
+    float clamp_direct, clamp_indirect; // 0 = off
+    float ray_epsilon;                  // 0 = error bounds
+    uint pad0;
+};
+
+RESTAGE_SHARED_END
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront: paths that left the scene see the environment.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#include "wave_common.glsl"
+#include "path/escape.glsl"
+
+void main() {
+    if (gl_GlobalInvocationID.x >= push.queue_count) return;
+    FrameData frame = FrameRef(push.frame).frame;
+    uint i = UintArray(frame.queue).at[push.queue_first + gl_GlobalInvocationID.x];
+    PathState path = PathArray(frame.paths).at[i];
+    path_escape(SceneRef(frame.scene).scene, RayArray(frame.rays).at[i].direction, path);
+    PathArray(frame.paths).at[i].radiance = path.radiance;
+    RayArray(frame.rays).at[i].tfar = -1.0;
+}
