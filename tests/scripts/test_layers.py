@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who may include whom: every #include of the engine, the program and the plugins is held to the link lists of CMake."""
+import pathlib
+import re
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ENGINE = ROOT / "engine"
+MODULES = sorted(p.parent.name for p in ENGINE.glob("*/CMakeLists.txt"))
+SOURCES = {".cpp", ".hpp", ".c", ".h"}
+
+
+def declared(module):
+    """The modules that engine/<module>/CMakeLists.txt names in DEPENDS."""
+    text = (ENGINE / module / "CMakeLists.txt").read_text()
+    found = re.search(r"DEPENDS([a-z\s]*)", text)
+    return found.group(1).split() if found else []
+
+
+def visible(module):
+    """What the module may include: itself, its dependencies and theirs."""
+    seen, todo = {module}, declared(module)
+    while todo:
+        name = todo.pop()
+        if name not in seen:
+            seen.add(name)
+            todo += declared(name) if name != "sdk" else []
+    return seen
+
+
+def includes(folder):
+    """(file, line number, included path) of every #include below a folder."""
+    for path in sorted(folder.rglob("*")):
+        if path.suffix in SOURCES:
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                found = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+                if found:
+                    yield path.relative_to(ROOT), number, found.group(1)
+
+
+def test_dependencies_are_those_of_the_design():
+    assert {m: set(declared(m)) for m in MODULES} == {
+        "base": set(), "plugin": {"sdk", "base"}, "scene": {"sdk", "base"}, "io": {"plugin", "scene"},
+        "gpu": {"base"}, "render": {"gpu", "scene", "plugin"}, "session": {"io", "render"},
+    }
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_modules_include_only_what_they_depend_on(module):
+    wrong = []
+    for path, line, name in includes(ENGINE / module):
+        first = "sdk" if name.startswith("restage/") else name.split("/")[0]
+        if first in {*MODULES, "sdk"} and "/" in name and first not in visible(module):
+            wrong.append(f"{path}:{line}: includes {name}, but {module} may only see {', '.join(sorted(visible(module)))}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_window_and_vulkan_headers_stay_where_they_belong():
+    wrong = []
+    for module in MODULES:
+        for path, line, name in includes(ENGINE / module):
+            if re.match(r"imgui|GLFW/|ImGuizmo|implot", name):
+                wrong.append(f"{path}:{line}: {name}: windows and widgets belong to app")
+            if re.match(r"vulkan/|volk|vk_mem_alloc", name) and module not in {"gpu", "render"}:
+                wrong.append(f"{path}:{line}: {name}: Vulkan belongs to gpu and render")
+            if re.match(r"dlfcn|windows\.h", name) and module not in {"plugin", "base"}:
+                wrong.append(f"{path}:{line}: {name}: shared libraries belong to plugin")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_plugins_see_nothing_of_the_engine():
+    wrong = [f"{path}:{line}: {name}" for path, line, name in includes(ROOT / "plugins")
+             if "/" in name and name.split("/")[0] in MODULES]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_the_engine_names_no_concrete_plugin():
+    plugins = [p.parent.name for p in (ROOT / "plugins").glob("*/*/CMakeLists.txt")]
+    wrong = [f"{path}:{line}: {name}" for module in MODULES for path, line, name in includes(ENGINE / module)
+             if any(part in plugins for part in pathlib.PurePath(name).parts[:-1])]
+    assert not wrong, "\n".join(wrong)
