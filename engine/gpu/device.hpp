@@ -56,13 +56,10 @@ struct DeviceOptions {
     bool validation = false;          // validation and synchronization validation; fails if the layer is not installed
     bool require_ray_tracing = false; // take no device without it
     bool driver_defaults = true;      // set what makes known drivers faster, unless the user has set it
-    std::filesystem::path cache_dir;  // pipeline cache and the driver's own shader cache; empty: default_cache_dir()
+    std::filesystem::path cache_dir;  // pipeline cache and the driver's own shader cache; empty: restage::cache_dir()
     std::vector<std::string> instance_extensions; // for a window: what it needs to present. All must be there.
     std::vector<std::string> device_extensions;
 };
-
-// $RESTAGE_CACHE_DIR, else $XDG_CACHE_HOME/restage, else ~/.cache/restage (%LOCALAPPDATA%\restage\cache on Windows).
-std::filesystem::path default_cache_dir();
 
 class Device {
 public:
@@ -103,6 +100,9 @@ public:
 
     // Writes the pipeline cache to disk now (the destructor does it too). It does nothing if nothing is new.
     void save_pipeline_cache();
+
+    // True once the driver has said so; everything fails from then on, and the Device must be made anew.
+    bool lost() const;
 
     // For gpu/ itself and for the window (swapchain, Dear ImGui); other code has no business with raw Vulkan.
     const VolkDeviceTable& vk() const { return vk_; }
