@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builders of edits: each looks at a scene and returns what would change, as data. They never write the scene; what
+// cannot be done (an id that is not there, a material still in use) is an error with a sentence.
+#pragma once
+
+#include "base/result.hpp"
+#include "scene/edit.hpp"
+#include "scene/tables.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace restage::scene {
+
+// The id the item will have is table<T>(scene).next().
+template <class T>
+Edit insert(const Scene& scene, T item, std::string label) {
+    Edit edit{std::move(label), {}};
+    edit.changes.push_back(Change<T>{table<T>(scene).next(), std::nullopt, std::move(item)});
+    return edit;
+}
+
+// f(T&) changes a copy of what `id` holds.
+template <class T, class F>
+Result<Edit> modify(const Scene& scene, Id<T> id, std::string label, F&& f) {
+    const T* before = table<T>(scene).find(id);
+    if (!before)
+        return fail("there is no " + std::string(kind_name<T>) + " with id " + std::to_string(id.value));
+    T after = *before;
+    f(after);
+    Edit edit{std::move(label), {}};
+    edit.changes.push_back(Change<T>{id, *before, std::move(after)});
+    return edit;
+}
+
+template <class T>
+Result<Edit> rename(const Scene& scene, Id<T> id, std::string name) {
+    return modify(scene, id, "Rename " + std::string(kind_name<T>), [&](T& item) { item.name = std::move(name); });
+}
+
+// Refused while something refers to it, with the names of what does.
+template <class T>
+Result<Edit> remove(const Scene& scene, Id<T> id);
+extern template Result<Edit> remove(const Scene&, Id<Mesh>);
+extern template Result<Edit> remove(const Scene&, Id<Image>);
+extern template Result<Edit> remove(const Scene&, Id<Texture>);
+extern template Result<Edit> remove(const Scene&, Id<Material>);
+extern template Result<Edit> remove(const Scene&, Id<Medium>);
+extern template Result<Edit> remove(const Scene&, Id<Group>);
+extern template Result<Edit> remove(const Scene&, Id<Light>);
+extern template Result<Edit> remove(const Scene&, Id<Camera>);
+
+// Instances are what a user deletes. Groups left with nothing in them go too; meshes and materials stay.
+Result<Edit> remove_instances(const Scene&, std::span<const Id<Instance>>);
+// Every mesh, image, texture, material, medium and group nothing refers to, directly or through others of them.
+Edit remove_unused(const Scene&);
+
+struct Duplicate {
+    Edit edit;
+    std::vector<Id<Instance>> copies; // in the order asked for
+};
+// Copies share mesh and material; `move` is applied in world space. Groups wholly contained in the selection are
+// copied with it; other copies stay in the group of their original. Names get a number: "chair" -> "chair 2".
+Result<Duplicate> duplicate_instances(const Scene&, std::span<const Id<Instance>>, const glm::dmat4& move);
+
+Result<Edit> set_transform(const Scene&, Id<Instance>, const glm::dmat4& object_to_world);
+Result<Edit> move_instances(const Scene&, std::span<const Id<Instance>>, const glm::dmat4& move); // world space
+Result<Edit> set_material(const Scene&, std::span<const Id<Instance>>, Id<Material>);
+Result<Edit> set_emission(const Scene&, Id<Instance>, std::optional<Emission>);
+Result<Edit> set_hidden(const Scene&, std::span<const Id<Instance>>, bool hidden);
+
+Result<Edit> set_param(const Scene&, Id<Material>, std::string_view param, Value);
+Result<Edit> set_param(const Scene&, Id<Texture>, std::string_view param, Value);
+Result<Edit> reset_param(const Scene&, Id<Material>, std::string_view param); // back to the table's default
+Result<Edit> set_material_type(const Scene&, Id<Material>, std::string type); // values of other ids stay
+
+Result<Edit> set_light(const Scene&, Id<Light>, Light, std::string label = "Change light");
+Result<Edit> set_camera(const Scene&, Id<Camera>, Camera, std::string label = "Move camera");
+Result<Edit> set_active_camera(const Scene&, Id<Camera>);
+Edit set_environment(const Scene&, std::optional<Environment>, std::string label = "Change environment");
+Edit set_film(const Scene&, Film, std::string label = "Change film");
+Edit set_settings(const Scene&, Settings, std::string label = "Change settings");
+
+} // namespace restage::scene
