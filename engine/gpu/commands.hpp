@@ -63,7 +63,7 @@ public:
     // `bytes` is a multiple of 4, or whole_size: to the end.
     static constexpr std::size_t whole_size = ~std::size_t{0};
     void fill(const Buffer& dst, std::size_t offset, std::size_t bytes, std::uint32_t value);
-    // Builds `tlas` from its instances as they are when the work runs.
+    // Builds `tlas` from its count() instances, as they are when the work runs.
     void build(Tlas& tlas);
     // Everything after it sees what everything before it wrote (shaders, copies, builds, indirect counts).
     // Beginning and end of a list need none: the device and the host see what earlier lists wrote, and what the host

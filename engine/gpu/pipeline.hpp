@@ -71,6 +71,10 @@ public:
     VkPipeline handle() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
     std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
+    // Push constants are visible to all of them.
+    static constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
+                                                 VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
+                                                 VK_SHADER_STAGE_CALLABLE_BIT_KHR;
 
 private:
     friend class CommandList;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Private to gpu/: expands #include and #pragma once into one text with #line directives, so that the compiler's
+// messages can be led back to the file and line somebody wrote, and so that one hash covers everything compiled.
+#pragma once
+
+#include "gpu/compiler.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace restage::gpu {
+
+struct ExpandedSource {
+    std::string text;
+    std::vector<std::string> names;           // "source string number" of #line and of messages -> file as to be shown
+    std::vector<std::filesystem::path> files; // those on disk
+};
+
+// Never fails: what cannot be included becomes an #error in its place, which matters only where that place is compiled.
+ExpandedSource expand_includes(const ShaderSource& source, std::span<const std::filesystem::path> include_dirs);
+
+} // namespace restage::gpu
