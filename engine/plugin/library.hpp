@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// One loaded shared library, closed with its owner. The only place that knows dlopen and LoadLibrary.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <filesystem>
+
+namespace restage::plugin {
+
+class Library {
+public:
+    // All symbols are resolved at once and stay invisible to other libraries, so a plugin that does not fit fails here.
+    static Result<Library> open(const std::filesystem::path&);
+    static const char* extension(); // ".so", ".dll"
+
+    Library(Library&&) noexcept;
+    Library& operator=(Library&&) noexcept;
+    ~Library();
+
+    void* symbol(const char* name) const; // null = not exported
+
+private:
+    explicit Library(void* handle) : handle_(handle) {}
+    void* handle_;
+};
+
+} // namespace restage::plugin

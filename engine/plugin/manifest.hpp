@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manifest of a plugin, plugin.json, read before its library is opened, so that what does not fit is refused with a
+// sentence. For example:
+//   { "id": "org.example.velvet", "kind": "material", "version": "1.0.0", "abi": {"min": 1, "max": 1},
+//     "licence": "MIT", "library": "velvet", "files": ["velvet.glsl"] }
+// "abi": 1 is short for min = max = 1. "library" without an extension gets that of the platform. Paths are relative to
+// the manifest's folder and stay inside it. Other keys are ignored.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace restage::plugin {
+
+enum class Kind { material, importer, exporter, denoiser };
+const char* to_string(Kind);
+
+struct Manifest {
+    std::string id, version, licence;
+    Kind kind = Kind::material;
+    std::uint32_t abi_min = 0, abi_max = 0;
+    std::filesystem::path library;            // file name as it is on this platform
+    std::vector<std::filesystem::path> files; // that the plugin needs beside its library
+};
+
+// Errors: '<file>: "version" is missing: ...', '<file>:3:7: not JSON: ...'
+Result<Manifest> parse_manifest(const std::string& text, const std::string& file);
+Result<Manifest> read_manifest(const std::filesystem::path& file);
+
+} // namespace restage::plugin

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plugin's tables must fulfil before anything else looks at them: sizes, strings that are there, ids that are
+// GLSL identifiers, defaults in range. Each check returns "" or the sentence that refuses the plugin.
+#pragma once
+
+#include <filesystem>
+#include <restage/denoiser.h>
+#include <restage/material.h>
+#include <restage/scene_io.h>
+#include <string>
+#include <string_view>
+
+namespace restage::plugin {
+
+bool is_glsl_identifier(std::string_view); // and no reserved word
+std::string check_params(const RestageParam* params, std::uint32_t count);
+std::string check_table(const RestageMaterial1&, const std::filesystem::path& folder);
+std::string check_table(const RestageImporter1&);
+std::string check_table(const RestageExporter1&);
+std::string check_table(const RestageDenoiser1&);
+
+} // namespace restage::plugin

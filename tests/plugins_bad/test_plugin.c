@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* One plugin, and the ways to get it wrong: built once for each TEST_* macro. */
+#include <restage/material.h>
+#include <restage/scene_io.h>
+#include <stddef.h>
+#include <string.h>
+
+#if defined(TEST_SMALL_ENTRY)
+#define ENTRY_SIZE 8u
+#else
+#define ENTRY_SIZE sizeof(RestagePlugin)
+#endif
+#if defined(TEST_OTHER_ABI)
+#define ENTRY_ABI 77u
+#else
+#define ENTRY_ABI RESTAGE_ABI
+#endif
+#if defined(TEST_SMALL_TABLE)
+#define TABLE_SIZE 16u
+#else
+#define TABLE_SIZE sizeof(RestageMaterial1)
+#endif
+#if defined(TEST_BAD_PREFIX)
+#define TABLE_PREFIX "gl_velvet"
+#else
+#define TABLE_PREFIX "velvet"
+#endif
+#if defined(TEST_BAD_PARAM_ID)
+#define PARAM_ID "float"
+#else
+#define PARAM_ID "fuzz"
+#endif
+#if defined(TEST_BAD_DEFAULT)
+#define PARAM_DEFAULT 2.0f
+#else
+#define PARAM_DEFAULT 0.5f
+#endif
+#if defined(TEST_BAD_ENUM)
+#define ENUM_DEFAULT 2.0f
+#else
+#define ENUM_DEFAULT 1.0f
+#endif
+
+#if !defined(TEST_IMPORTER) && !defined(TEST_NO_TABLES)
+static const RestageParam params[] = {
+    {PARAM_ID, "Fuzz", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0.0f, 1.0f, {PARAM_DEFAULT}, "", NULL, "How fuzzy."},
+    {"weave", "Weave", RESTAGE_ENUM, 0, 0.0f, 0.0f, {ENUM_DEFAULT}, "", "plain|twill", "Which weave."},
+};
+static const RestageMaterial1 material = {TABLE_SIZE, 0, "velvet", "Velvet", TABLE_PREFIX, "velvet.glsl", params, 2, "Cloth."};
+#endif
+
+#if defined(TEST_IMPORTER)
+static int probe(const char* path, const void* head, size_t size) {
+    (void)path;
+    return size >= 4 && memcmp(head, "TEST", 4) == 0 ? 50 : 0;
+}
+static int load(const char* path, const RestageSceneWriter1* out) {
+    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const uint32_t indices[] = {0, 1, 2};
+    const RestageMesh mesh = {{"triangle", "", ""}, 3, 1, positions, NULL, NULL, indices, "", ""};
+    const RestageMaterialDesc gray = {{"gray", "", ""}, "velvet", NULL, 0};
+    RestageInstance instance;
+    RestageCamera camera;
+    RestageFilm film;
+    int i;
+    memset(&instance, 0, sizeof instance);
+    memset(&camera, 0, sizeof camera);
+    memset(&film, 0, sizeof film);
+    for (i = 0; i < 4; ++i)
+        instance.object_to_world[5 * i] = camera.camera_to_world[5 * i] = 1;
+    instance.alpha = 1;
+    instance.mesh = out->mesh(out->ctx, &mesh);
+    instance.material = out->material(out->ctx, &gray);
+    if (!out->instance(out->ctx, &instance)) {
+        out->error(out->ctx, path, 7, 3, "the host took no instance");
+        return 0;
+    }
+    camera.fov = 40;
+    camera.focal_distance = 1;
+    out->camera(out->ctx, &camera);
+    film.width = film.height = 8;
+    film.crop[1] = film.crop[3] = 1;
+    film.filter = "box";
+    film.filter_radius[0] = film.filter_radius[1] = 0.5f;
+    film.exposure = 1;
+    out->film(out->ctx, &film);
+    out->report(out->ctx, RESTAGE_DROPPED, path, 12, "light \"sun\"", "not known to the test");
+    return out->progress(out->ctx, 1.0f, "done");
+}
+static const RestageImporter1 importer = {sizeof(RestageImporter1), "test", "Test format", "test", probe, load};
+#endif
+
+static const RestageHost* used_host;
+
+static int init(const RestageHost* host) {
+    const RestageLog1* log = (const RestageLog1*)host->service(host, RESTAGE_LOG);
+    used_host = host;
+    if (log)
+        log->log(host, RESTAGE_LOG_INFO, "velvet is here");
+#if defined(TEST_INIT_FAILS)
+    return 0;
+#else
+    return log != NULL && host->service(host, "restage.nothing/9") == NULL;
+#endif
+}
+
+static void leave(void) {
+    const RestageLog1* log = (const RestageLog1*)used_host->service(used_host, RESTAGE_LOG);
+    log->log(used_host, RESTAGE_LOG_INFO, "velvet leaves");
+}
+
+#if defined(TEST_UNRESOLVED)
+int a_function_nobody_has(void);
+#endif
+
+static const void* query(const char* id, uint32_t index) {
+#if defined(TEST_UNRESOLVED)
+    if (a_function_nobody_has())
+        return NULL;
+#endif
+#if defined(TEST_NO_TABLES)
+    (void)id, (void)index;
+    return NULL;
+#elif defined(TEST_IMPORTER)
+    return strcmp(id, RESTAGE_IMPORTER1) == 0 && index == 0 ? (const void*)&importer : NULL;
+#elif defined(TEST_ENDLESS)
+    static RestageMaterial1 many[1000];
+    static char names[1000][16];
+    many[index] = material;
+    names[index][0] = 'v';
+    names[index][1] = (char)('a' + index % 26);
+    names[index][2] = (char)('a' + index / 26 % 26);
+    many[index].type = many[index].prefix = names[index];
+    return strcmp(id, RESTAGE_MATERIAL1) == 0 ? &many[index] : NULL;
+#elif defined(TEST_TWICE)
+    return strcmp(id, RESTAGE_MATERIAL1) == 0 && index < 2 ? &material : NULL;
+#else
+    return strcmp(id, RESTAGE_MATERIAL1) == 0 && index == 0 ? &material : NULL;
+#endif
+}
+
+#if !defined(TEST_NO_SYMBOL)
+RESTAGE_EXPORT extern const RestagePlugin restage_plugin;
+const RestagePlugin restage_plugin = {ENTRY_ABI, ENTRY_SIZE, "org.example.velvet", "1.0.0", init, leave, query};
+#else
+RESTAGE_EXPORT const RestagePlugin* something_else(void);
+const RestagePlugin* something_else(void) {
+    static const RestagePlugin plugin = {ENTRY_ABI, ENTRY_SIZE, "org.example.velvet", "1.0.0", init, leave, query};
+    return &plugin;
+}
+#endif

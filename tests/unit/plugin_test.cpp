@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// plugin: what is sound loads; what is foreign, too new, broken or missing is one sentence, and nothing crashes.
+#include "base/file.hpp"
+#include "plugin/library.hpp"
+#include "plugin/registry.hpp"
+#include "plugin/tables.hpp"
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <cstdlib>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+using namespace restage;
+using namespace restage::plugin;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+const fs::path built = fs::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_bad";
+
+std::string manifest(const char* kind = "material", const char* abi = "1", const char* id = "org.example.velvet") {
+    return std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
+           R"(", "version": "1.0.0", "licence": "MIT", "abi": )" + abi + R"(, "library": "velvet"})";
+}
+
+// A search path in a temporary folder that this test fills with plugins.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / "restage_plugin_test";
+    std::vector<std::string> lines;
+    Log log{[this](LogLevel, std::string_view line) { lines.emplace_back(line); }};
+
+    Folder() { fs::remove_all(path); }
+    ~Folder() { fs::remove_all(path); }
+
+    fs::path add(const std::string& name, const std::string& json, const char* library) {
+        const fs::path folder = path / name;
+        fs::create_directories(folder);
+        REQUIRE(write_file_atomic(folder / "plugin.json", json));
+        REQUIRE(write_file_atomic(folder / "velvet.glsl", "// empty"));
+        if (library)
+            fs::copy_file(built / (std::string(library) + Library::extension()),
+                          folder / (std::string("velvet") + Library::extension()));
+        return folder;
+    }
+    void scan(Registry& registry) { registry.scan(std::vector<SearchPath>{{path, true}}); }
+
+    // The sentence that refuses the only plugin there is.
+    std::string refusal() {
+        Registry registry(log);
+        scan(registry);
+        REQUIRE(registry.entries().size() == 1);
+        CHECK(registry.entries()[0]->state == State::refused);
+        CHECK(registry.materials().empty());
+        const std::string reason = registry.entries()[0]->reason;
+        CHECK(std::any_of(lines.begin(), lines.end(), [&](const auto& l) { return l.find(reason) != std::string::npos; }));
+        return reason;
+    }
+    std::string refusal_of(const std::string& json, const char* library) {
+        fs::remove_all(path);
+        add("p", json, library);
+        return refusal();
+    }
+};
+
+} // namespace
+
+TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("materials/velvet", manifest(), "good");
+    {
+        Registry registry(folder.log);
+        folder.scan(registry);
+        folder.scan(registry); // the same folder again changes nothing
+        REQUIRE(registry.entries().size() == 1);
+        INFO(registry.entries()[0]->reason);
+        REQUIRE(registry.entries()[0]->state == State::loaded);
+        const MaterialEntry* velvet = registry.find_material("velvet");
+        REQUIRE(velvet);
+        CHECK(velvet->plugin->folder == where);
+        CHECK(velvet->table->param_count == 2);
+        CHECK(std::string(velvet->table->params[0].id) == "fuzz");
+        CHECK_FALSE(registry.find_material("silk"));
+        CHECK(registry.importers().empty());
+        CHECK(std::count(folder.lines.begin(), folder.lines.end(), "org.example.velvet: velvet is here") == 1);
+    }
+    CHECK(std::count(folder.lines.begin(), folder.lines.end(), "org.example.velvet: velvet leaves") == 1);
+}
+
+TEST_CASE("the manifest is judged before the library is opened", "[plugin]") {
+    Folder folder;
+    // The library is a good one each time: only the manifest can be the reason.
+    const auto refused = [&](const std::string& json) { return folder.refusal_of(json, "good"); };
+    CHECK_THAT(refused("{\n \"id\": }"), ContainsSubstring("plugin.json:2:8: not JSON"));
+    CHECK_THAT(refused(""), ContainsSubstring("plugin.json:1:1: not JSON"));
+    CHECK_THAT(refused("[1, 2]"), ContainsSubstring("must be one JSON object"));
+    CHECK_THAT(refused(R"({"id": "org.example.velvet"})"), ContainsSubstring("\"version\" is missing"));
+    CHECK_THAT(refused(R"({"id": 7})"), ContainsSubstring("\"id\" must be a text"));
+    CHECK_THAT(refused(manifest("material", "1", "velvet")), ContainsSubstring("not in reverse-DNS form"));
+    CHECK_THAT(refused(manifest("toaster")), ContainsSubstring("\"kind\": \"toaster\" is unknown"));
+    CHECK_THAT(refused(manifest("material", "\"one\"")), ContainsSubstring("\"abi\" must be a whole number"));
+    CHECK_THAT(refused(manifest("material", "{\"min\": 2}")), ContainsSubstring("\"abi\" has no \"max\""));
+    CHECK_THAT(refused(manifest("material", "{\"min\": 3, \"max\": 2}")), ContainsSubstring("min is greater than max"));
+    CHECK_THAT(refused(manifest("material", "{\"min\": 2, \"max\": 9}")), ContainsSubstring("the plugin is too new"));
+    const std::string body = R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)";
+    CHECK_THAT(refused(body + R"("library":"../velvet"})"), ContainsSubstring("not a path inside the plugin's folder"));
+    CHECK_THAT(refused(body + R"("library":"/lib/libc.so.6"})"), ContainsSubstring("not a path inside"));
+    CHECK_THAT(refused(body + R"("library":"velvet","files":["gone.glsl"]})"), ContainsSubstring("gone.glsl is missing"));
+    CHECK_THAT(refused(body + R"("library":"velvet","files":"velvet.glsl"})"), ContainsSubstring("must be a list"));
+    CHECK(std::none_of(folder.lines.begin(), folder.lines.end(),
+                       [](const auto& line) { return line.find("velvet is here") != std::string::npos; }));
+}
+
+TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") {
+    Folder folder;
+    const auto refused = [&](const char* library) { return folder.refusal_of(manifest(), library); };
+    CHECK_THAT(refused(nullptr), ContainsSubstring("the library is missing"));
+    CHECK_THAT(refused("no_symbol"), ContainsSubstring("exports no symbol \"restage_plugin\""));
+    CHECK_THAT(refused("other_abi"), ContainsSubstring("was built for plugin interface 77"));
+    CHECK_THAT(refused("small_entry"), ContainsSubstring("its entry table has 8 bytes"));
+    CHECK_THAT(refused("init_fails"), ContainsSubstring("its init function reports failure"));
+    CHECK_THAT(refused("no_tables"), ContainsSubstring("provides no restage.material/1"));
+    CHECK_THAT(refused("small_table"), ContainsSubstring("its table restage.material/1 has 16 bytes"));
+    CHECK_THAT(refused("bad_prefix"), ContainsSubstring("\"gl_velvet\" is no GLSL identifier"));
+    CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is no GLSL identifier"));
+    CHECK_THAT(refused("bad_default"), ContainsSubstring("parameter \"fuzz\": its default is out of its range"));
+    CHECK_THAT(refused("bad_enum"), ContainsSubstring("parameter \"weave\": its default is not the index of a choice"));
+    CHECK_THAT(refused("twice"), ContainsSubstring("provides \"velvet\" twice"));
+    CHECK_THAT(refused("endless"), ContainsSubstring("without end"));
+    CHECK_THAT(refused("unresolved"), ContainsSubstring("a_function_nobody_has"));
+    CHECK_THAT(folder.refusal_of(manifest("material", "1", "org.example.silk"), "good"),
+               ContainsSubstring("says its id is \"org.example.velvet\""));
+    CHECK_THAT(folder.refusal_of(manifest("importer"), "good"), ContainsSubstring("provides no restage.importer/1"));
+}
+
+TEST_CASE("a file that is no library for this machine is refused, not opened", "[plugin]") {
+    Folder folder;
+    const std::string good = read_file(built / (std::string("good") + Library::extension())).value();
+    const auto refused = [&](const std::string& bytes) {
+        fs::remove_all(folder.path);
+        const fs::path where = folder.add("p", manifest(), nullptr);
+        REQUIRE(write_file_atomic(where / (std::string("velvet") + Library::extension()), bytes));
+        return folder.refusal();
+    };
+    CHECK_THAT(refused("#!/bin/sh\necho I am a script\n"), ContainsSubstring("is no shared library"));
+    CHECK_THAT(refused(""), ContainsSubstring("is no shared library"));
+    std::string foreign = good;
+    foreign[18] = 8; // e_machine: MIPS
+    CHECK_THAT(refused(foreign), ContainsSubstring("built for another processor"));
+    foreign = good;
+    foreign[4] = 1; // 32 bit
+    CHECK_THAT(refused(foreign), ContainsSubstring("built for another processor"));
+    for (const std::size_t part : {20u, 100u, 1000u})
+        CHECK_THAT(refused(good.substr(0, part)), ContainsSubstring("is truncated"));
+    CHECK_THAT(refused(good.substr(0, good.size() / 3)), ContainsSubstring("is truncated"));
+}
+
+TEST_CASE("GLSL that is missing refuses the material", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("p", manifest(), "good");
+    fs::remove(where / "velvet.glsl");
+    CHECK_THAT(folder.refusal(), ContainsSubstring("velvet.glsl is missing"));
+}
+
+TEST_CASE("of two plugins with one id the first in the search order wins", "[plugin]") {
+    Folder folder;
+    const fs::path first = folder.add("a", manifest(), "good");
+    folder.add("b", manifest(), "good");
+    Registry registry(folder.log);
+    folder.scan(registry);
+    REQUIRE(registry.entries().size() == 2);
+    CHECK(registry.find_material("velvet")->plugin->folder == first);
+    CHECK_THAT(registry.entries()[1]->reason, ContainsSubstring("is already loaded from " + first.string()));
+}
+
+TEST_CASE("a broken plugin does not keep a sound one with the same id out", "[plugin]") {
+    Folder folder;
+    folder.add("a", manifest(), "init_fails");
+    const fs::path second = folder.add("b", manifest(), "good");
+    Registry registry(folder.log);
+    folder.scan(registry);
+    REQUIRE(registry.find_material("velvet"));
+    CHECK(registry.find_material("velvet")->plugin->folder == second);
+}
+
+TEST_CASE("RESTAGE_PLUGIN_PATH is searched between the user's folder and the installation", "[plugin]") {
+    setenv("RESTAGE_PLUGIN_PATH", "/one::/two:", 1);
+    setenv("XDG_DATA_HOME", "/home/of/data", 1);
+    const auto paths = Registry::default_paths();
+    unsetenv("RESTAGE_PLUGIN_PATH");
+    unsetenv("XDG_DATA_HOME");
+    REQUIRE(paths.size() == 4);
+    CHECK(paths[0].folder == "/home/of/data/restage/plugins");
+    CHECK(paths[1].folder == "/one");
+    CHECK(paths[2].folder == "/two");
+    CHECK(paths[2].required);
+    CHECK(paths[3].folder.string().ends_with("/lib/restage/plugins"));
+    Folder folder;
+    Registry registry(folder.log);
+    registry.scan(std::vector<SearchPath>{{"/no/such/folder", true}, {"/nor/this", false}});
+    REQUIRE(folder.lines.size() == 1);
+    CHECK_THAT(folder.lines[0], ContainsSubstring("/no/such/folder does not exist"));
+}
+
+TEST_CASE("identifiers and tables are held to GLSL's rules", "[plugin]") {
+    CHECK(is_glsl_identifier("uroughness"));
+    CHECK(is_glsl_identifier("_x9"));
+    for (const char* bad : {"", "9x", "a-b", "gl_x", "a__b", "sample", "vec3", "a b", "ä"})
+        CHECK_FALSE(is_glsl_identifier(bad));
+    const RestageParam twice[] = {{.id = "a", .label = "A", .type = RESTAGE_BOOL}, {.id = "a", .label = "A", .type = RESTAGE_BOOL}};
+    CHECK(check_params(twice, 2) == "parameter \"a\" is there twice");
+    CHECK(check_params(nullptr, 1) == "its parameter table is missing");
+    const RestageParam texturable{.id = "a", .label = "A", .type = RESTAGE_INT, .flags = RESTAGE_PARAM_TEXTURABLE};
+    CHECK(check_params(&texturable, 1) == "parameter \"a\": only FLOAT and COLOR can be texturable");
+    const RestageParam unknown{.id = "a", .label = "A", .type = 99};
+    CHECK(check_params(&unknown, 1) == "parameter \"a\": its type 99 is unknown");
+}
