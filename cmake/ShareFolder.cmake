@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# restage_share_folder(<folder> [EXCLUDE <pattern>]): the source folder appears as share/restage/<folder> in the build tree
+# and the installed tree. In the build tree it is the folder itself (a link): an edited file needs no build.
+function(restage_share_folder folder)
+    set(source "${CMAKE_SOURCE_DIR}/${folder}")
+    set(place "share/restage/${folder}")
+    if(NOT EXISTS "${source}")
+        return()
+    endif()
+    if(CMAKE_HOST_UNIX)
+        file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/share/restage")
+        file(CREATE_LINK "${source}" "${CMAKE_BINARY_DIR}/${place}" SYMBOLIC)
+    else()
+        file(GLOB_RECURSE files CONFIGURE_DEPENDS "${source}/*")
+        set(stamp "${CMAKE_BINARY_DIR}/${folder}.stamp")
+        add_custom_command(OUTPUT "${stamp}" DEPENDS ${files}
+            COMMAND ${CMAKE_COMMAND} -E copy_directory "${source}" "${CMAKE_BINARY_DIR}/${place}"
+            COMMAND ${CMAKE_COMMAND} -E touch "${stamp}")
+        add_custom_target(restage_share_${folder} ALL DEPENDS "${stamp}")
+    endif()
+    install(DIRECTORY "${source}/" DESTINATION "${place}")
+endfunction()
