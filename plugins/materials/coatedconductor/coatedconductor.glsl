@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A conductor under a dielectric coat (pbrt-v4 CoatedConductorBxDF): see lib/layered.glsl. Stochastic.
+#include "lib/layered.glsl"
+
+Layered coatedconductor_layers(coatedconductor_Params m) {
+    Layered l;
+    l.alpha = alpha_from_roughness(m.interface_uroughness, m.interface_vroughness, m.remap);
+    if (m.interface_uroughness == 0.0 && m.interface_vroughness == 0.0)
+        l.alpha = vec2(0);
+    l.eta = m.interface_eta > 0.0 ? m.interface_eta : 1.0;
+    l.thickness = max(m.thickness, 1e-6);
+    l.albedo = clamp(m.albedo, vec3(0), vec3(1));
+    l.g = clamp(m.g, -0.99, 0.99);
+    l.max_depth = m.max_depth;
+    l.n_samples = m.n_samples;
+    l.metal = true;
+    // pbrt-v4 divides by the coat's ior in both cases.
+    bool r = m.use_reflectance;
+    l.base = (r ? vec3(1) : m.conductor_eta) / l.eta;
+    l.base_k = (r ? conductor_k_from_reflectance(m.reflectance) : m.conductor_k) / l.eta;
+    l.base_alpha = alpha_from_roughness(m.conductor_uroughness, m.conductor_vroughness, m.remap);
+    return l;
+}
+
+vec3 coatedconductor_eval(coatedconductor_Params m, vec3 wo, vec3 wi, inout Rng rng) {
+    return layered_eval(coatedconductor_layers(m), wo, wi, rng);
+}
+float coatedconductor_pdf(coatedconductor_Params m, vec3 wo, vec3 wi, inout Rng rng) {
+    return layered_pdf(coatedconductor_layers(m), wo, wi);
+}
+BsdfSample coatedconductor_sample(coatedconductor_Params m, vec3 wo, vec3 u, inout Rng rng) {
+    return layered_sample(coatedconductor_layers(m), wo, u, rng);
+}
+
+// Without interreflection under the coat.
+vec3 coatedconductor_albedo(coatedconductor_Params m, vec3 wo) {
+    Layered l = coatedconductor_layers(m);
+    float cos_t;
+    float f = fresnel_dielectric(abs(wo.z), l.eta, cos_t);
+    vec3 base = fresnel_conductor(cos_t, l.base, l.base_k) * exp(-2.0 * l.thickness / max(cos_t, 1e-3));
+    return f + (1.0 - f) * (1.0 - f) * base / (1.0 - f * base);
+}

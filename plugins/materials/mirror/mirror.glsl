@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// A perfect mirror of constant reflectance (pbrt-v3 "mirror"), on both sides.
+#include "lib/bsdf.glsl"
+
+vec3 mirror_eval(mirror_Params m, vec3 wo, vec3 wi) { return vec3(0); }
+float mirror_pdf(mirror_Params m, vec3 wo, vec3 wi) { return 0.0; }
+
+BsdfSample mirror_sample(mirror_Params m, vec3 wo, vec3 u) {
+    if (wo.z == 0.0)
+        return BSDF_NONE;
+    return BsdfSample(vec3(-wo.xy, wo.z), clamp(m.kr, vec3(0), vec3(1)), 1.0, BSDF_REFLECT | BSDF_DELTA, 1.0);
+}
+
+vec3 mirror_albedo(mirror_Params m, vec3 wo) { return clamp(m.kr, vec3(0), vec3(1)); }

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Plastic (v3): the parameter table; the physics is in plastic.glsl, formulas and sources in README.md. */
+#include <restage/material_plugin.h>
+
+/* clang-format off */
+static const RestageParam params[] = {
+    {"kd", "Diffuse", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Reflectance of the matte part."},
+    {"ks", "Specular", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Scale of the glossy part."},
+    {"roughness", "Roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Of the glossy part."},
+    {"remap", "Roughness scale", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 2, {1}, "", "v4|v3|none", "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as it is."},
+};
+/* clang-format on */
+
+static const RestageMaterial1 material = {
+    .size = sizeof(RestageMaterial1),
+    .flags = RESTAGE_MATERIAL_ADDITIVE,
+    .type = "plastic",
+    .label = "Plastic (v3)",
+    .prefix = "plastic",
+    .glsl_file = "plastic.glsl",
+    .params = params,
+    .param_count = RESTAGE_COUNT(params),
+    .tooltip = "Matte plus gloss, as in pbrt-v3; for new scenes take Coated diffuse.",
+};
+
+RESTAGE_MATERIAL_PLUGIN("org.restage.material.plastic", "0.1.0", material)
