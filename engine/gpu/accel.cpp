@@ -28,11 +28,13 @@ VkAccelerationStructureGeometryKHR triangles_of(const BlasInput& input) {
     return geometry;
 }
 
-VkAccelerationStructureBuildSizesInfoKHR sizes_of(Device& device, const VkAccelerationStructureBuildGeometryInfoKHR& info,
+VkAccelerationStructureBuildSizesInfoKHR sizes_of(Device& device,
+                                                  const VkAccelerationStructureBuildGeometryInfoKHR& info,
                                                   std::uint32_t count) {
-    VkAccelerationStructureBuildSizesInfoKHR sizes{.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    device.vk().vkGetAccelerationStructureBuildSizesKHR(device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-                                                        &info, &count, &sizes);
+    VkAccelerationStructureBuildSizesInfoKHR sizes{.sType =
+                                                       VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
+    device.vk().vkGetAccelerationStructureBuildSizesKHR(
+        device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &count, &sizes);
     return sizes;
 }
 
@@ -45,7 +47,8 @@ Result<VkAccelerationStructureKHR> create_structure(Device& device, const Buffer
                                                     .type = type};
     VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
     const VkResult result = device.vk().vkCreateAccelerationStructureKHR(device.handle(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS) return device.error(result, std::string("creating the acceleration structure of ") + name);
+    if (result != VK_SUCCESS)
+        return device.error(result, std::string("creating the acceleration structure of ") + name);
     device.set_name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, reinterpret_cast<std::uint64_t>(handle), name);
     const VkAccelerationStructureDeviceAddressInfoKHR query{
         .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, .accelerationStructure = handle};
@@ -64,7 +67,9 @@ VkDeviceAddress align_up(VkDeviceAddress value, VkDeviceAddress alignment) {
 Blas::~Blas() {
     if (handle_) device_->vk().vkDestroyAccelerationStructureKHR(device_->handle(), handle_, nullptr);
 }
-Blas::Blas(Blas&& other) noexcept { *this = std::move(other); }
+Blas::Blas(Blas&& other) noexcept {
+    *this = std::move(other);
+}
 Blas& Blas::operator=(Blas&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);
@@ -75,7 +80,7 @@ Blas& Blas::operator=(Blas&& other) noexcept {
 
 // Builds inputs [begin, end) of one batch, whose scratch fits together.
 class AccelBuilder {
-public:
+  public:
     AccelBuilder(Device& device, std::span<const BlasInput> inputs, const BlasOptions& options)
         : device_(device), inputs_(inputs), options_(options) {}
 
@@ -87,7 +92,9 @@ public:
             geometries_.push_back(triangles_of(input));
         }
         const VkBuildAccelerationStructureFlagsKHR compaction =
-            options_.compact ? VkBuildAccelerationStructureFlagsKHR(VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR) : 0;
+            options_.compact
+                ? VkBuildAccelerationStructureFlagsKHR(VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR)
+                : 0;
         for (std::size_t i = 0; i < count; ++i) {
             infos_.push_back({.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR,
                               .type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
@@ -111,21 +118,25 @@ public:
         return std::move(blases_);
     }
 
-private:
-    VkDeviceSize scratch_of(std::size_t i) const { return align_up(sizes_[i].buildScratchSize, device_.scratch_alignment()); }
+  private:
+    VkDeviceSize scratch_of(std::size_t i) const {
+        return align_up(sizes_[i].buildScratchSize, device_.scratch_alignment());
+    }
 
     Result<Blas> create(VkDeviceSize bytes, const std::string& name) {
         Blas blas;
         blas.device_ = &device_;
         RESTAGE_TRY(blas.buffer_, device_.create_buffer(bytes, BufferKind::device, name.c_str()));
-        RESTAGE_TRY(blas.handle_, create_structure(device_, blas.buffer_, bytes, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
-                                                   name.c_str(), blas.address_));
+        RESTAGE_TRY(blas.handle_,
+                    create_structure(device_, blas.buffer_, bytes, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
+                                     name.c_str(), blas.address_));
         return blas;
     }
 
     Result<void> build_batch(std::size_t begin, std::size_t end, VkDeviceSize scratch_bytes) {
         const VkDeviceSize alignment = device_.scratch_alignment();
-        RESTAGE_TRY(const Buffer scratch, device_.create_buffer(scratch_bytes + alignment, BufferKind::device, "blas scratch"));
+        RESTAGE_TRY(const Buffer scratch,
+                    device_.create_buffer(scratch_bytes + alignment, BufferKind::device, "blas scratch"));
         VkDeviceAddress address = align_up(scratch.address(), alignment);
         std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
         for (std::size_t i = begin; i < end; ++i) {
@@ -134,7 +145,8 @@ private:
             ranges.push_back({.primitiveCount = inputs_[i].triangle_count});
         }
         std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> range_pointers;
-        for (const auto& range : ranges) range_pointers.push_back(&range);
+        for (const auto& range : ranges)
+            range_pointers.push_back(&range);
         RESTAGE_TRY(CommandList list, device_.begin());
         device_.vk().vkCmdBuildAccelerationStructuresKHR(list.handle(), static_cast<std::uint32_t>(end - begin),
                                                          &infos_[begin], range_pointers.data());
@@ -157,25 +169,28 @@ private:
             ~Guard() { device.vk().vkDestroyQueryPool(device.handle(), pool, nullptr); }
         } guard{device_, pool};
         std::vector<VkAccelerationStructureKHR> handles;
-        for (std::size_t i = begin; i < end; ++i) handles.push_back(blases_[i].handle_);
+        for (std::size_t i = begin; i < end; ++i)
+            handles.push_back(blases_[i].handle_);
         list.barrier();
         vk.vkCmdResetQueryPool(list.handle(), pool, 0, count);
-        vk.vkCmdWriteAccelerationStructuresPropertiesKHR(list.handle(), count, handles.data(),
-                                                         VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, pool, 0);
+        vk.vkCmdWriteAccelerationStructuresPropertiesKHR(
+            list.handle(), count, handles.data(), VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, pool, 0);
         RESTAGE_CHECK(device_.submit_and_wait(list));
         std::vector<VkDeviceSize> sizes(count);
-        result = vk.vkGetQueryPoolResults(device_.handle(), pool, 0, count, sizes.size() * sizeof(VkDeviceSize), sizes.data(),
-                                          sizeof(VkDeviceSize), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        result = vk.vkGetQueryPoolResults(device_.handle(), pool, 0, count, sizes.size() * sizeof(VkDeviceSize),
+                                          sizes.data(), sizeof(VkDeviceSize),
+                                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
         if (result != VK_SUCCESS) return device_.error(result, "reading compacted sizes");
         list.reset();
         std::vector<Blas> compacted(count);
         for (std::uint32_t i = 0; i < count; ++i) {
             if (sizes[i] >= blases_[begin + i].bytes()) continue; // nothing to gain (lavapipe)
             RESTAGE_TRY(compacted[i], create(sizes[i], inputs_[begin + i].name));
-            const VkCopyAccelerationStructureInfoKHR copy{.sType = VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR,
-                                                          .src = handles[i],
-                                                          .dst = compacted[i].handle_,
-                                                          .mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR};
+            const VkCopyAccelerationStructureInfoKHR copy{
+                .sType = VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR,
+                .src = handles[i],
+                .dst = compacted[i].handle_,
+                .mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR};
             vk.vkCmdCopyAccelerationStructureKHR(list.handle(), &copy);
         }
         RESTAGE_CHECK(device_.submit_and_wait(list));
@@ -227,13 +242,14 @@ Result<Tlas> Tlas::create(Device& device, std::uint32_t capacity, const char* na
     Tlas self;
     self.device_ = &device;
     self.capacity_ = capacity;
-    RESTAGE_TRY(self.instances_, device.create_buffer(std::size_t(capacity) * sizeof(VkAccelerationStructureInstanceKHR),
-                                                      BufferKind::host, "tlas instances"));
+    RESTAGE_TRY(self.instances_,
+                device.create_buffer(std::size_t(capacity) * sizeof(VkAccelerationStructureInstanceKHR),
+                                     BufferKind::host, "tlas instances"));
     const auto geometry = instances_of(self.instances_.address());
     const auto sizes = sizes_of(device, tlas_info(geometry), capacity);
     RESTAGE_TRY(self.buffer_, device.create_buffer(sizes.accelerationStructureSize, BufferKind::device, name));
-    RESTAGE_TRY(self.scratch_, device.create_buffer(sizes.buildScratchSize + device.scratch_alignment(), BufferKind::device,
-                                                    "tlas scratch"));
+    RESTAGE_TRY(self.scratch_, device.create_buffer(sizes.buildScratchSize + device.scratch_alignment(),
+                                                    BufferKind::device, "tlas scratch"));
     self.scratch_address_ = align_up(self.scratch_.address(), device.scratch_alignment());
     RESTAGE_TRY(self.handle_, create_structure(device, self.buffer_, sizes.accelerationStructureSize,
                                                VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, name, self.address_));
@@ -243,7 +259,9 @@ Result<Tlas> Tlas::create(Device& device, std::uint32_t capacity, const char* na
 Tlas::~Tlas() {
     if (handle_) device_->vk().vkDestroyAccelerationStructureKHR(device_->handle(), handle_, nullptr);
 }
-Tlas::Tlas(Tlas&& other) noexcept { *this = std::move(other); }
+Tlas::Tlas(Tlas&& other) noexcept {
+    *this = std::move(other);
+}
 Tlas& Tlas::operator=(Tlas&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);
@@ -277,12 +295,14 @@ void Tlas::set(std::uint32_t index, const TlasInstance& instance) {
 
 void Tlas::set_all(std::span<const TlasInstance> instances) {
     resize(static_cast<std::uint32_t>(instances.size()));
-    for (std::uint32_t i = 0; i < count_; ++i) set(i, instances[i]);
+    for (std::uint32_t i = 0; i < count_; ++i)
+        set(i, instances[i]);
 }
 
 void Tlas::resize(std::uint32_t count) {
     assert(count <= capacity_);
-    for (std::uint32_t i = count_; i < count; ++i) instances_.span<VkAccelerationStructureInstanceKHR>()[i] = {};
+    for (std::uint32_t i = count_; i < count; ++i)
+        instances_.span<VkAccelerationStructureInstanceKHR>()[i] = {};
     count_ = count;
 }
 

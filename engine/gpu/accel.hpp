@@ -27,7 +27,7 @@ struct BlasInput {
 };
 
 class Blas {
-public:
+  public:
     Blas() = default;
     ~Blas();
     Blas(Blas&& other) noexcept;
@@ -37,7 +37,7 @@ public:
     VkDeviceAddress address() const { return address_; } // for TlasInstance::blas
     std::size_t bytes() const { return buffer_.size(); }
 
-private:
+  private:
     friend class AccelBuilder;
     Device* device_ = nullptr;
     VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
@@ -46,12 +46,14 @@ private:
 };
 
 struct BlasOptions {
-    bool compact = true;                                 // copy to the size really needed; saves about half on GPUs
-    std::size_t max_scratch_bytes = std::size_t(256) << 20; // batches are cut so that they stay below (a single mesh may not)
+    bool compact = true; // copy to the size really needed; saves about half on GPUs
+    std::size_t max_scratch_bytes = std::size_t(256)
+                                    << 20; // batches are cut so that they stay below (a single mesh may not)
 };
 
 // Builds all and waits. The geometry is not needed afterwards. Result i belongs to input i.
-Result<std::vector<Blas>> build_blas(Device& device, std::span<const BlasInput> inputs, const BlasOptions& options = {});
+Result<std::vector<Blas>> build_blas(Device& device, std::span<const BlasInput> inputs,
+                                     const BlasOptions& options = {});
 
 struct TlasInstance {
     // Object to world, three rows of four: x' = m[0]*x + m[1]*y + m[2]*z + m[3].
@@ -60,15 +62,15 @@ struct TlasInstance {
     std::uint32_t custom_index = 0; // gl_InstanceCustomIndexEXT, 24 bits
     std::uint32_t hit_group = 0;    // index into RayTracingShaders::hit_groups, 24 bits
     std::uint8_t mask = 0xff;
-    bool two_sided = true;       // no culling by facing, whatever the ray asks for
-    bool flip_facing = false;    // front faces are counter-clockwise
-    bool force_opaque = false;   // never run any-hit
-    bool force_any_hit = false;  // run any-hit although the Blas is opaque
+    bool two_sided = true;      // no culling by facing, whatever the ray asks for
+    bool flip_facing = false;   // front faces are counter-clockwise
+    bool force_opaque = false;  // never run any-hit
+    bool force_any_hit = false; // run any-hit although the Blas is opaque
 };
 
 // Moving one of many instances: set() and build(); no Blas and no other instance is touched.
 class Tlas {
-public:
+  public:
     // Room for `capacity` instances.
     static Result<Tlas> create(Device& device, std::uint32_t capacity, const char* name);
     Tlas() = default;
@@ -88,7 +90,7 @@ public:
     // Builds and waits. Or record CommandList::build(tlas).
     Result<void> build();
 
-private:
+  private:
     friend class CommandList;
     Device* device_ = nullptr;
     VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;

@@ -49,16 +49,34 @@ VmaAllocationCreateInfo allocation_of(BufferKind kind, const DeviceInfo& info) {
             create.preferredFlags = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
             break;
     }
-    // A CPU device hands out memory that is not there, and the process is killed when it is touched.
+    // A CPU device hands out memory that is not there, and the process is killed when it is touched. The budget knows
+    // what other programs use; fits_in_memory() counts what we hold but have not touched.
     if (info.type == DeviceType::cpu) create.flags |= VMA_ALLOCATION_CREATE_WITHIN_BUDGET_BIT;
     return create;
 }
 
+std::uint64_t allocated_bytes(VmaAllocator allocator) {
+    VmaBudget budgets[VK_MAX_MEMORY_HEAPS] = {};
+    vmaGetHeapBudgets(allocator, budgets);
+    std::uint64_t sum = 0;
+    for (const VmaBudget& budget : budgets)
+        sum += budget.statistics.blockBytes;
+    return sum;
+}
+
+bool fits_in_memory(VmaAllocator allocator, std::size_t bytes, const DeviceInfo& info) {
+    return bytes < (1u << 20) || allocated_bytes(allocator) + bytes <= info.memory_bytes;
+}
+
 } // namespace
 
-Buffer::~Buffer() { release(); }
+Buffer::~Buffer() {
+    release();
+}
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     if (this == &other) return *this;
@@ -85,24 +103,26 @@ Result<Buffer> Device::create_buffer(std::size_t bytes, BufferKind kind, const c
     if (padded < bytes || padded > info_.max_buffer_bytes)
         return fail(doing() + ": " + info_.name + " allows at most " + size_text(info_.max_buffer_bytes) +
                     " in one buffer; use a smaller image, or split the mesh or texture");
-    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = padded, .usage = usage_of(info_)};
+    const VkBufferCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = padded, .usage = usage_of(info_)};
     const VmaAllocationCreateInfo create = allocation_of(kind, info_);
     Buffer buffer;
     VmaAllocationInfo placed{};
-    const VkResult result = vmaCreateBufferWithAlignment(allocator_, &info, &create, 256, &buffer.buffer_,
-                                                         &buffer.allocation_, &placed);
+    VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (info_.type != DeviceType::cpu || fits_in_memory(allocator_, padded, info_))
+        result = vmaCreateBufferWithAlignment(allocator_, &info, &create, 256, &buffer.buffer_, &buffer.allocation_,
+                                              &placed);
     if (result != VK_SUCCESS) {
         buffer.buffer_ = VK_NULL_HANDLE;
-        VmaBudget budgets[VK_MAX_MEMORY_HEAPS] = {};
-        vmaGetHeapBudgets(allocator_, budgets);
-        const std::string room = ", " + size_text(budgets[0].usage) + " in use of " + size_text(budgets[0].budget) + " usable";
-        return error(result, doing() + room);
+        const std::string held = " besides the " + size_text(allocated_bytes(allocator_)) + " already held";
+        return error(result, doing() + held);
     }
     buffer.device_ = this;
     buffer.size_ = bytes;
     buffer.mapped_ = static_cast<std::byte*>(placed.pMappedData);
     buffer.name_ = name;
-    const VkBufferDeviceAddressInfo address{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .buffer = buffer.buffer_};
+    const VkBufferDeviceAddressInfo address{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
+                                            .buffer = buffer.buffer_};
     buffer.address_ = vk_.vkGetBufferDeviceAddress(device_, &address);
     set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer.buffer_), name);
     return buffer;

@@ -24,7 +24,7 @@ enum class BufferKind {
 // Move-only. Usable as storage, transfer source and target, indirect arguments, and where the device traces rays as
 // input of acceleration structures.
 class Buffer {
-public:
+  public:
     Buffer() = default; // empty: no memory, address 0
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -44,7 +44,7 @@ public:
         return {reinterpret_cast<T*>(mapped_), size_ / sizeof(T)};
     }
 
-private:
+  private:
     friend class Device;
     void release();
 

@@ -16,8 +16,8 @@ namespace restage::gpu {
 
 VkResult Submission::State::wait() {
     if (!pending) return VK_SUCCESS;
-    const VkResult result = device->vk().vkWaitForFences(device->handle(), 1, &fence, VK_TRUE,
-                                                         std::numeric_limits<std::uint64_t>::max());
+    const VkResult result =
+        device->vk().vkWaitForFences(device->handle(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
     pending = false; // also after an error: a lost device never signals
     return result;
 }
@@ -28,9 +28,8 @@ void Submission::State::full_barrier(VkPipelineStageFlags2 dst_stage, VkAccessFl
                                    .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
                                    .dstStageMask = dst_stage,
                                    .dstAccessMask = dst_access};
-    const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                      .memoryBarrierCount = 1,
-                                      .pMemoryBarriers = &barrier};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
     device->vk().vkCmdPipelineBarrier2(commands, &dependency);
 }
 
@@ -101,9 +100,8 @@ Result<Submission> Device::submit(CommandList& list) {
     if (result != VK_SUCCESS) return error(result, "waiting for earlier work");
     const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                              .commandBuffer = state.commands};
-    const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                             .commandBufferInfoCount = 1,
-                             .pCommandBufferInfos = &commands};
+    const VkSubmitInfo2 info{
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commands};
     {
         std::lock_guard lock(impl_->queue_mutex);
         result = vk_.vkQueueSubmit2(queue_, 1, &info, state.fence);
@@ -156,7 +154,9 @@ CommandList& CommandList::operator=(CommandList&& other) noexcept {
     return *this;
 }
 
-VkCommandBuffer CommandList::handle() const { return state_ ? state_->commands : VK_NULL_HANDLE; }
+VkCommandBuffer CommandList::handle() const {
+    return state_ ? state_->commands : VK_NULL_HANDLE;
+}
 
 void CommandList::reset() {
     state_->wait();
@@ -176,12 +176,13 @@ void push(const VolkDeviceTable& vk, VkCommandBuffer commands, VkPipelineLayout 
 
 } // namespace
 
-void CommandList::dispatch(const ComputePipeline& pipeline, std::span<const std::byte> constants, std::uint32_t groups_x,
-                           std::uint32_t groups_y, std::uint32_t groups_z) {
+void CommandList::dispatch(const ComputePipeline& pipeline, std::span<const std::byte> constants,
+                           std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) {
     assert(state_->recording);
     const VolkDeviceTable& vk = state_->device->vk();
     vk.vkCmdBindPipeline(state_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
-    push(vk, state_->commands, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, pipeline.push_constant_bytes(), constants);
+    push(vk, state_->commands, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, pipeline.push_constant_bytes(),
+         constants);
     vk.vkCmdDispatch(state_->commands, groups_x, groups_y, groups_z);
 }
 
@@ -190,7 +191,8 @@ void CommandList::dispatch_indirect(const ComputePipeline& pipeline, std::span<c
     assert(state_->recording && offset + sizeof(VkDispatchIndirectCommand) <= counts.size());
     const VolkDeviceTable& vk = state_->device->vk();
     vk.vkCmdBindPipeline(state_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
-    push(vk, state_->commands, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, pipeline.push_constant_bytes(), constants);
+    push(vk, state_->commands, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, pipeline.push_constant_bytes(),
+         constants);
     vk.vkCmdDispatchIndirect(state_->commands, counts.handle(), offset);
 }
 
@@ -199,7 +201,8 @@ void CommandList::trace(const RayTracingPipeline& pipeline, std::span<const std:
     assert(state_->recording);
     const VolkDeviceTable& vk = state_->device->vk();
     vk.vkCmdBindPipeline(state_->commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle());
-    push(vk, state_->commands, pipeline.layout(), RayTracingPipeline::stages, pipeline.push_constant_bytes(), constants);
+    push(vk, state_->commands, pipeline.layout(), RayTracingPipeline::stages, pipeline.push_constant_bytes(),
+         constants);
     vk.vkCmdTraceRaysKHR(state_->commands, &pipeline.raygen_, &pipeline.misses_, &pipeline.hits_, &pipeline.callables_,
                          width, height, depth);
 }
@@ -239,9 +242,8 @@ Result<Timestamps> Timestamps::create(Device& device, std::uint32_t count) {
     result.device_ = &device;
     result.count_ = count;
     if (device.timestamp_bits() == 0 || count == 0) return result;
-    const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                     .queryCount = count};
+    const VkQueryPoolCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_TIMESTAMP, .queryCount = count};
     const VkResult created = device.vk().vkCreateQueryPool(device.handle(), &info, nullptr, &result.pool_);
     if (created != VK_SUCCESS) return device.error(created, "creating timestamps");
     // A query that was never reset cannot be read.
@@ -254,7 +256,9 @@ Result<Timestamps> Timestamps::create(Device& device, std::uint32_t count) {
 Timestamps::~Timestamps() {
     if (pool_) device_->vk().vkDestroyQueryPool(device_->handle(), pool_, nullptr);
 }
-Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
+Timestamps::Timestamps(Timestamps&& other) noexcept {
+    *this = std::move(other);
+}
 Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pool_, other.pool_);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recording work and waiting for it. A CommandList is recorded once and may be submitted many times (not while an earlier
-// submission of the same list is running: that waits first); reset() makes it recordable again.
-// One thread at a time per list; different lists on different threads are fine.
+// Recording work and waiting for it. A CommandList is recorded once and may be submitted many times (not while an
+// earlier submission of the same list is running: that waits first); reset() makes it recordable again. One thread at a
+// time per list; different lists on different threads are fine.
 #pragma once
 
 #include "base/result.hpp"
@@ -24,7 +24,7 @@ class RayTracingPipeline;
 class Tlas;
 class Timestamps;
 
-// Push constants as bytes: push_bytes(my_struct).
+// Push constants as bytes: push_bytes(my_struct). A view: my_struct must live until the call that takes it returns.
 template <class T>
     requires std::is_trivially_copyable_v<T>
 std::span<const std::byte> push_bytes(const T& value) {
@@ -32,12 +32,12 @@ std::span<const std::byte> push_bytes(const T& value) {
 }
 
 class Submission {
-public:
+  public:
     Submission() = default;
     Result<void> wait() const; // until the work is done; its writes are then visible to the host
     Result<bool> done() const; // without waiting
 
-private:
+  private:
     friend class Device;
     friend class CommandList;
     struct State;
@@ -45,7 +45,7 @@ private:
 };
 
 class CommandList {
-public:
+  public:
     CommandList() = default;
     ~CommandList(); // waits for its work
     CommandList(CommandList&& other) noexcept;
@@ -76,14 +76,14 @@ public:
     VkCommandBuffer handle() const;
     explicit operator bool() const { return state_ != nullptr; }
 
-private:
+  private:
     friend class Device;
     std::shared_ptr<Submission::State> state_;
 };
 
 // A few points in time on the device's clock.
 class Timestamps {
-public:
+  public:
     static Result<Timestamps> create(Device& device, std::uint32_t count);
     Timestamps() = default;
     ~Timestamps();
@@ -94,7 +94,7 @@ public:
     // All NaN where the device has no timestamps.
     Result<std::vector<double>> read() const;
 
-private:
+  private:
     friend class CommandList;
     Device* device_ = nullptr;
     VkQueryPool pool_ = VK_NULL_HANDLE;

@@ -25,25 +25,33 @@ constexpr std::size_t max_cache_entries = 2000;
 
 EShLanguage language_of(ShaderStage stage) {
     switch (stage) {
-        case ShaderStage::compute: return EShLangCompute;
-        case ShaderStage::raygen: return EShLangRayGen;
-        case ShaderStage::closest_hit: return EShLangClosestHit;
-        case ShaderStage::any_hit: return EShLangAnyHit;
-        case ShaderStage::miss: return EShLangMiss;
-        case ShaderStage::callable: return EShLangCallable;
+        case ShaderStage::compute:
+            return EShLangCompute;
+        case ShaderStage::raygen:
+            return EShLangRayGen;
+        case ShaderStage::closest_hit:
+            return EShLangClosestHit;
+        case ShaderStage::any_hit:
+            return EShLangAnyHit;
+        case ShaderStage::miss:
+            return EShLangMiss;
+        case ShaderStage::callable:
+            return EShLangCallable;
     }
     return EShLangCompute;
 }
 
 std::string preamble_of(const ShaderSource& source) {
     std::string text;
-    for (const auto& [name, value] : source.defines) text += "#define " + name + " " + value + "\n";
+    for (const auto& [name, value] : source.defines)
+        text += "#define " + name + " " + value + "\n";
     return text;
 }
 
 std::string hex(std::uint64_t value) {
     std::string text(16, '0');
-    for (std::size_t i = 0; i < 16; ++i) text[15 - i] = "0123456789abcdef"[(value >> (4 * i)) & 15];
+    for (std::size_t i = 0; i < 16; ++i)
+        text[15 - i] = "0123456789abcdef"[(value >> (4 * i)) & 15];
     return text;
 }
 
@@ -53,7 +61,8 @@ std::string key_of(const ShaderSource& source, const ExpandedSource& expanded, c
                        spvSoftwareVersionString() + " stage " + std::to_string(static_cast<int>(source.stage)) +
                        (options.optimize ? " optimised" : "") + (options.debug_info ? " debug" : "") + "\n";
     if (options.debug_info)
-        for (const std::string& name : expanded.names) head += name + "\n";
+        for (const std::string& name : expanded.names)
+            head += name + "\n";
     head += preamble_of(source);
     const auto seed = [&](std::uint64_t s) { return hash64(expanded.text, hash64(head, s)); };
     return hex(seed(0)) + hex(seed(1));
@@ -78,7 +87,7 @@ std::string rewrite_line(std::string_view line, const std::vector<std::string>& 
     return std::string(line);
 }
 
-std::string rewrite_log(std::string_view log, const std::vector<std::string>& names) {
+std::string rewrite_log(std::string_view log, const ExpandedSource& expanded) {
     std::string text;
     while (!log.empty()) {
         const auto end = std::min(log.find('\n'), log.size());
@@ -87,7 +96,11 @@ std::string rewrite_log(std::string_view log, const std::vector<std::string>& na
         const bool summary = line.find("compilation errors.  No code generated.") != std::string_view::npos ||
                              line.find("compilation terminated") != std::string_view::npos;
         if (line.empty() || summary) continue;
-        text += (text.empty() ? "" : "\n") + rewrite_line(line, names);
+        text += (text.empty() ? "" : "\n") + rewrite_line(line, expanded.names);
+    }
+    for (std::size_t i = 0; i < expanded.errors.size(); ++i) {
+        const std::string code = "'#error' : RESTAGE_INCLUDE_ERROR_" + std::to_string(i) + "_";
+        if (const auto at = text.find(code); at != std::string::npos) text.replace(at, code.size(), expanded.errors[i]);
     }
     return text;
 }
@@ -139,10 +152,10 @@ Result<Spirv> ShaderCompiler::compile(const ShaderSource& source) const {
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     if (!shader.parse(GetDefaultResources(), 460, false, messages))
-        return fail(rewrite_log(shader.getInfoLog(), expanded.names));
+        return fail(rewrite_log(shader.getInfoLog(), expanded));
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(messages)) return fail(rewrite_log(program.getInfoLog(), expanded.names));
+    if (!program.link(messages)) return fail(rewrite_log(program.getInfoLog(), expanded));
 
     glslang::SpvOptions options;
     options.generateDebugInfo = options_.debug_info;

@@ -32,7 +32,7 @@ struct Spirv {
     std::vector<std::uint32_t> words;
     std::string name;
     ShaderStage stage = ShaderStage::compute;
-    std::string key;                         // of the disk cache: equal keys, equal words
+    std::string key;                          // of the disk cache: equal keys, equal words
     std::vector<std::filesystem::path> files; // what was included from disk, for reloading when one changes
     bool from_cache = false;
 };
@@ -45,17 +45,18 @@ struct ShaderCompilerOptions {
 };
 
 class ShaderCompiler {
-public:
+  public:
     explicit ShaderCompiler(ShaderCompilerOptions options);
     ~ShaderCompiler();
     ShaderCompiler(ShaderCompiler&&) noexcept;
     ShaderCompiler& operator=(ShaderCompiler&&) noexcept;
 
-    // Includes are found, in this order: in `files`; next to the file that includes; in the source's include_dirs; in the
-    // compiler's. `#pragma once` works. An error has one line per message: "oak/wood.glsl:12: 'x' : undeclared identifier".
+    // Includes are found, in this order: in `files`; next to the file that includes; in the source's include_dirs; in
+    // the compiler's. `#pragma once` works. An error has one line per message: "oak/wood.glsl:12: 'x' : undeclared
+    // identifier".
     Result<Spirv> compile(const ShaderSource& source) const;
 
-private:
+  private:
     ShaderCompilerOptions options_;
 };
 

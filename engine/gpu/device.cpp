@@ -22,17 +22,23 @@ struct Candidate {
 };
 
 std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
 }
 
 int rank(const DeviceInfo& info) {
     switch (info.type) {
-        case DeviceType::discrete: return info.ray_tracing ? 5 : 4;
-        case DeviceType::integrated: return 3;
-        case DeviceType::virtual_gpu: return 2;
-        case DeviceType::cpu: return 1;
-        case DeviceType::other: break;
+        case DeviceType::discrete:
+            return info.ray_tracing ? 5 : 4;
+        case DeviceType::integrated:
+            return 3;
+        case DeviceType::virtual_gpu:
+            return 2;
+        case DeviceType::cpu:
+            return 1;
+        case DeviceType::other:
+            break;
     }
     return 0;
 }
@@ -50,9 +56,9 @@ std::string why_not(const DeviceInfo& info, bool require_ray_tracing) {
 }
 
 Result<Candidate> choose(const std::vector<Candidate>& candidates, const DeviceOptions& options) {
-    const bool by_index = !options.select.empty() && std::all_of(options.select.begin(), options.select.end(), [](char c) {
-        return std::isdigit(static_cast<unsigned char>(c));
-    });
+    const bool by_index =
+        !options.select.empty() && std::all_of(options.select.begin(), options.select.end(),
+                                               [](char c) { return std::isdigit(static_cast<unsigned char>(c)); });
     const Candidate* best = nullptr;
     bool matched = false;
     std::string reasons;
@@ -84,8 +90,10 @@ Result<std::vector<Candidate>> candidates_of(const Instance& instance) {
 
 std::filesystem::path choose_cache_dir(const DeviceOptions& options, Log& log) {
     if (!options.cache_dir.empty()) return options.cache_dir;
-    if (auto dir = cache_dir()) return *dir;
-    else log.warning("shaders will be compiled anew at each start: " + dir.error().message);
+    if (auto dir = cache_dir())
+        return *dir;
+    else
+        log.warning("shaders will be compiled anew at each start: " + dir.error().message);
     return {};
 }
 
@@ -127,7 +135,8 @@ Result<std::vector<DeviceInfo>> list_devices(Log& log) {
     if (!instance) return tl::unexpected(instance.error());
     RESTAGE_TRY(const std::vector<Candidate> candidates, candidates_of(**instance));
     std::vector<DeviceInfo> devices;
-    for (const Candidate& c : candidates) devices.push_back(c.info);
+    for (const Candidate& c : candidates)
+        devices.push_back(c.info);
     return devices;
 }
 
@@ -147,8 +156,9 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options, Log
                                                 log, no_driver));
     RESTAGE_TRY(const std::vector<Candidate> candidates, candidates_of(*impl.instance));
     if (candidates.empty())
-        return fail("the installed Vulkan drivers found no device; install the driver of your graphics card, or Mesa's "
-                    "lavapipe, which needs none (Debian: mesa-vulkan-drivers)");
+        return fail(
+            "the installed Vulkan drivers found no device; install the driver of your graphics card, or Mesa's "
+            "lavapipe, which needs none (Debian: mesa-vulkan-drivers)");
     RESTAGE_TRY(const Candidate chosen, choose(candidates, options));
     self->info_ = chosen.info;
     self->instance_ = impl.instance->handle();
@@ -162,7 +172,8 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options, Log
             return fail(chosen.info.name + " lacks the Vulkan extension " + extension + "; update its driver");
         extensions.push_back(extension.c_str());
     }
-    if (ray_tracing) extensions.insert(extensions.end(), std::begin(ray_tracing_extensions), std::end(ray_tracing_extensions));
+    if (ray_tracing)
+        extensions.insert(extensions.end(), std::begin(ray_tracing_extensions), std::end(ray_tracing_extensions));
     const bool budget = has_extension(available, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     if (budget) extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     if (has_extension(available, "VK_KHR_portability_subset")) extensions.push_back("VK_KHR_portability_subset");
@@ -198,7 +209,8 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options, Log
 
     VkPhysicalDeviceAccelerationStructurePropertiesKHR accel{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-    self->rt_properties_ = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, .pNext = &accel};
+    self->rt_properties_ = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR,
+                            .pNext = &accel};
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                            .pNext = ray_tracing ? &self->rt_properties_ : nullptr};
     vkGetPhysicalDeviceProperties2(chosen.physical, &properties);
@@ -271,10 +283,16 @@ void Device::save_pipeline_cache() {
         impl_->saved_cache_bytes = bytes;
 }
 
-bool Device::lost() const { return impl_->lost; }
+bool Device::lost() const {
+    return impl_->lost;
+}
 
-std::vector<std::string> Device::validation_messages() const { return impl_->instance->messages(); }
-void Device::clear_validation_messages() { impl_->instance->clear_messages(); }
+std::vector<std::string> Device::validation_messages() const {
+    return impl_->instance->messages();
+}
+void Device::clear_validation_messages() {
+    impl_->instance->clear_messages();
+}
 
 void Device::set_name(VkObjectType type, std::uint64_t object, const char* name) const {
     if (!impl_->set_object_name || !name) return;
@@ -290,14 +308,16 @@ tl::unexpected<Error> Device::error(VkResult result, const std::string& doing) c
     switch (result) {
         case VK_ERROR_DEVICE_LOST:
             impl_->lost = true;
-            return fail(text + "the graphics driver stopped (VK_ERROR_DEVICE_LOST). Work that runs too long is a common "
-                               "cause: try smaller tiles or another --device; if it stays, update the driver");
+            return fail(text +
+                        "the graphics driver stopped (VK_ERROR_DEVICE_LOST). Work that runs too long is a common "
+                        "cause: try smaller tiles or another --device; if it stays, update the driver");
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
             return fail(text + "out of device memory (" + std::to_string(info_.memory_bytes >> 20) +
                         " MiB in all); close other programs, use a smaller image or scene, or another --device");
         case VK_ERROR_OUT_OF_HOST_MEMORY:
             return fail(text + "out of memory; close other programs or use a smaller image or scene");
-        default: return fail(text + result_name(result));
+        default:
+            return fail(text + result_name(result));
     }
 }
 

@@ -34,18 +34,18 @@ struct DeviceInfo {
     std::string name;        // "NVIDIA GeForce RTX 3070", "llvmpipe (LLVM 15.0.6, 256 bits)"
     std::string driver;      // "Mesa 25.0.7 (LLVM 15.0.6)"
     DeviceType type = DeviceType::other;
-    std::uint32_t vulkan_version = 0;                // VK_MAKE_API_VERSION
-    std::array<std::uint8_t, VK_UUID_SIZE> uuid{};   // of device and driver: the key of the pipeline cache
-    std::uint64_t memory_bytes = 0;                  // of the largest device-local heap
-    std::uint64_t max_buffer_bytes = 0;              // of one buffer
-    std::uint64_t max_storage_range_bytes = 0;       // only descriptors are held to it; addresses are not
-    std::uint32_t max_push_constant_bytes = 0;       // at least 128
+    std::uint32_t vulkan_version = 0;              // VK_MAKE_API_VERSION
+    std::array<std::uint8_t, VK_UUID_SIZE> uuid{}; // of device and driver: the key of the pipeline cache
+    std::uint64_t memory_bytes = 0;                // of the largest device-local heap
+    std::uint64_t max_buffer_bytes = 0;            // of one buffer
+    std::uint64_t max_storage_range_bytes = 0;     // only descriptors are held to it; addresses are not
+    std::uint32_t max_push_constant_bytes = 0;     // at least 128
     std::uint32_t subgroup_size = 0;
-    bool ray_tracing = false;                        // acceleration structures and the ray-tracing pipeline, callables too
+    bool ray_tracing = false; // acceleration structures and the ray-tracing pipeline, callables too
     bool timestamps = false;
-    bool unified_memory = false;                     // the host sees all device memory (CPU, integrated)
-    std::string missing;                             // why it cannot be used ("... has no bufferDeviceAddress"); empty: it can
-    std::string missing_ray_tracing;                 // why ray_tracing is false; empty if true
+    bool unified_memory = false;     // the host sees all device memory (CPU, integrated)
+    std::string missing;             // why it cannot be used ("... has no bufferDeviceAddress"); empty: it can
+    std::string missing_ray_tracing; // why ray_tracing is false; empty if true
 };
 
 // Every device of every installed driver, the unusable ones too. An empty list means: no Vulkan driver.
@@ -62,7 +62,7 @@ struct DeviceOptions {
 };
 
 class Device {
-public:
+  public:
     // Prefers discrete with ray tracing, then discrete, integrated, virtual, CPU.
     static Result<std::unique_ptr<Device>> create(const DeviceOptions& options, Log& log);
     ~Device(); // waits for the device, saves the pipeline cache
@@ -121,7 +121,7 @@ public:
     // An error with its remedy ("out of device memory: ... use a smaller resolution").
     tl::unexpected<Error> error(VkResult result, const std::string& doing) const;
 
-private:
+  private:
     friend class CommandList;
     friend class Submission;
     struct Impl;

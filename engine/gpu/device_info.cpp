@@ -9,34 +9,56 @@ namespace restage::gpu {
 
 const char* to_string(DeviceType type) {
     switch (type) {
-        case DeviceType::discrete: return "discrete GPU";
-        case DeviceType::integrated: return "integrated GPU";
-        case DeviceType::virtual_gpu: return "virtual GPU";
-        case DeviceType::cpu: return "CPU";
-        case DeviceType::other: break;
+        case DeviceType::discrete:
+            return "discrete GPU";
+        case DeviceType::integrated:
+            return "integrated GPU";
+        case DeviceType::virtual_gpu:
+            return "virtual GPU";
+        case DeviceType::cpu:
+            return "CPU";
+        case DeviceType::other:
+            break;
     }
     return "unknown device";
 }
 
 const char* result_name(VkResult result) {
     switch (result) {
-        case VK_SUCCESS: return "VK_SUCCESS";
-        case VK_NOT_READY: return "VK_NOT_READY";
-        case VK_TIMEOUT: return "VK_TIMEOUT";
-        case VK_INCOMPLETE: return "VK_INCOMPLETE";
-        case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-        case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
-        case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
-        case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
-        case VK_ERROR_LAYER_NOT_PRESENT: return "VK_ERROR_LAYER_NOT_PRESENT";
-        case VK_ERROR_EXTENSION_NOT_PRESENT: return "VK_ERROR_EXTENSION_NOT_PRESENT";
-        case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
-        case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER";
-        case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
-        case VK_ERROR_FRAGMENTATION: return "VK_ERROR_FRAGMENTATION";
-        case VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS: return "VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS";
-        default: return "an unexpected VkResult";
+        case VK_SUCCESS:
+            return "VK_SUCCESS";
+        case VK_NOT_READY:
+            return "VK_NOT_READY";
+        case VK_TIMEOUT:
+            return "VK_TIMEOUT";
+        case VK_INCOMPLETE:
+            return "VK_INCOMPLETE";
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "VK_ERROR_OUT_OF_HOST_MEMORY";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "VK_ERROR_INITIALIZATION_FAILED";
+        case VK_ERROR_DEVICE_LOST:
+            return "VK_ERROR_DEVICE_LOST";
+        case VK_ERROR_MEMORY_MAP_FAILED:
+            return "VK_ERROR_MEMORY_MAP_FAILED";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "VK_ERROR_LAYER_NOT_PRESENT";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "VK_ERROR_EXTENSION_NOT_PRESENT";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "VK_ERROR_FEATURE_NOT_PRESENT";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "VK_ERROR_INCOMPATIBLE_DRIVER";
+        case VK_ERROR_TOO_MANY_OBJECTS:
+            return "VK_ERROR_TOO_MANY_OBJECTS";
+        case VK_ERROR_FRAGMENTATION:
+            return "VK_ERROR_FRAGMENTATION";
+        case VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS:
+            return "VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS";
+        default:
+            return "an unexpected VkResult";
     }
 }
 
@@ -105,19 +127,28 @@ DeviceInfo Instance::describe(VkPhysicalDevice physical, std::uint32_t index) co
     info.name = p.deviceName;
     info.vulkan_version = p.apiVersion;
     switch (p.deviceType) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: info.type = DeviceType::discrete; break;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: info.type = DeviceType::integrated; break;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: info.type = DeviceType::virtual_gpu; break;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: info.type = DeviceType::cpu; break;
-        default: break;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            info.type = DeviceType::discrete;
+            break;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            info.type = DeviceType::integrated;
+            break;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            info.type = DeviceType::virtual_gpu;
+            break;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            info.type = DeviceType::cpu;
+            break;
+        default:
+            break;
     }
     std::copy(std::begin(p.pipelineCacheUUID), std::end(p.pipelineCacheUUID), info.uuid.begin());
     info.max_push_constant_bytes = p.limits.maxPushConstantsSize;
     info.max_storage_range_bytes = p.limits.maxStorageBufferRange;
     describe_memory(physical, info);
     if (p.apiVersion < VK_API_VERSION_1_3) {
-        info.missing = info.name + " has only Vulkan " + version_text(p.apiVersion) +
-                       "; 1.3 is needed: update the driver";
+        info.missing =
+            info.name + " has only Vulkan " + version_text(p.apiVersion) + "; 1.3 is needed: update the driver";
         info.missing_ray_tracing = info.missing;
         return info;
     }
@@ -142,7 +173,8 @@ DeviceInfo Instance::describe(VkPhysicalDevice physical, std::uint32_t index) co
     info.ray_tracing = lacking.empty();
     if (!info.ray_tracing) info.missing_ray_tracing = info.name + " cannot trace rays: it lacks " + lacking;
     if (const char* feature = first_missing_feature(features))
-        info.missing = info.name + " cannot be used: its driver (" + info.driver + ") lacks the Vulkan feature " + feature;
+        info.missing =
+            info.name + " cannot be used: its driver (" + info.driver + ") lacks the Vulkan feature " + feature;
 
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);

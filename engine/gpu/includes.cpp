@@ -31,7 +31,7 @@ std::string_view directive(std::string_view line, std::string_view& rest) {
 
 // Follows /* */ over lines, so that a directive in a comment is none. True if the line starts inside a comment.
 class CommentTracker {
-public:
+  public:
     bool starts_inside(std::string_view line) {
         const bool started = inside_;
         for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -46,7 +46,7 @@ public:
         return started;
     }
 
-private:
+  private:
     bool inside_ = false;
 };
 
@@ -58,7 +58,7 @@ struct Found {
 };
 
 class Expander {
-public:
+  public:
     Expander(const ShaderSource& source, std::span<const std::filesystem::path> dirs) : source_(source), dirs_(dirs) {}
 
     ExpandedSource run() {
@@ -68,7 +68,7 @@ public:
         return std::move(result_);
     }
 
-private:
+  private:
     void expand(std::string_view text, std::size_t number, const std::filesystem::path& folder) {
         stack_.push_back(number);
         CommentTracker comments;
@@ -116,7 +116,10 @@ private:
         if (once) result_.text += "#endif\n";
     }
 
-    void error(const std::string& message) { result_.text += "#error " + message + "\n"; }
+    void error(const std::string& message) {
+        result_.text += "#error RESTAGE_INCLUDE_ERROR_" + std::to_string(result_.errors.size()) + "_\n";
+        result_.errors.push_back(message);
+    }
 
     std::optional<Found> find(const std::string& name, const std::filesystem::path& folder) {
         if (const auto in_memory = source_.files.find(name); in_memory != source_.files.end())

@@ -76,8 +76,9 @@ Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& option
     if (options.driver_defaults) set_driver_defaults(options.cache_dir);
     static const VkResult loader = volkInitialize();
     if (loader != VK_SUCCESS)
-        return fail("Vulkan is not installed: the loader library (libvulkan.so.1, vulkan-1.dll) was not found; "
-                    "install your distribution's Vulkan loader and a driver");
+        return fail(
+            "Vulkan is not installed: the loader library (libvulkan.so.1, vulkan-1.dll) was not found; "
+            "install your distribution's Vulkan loader and a driver");
 
     const char* const layer = "VK_LAYER_KHRONOS_validation";
     std::uint32_t count = 0;
@@ -105,8 +106,8 @@ Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& option
     self->log_ = &log;
     const VkDebugUtilsMessengerCreateInfoEXT messenger{
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                           VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageSeverity =
+            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
         .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
         .pfnUserCallback = on_message,
         .pUserData = self.get()};
@@ -121,7 +122,8 @@ Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& option
         std::vector<VkLayerProperties> properties(layers);
         vkEnumerateInstanceLayerProperties(&layers, properties.data());
         bool found = false;
-        for (const VkLayerProperties& p : properties) found |= std::strcmp(p.layerName, layer) == 0;
+        for (const VkLayerProperties& p : properties)
+            found |= std::strcmp(p.layerName, layer) == 0;
         if (!found)
             return fail("Vulkan validation was asked for, but " + std::string(layer) +
                         " is not installed (Debian: vulkan-validationlayers)");
@@ -145,14 +147,15 @@ Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& option
     if (result != VK_SUCCESS) {
         self->handle_ = VK_NULL_HANDLE;
         no_driver = result == VK_ERROR_INCOMPATIBLE_DRIVER;
-        return fail(no_driver ? "there is no Vulkan driver on this machine; install one for your graphics card, or Mesa's "
-                                "lavapipe, which needs no graphics card (Debian: mesa-vulkan-drivers)"
-                              : std::string("Vulkan could not be started: ") + result_name(result));
+        return fail(no_driver
+                        ? "there is no Vulkan driver on this machine; install one for your graphics card, or Mesa's "
+                          "lavapipe, which needs no graphics card (Debian: mesa-vulkan-drivers)"
+                        : std::string("Vulkan could not be started: ") + result_name(result));
     }
     load_functions(self->handle_, !options.extensions.empty());
     if (options.validation) {
-        auto create = instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(self->handle_,
-                                                                            "vkCreateDebugUtilsMessengerEXT");
+        auto create =
+            instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(self->handle_, "vkCreateDebugUtilsMessengerEXT");
         if (!create || create(self->handle_, &messenger, nullptr, &self->messenger_) != VK_SUCCESS)
             return fail("Vulkan validation: the debug messenger could not be created");
     }

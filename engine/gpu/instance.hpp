@@ -24,7 +24,7 @@ struct InstanceOptions {
 };
 
 class Instance {
-public:
+  public:
     // With `no_driver` set to true on return there is no Vulkan driver: not an error for who only lists devices.
     static Result<std::unique_ptr<Instance>> create(const InstanceOptions& options, Log& log, bool& no_driver);
     ~Instance();
@@ -39,7 +39,7 @@ public:
     std::vector<std::string> messages() const;
     void clear_messages();
 
-private:
+  private:
     Instance() = default;
     static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                      VkDebugUtilsMessageTypeFlagsEXT types,

@@ -14,10 +14,11 @@ namespace {
 
 // Modules live as long as the creation of a pipeline.
 class Modules {
-public:
+  public:
     explicit Modules(Device& device) : device_(device) {}
     ~Modules() {
-        for (VkShaderModule module : modules_) device_.vk().vkDestroyShaderModule(device_.handle(), module, nullptr);
+        for (VkShaderModule module : modules_)
+            device_.vk().vkDestroyShaderModule(device_.handle(), module, nullptr);
     }
     Modules(const Modules&) = delete;
     Modules& operator=(const Modules&) = delete;
@@ -34,16 +35,17 @@ public:
         return module;
     }
 
-private:
+  private:
     Device& device_;
     std::vector<VkShaderModule> modules_;
 };
 
 class Specialization {
-public:
+  public:
     explicit Specialization(std::span<const SpecConstant> constants) {
         for (const SpecConstant& c : constants) {
-            entries_.push_back({c.id, static_cast<std::uint32_t>(values_.size() * sizeof(std::uint32_t)), sizeof(std::uint32_t)});
+            entries_.push_back(
+                {c.id, static_cast<std::uint32_t>(values_.size() * sizeof(std::uint32_t)), sizeof(std::uint32_t)});
             values_.push_back(c.value);
         }
         info_ = {static_cast<std::uint32_t>(entries_.size()), entries_.data(), values_.size() * sizeof(std::uint32_t),
@@ -51,7 +53,7 @@ public:
     }
     const VkSpecializationInfo* info() const { return &info_; }
 
-private:
+  private:
     std::vector<VkSpecializationMapEntry> entries_;
     std::vector<std::uint32_t> values_;
     VkSpecializationInfo info_{};
@@ -92,14 +94,13 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, const Spirv& sha
     RESTAGE_TRY(const VkShaderModule module, modules.create(shader));
     RESTAGE_TRY(self.layout_, create_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, push_constant_bytes, name));
     const Specialization specialization(constants);
-    const VkComputePipelineCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = module,
-                  .pName = "main",
-                  .pSpecializationInfo = specialization.info()},
-        .layout = self.layout_};
+    const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                           .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                     .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                     .module = module,
+                                                     .pName = "main",
+                                                     .pSpecializationInfo = specialization.info()},
+                                           .layout = self.layout_};
     const VkResult result = device.vk().vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info,
                                                                  nullptr, &self.pipeline_);
     if (result != VK_SUCCESS) {
@@ -114,7 +115,9 @@ ComputePipeline::~ComputePipeline() {
     if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
     if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
 }
-ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept { *this = std::move(other); }
+ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept {
+    *this = std::move(other);
+}
 ComputePipeline& ComputePipeline::operator=(ComputePipeline&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pipeline_, other.pipeline_);
@@ -163,7 +166,8 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
         return {};
     };
     RESTAGE_CHECK(add_general(shaders.raygen, VK_SHADER_STAGE_RAYGEN_BIT_KHR));
-    for (const Spirv* shader : shaders.misses) RESTAGE_CHECK(add_general(shader, VK_SHADER_STAGE_MISS_BIT_KHR));
+    for (const Spirv* shader : shaders.misses)
+        RESTAGE_CHECK(add_general(shader, VK_SHADER_STAGE_MISS_BIT_KHR));
     for (const HitGroup& group : shaders.hit_groups) {
         RESTAGE_TRY(const std::uint32_t closest, stage_of(group.closest_hit, VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR));
         RESTAGE_TRY(const std::uint32_t any, stage_of(group.any_hit, VK_SHADER_STAGE_ANY_HIT_BIT_KHR));
@@ -174,7 +178,8 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                           .anyHitShader = any,
                           .intersectionShader = VK_SHADER_UNUSED_KHR});
     }
-    for (const Spirv* shader : shaders.callables) RESTAGE_CHECK(add_general(shader, VK_SHADER_STAGE_CALLABLE_BIT_KHR));
+    for (const Spirv* shader : shaders.callables)
+        RESTAGE_CHECK(add_general(shader, VK_SHADER_STAGE_CALLABLE_BIT_KHR));
 
     const VkRayTracingPipelineCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR,
                                                  .stageCount = static_cast<std::uint32_t>(stage_infos.size()),
@@ -184,8 +189,8 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                                                  .maxPipelineRayRecursionDepth = 1,
                                                  .layout = self.layout_};
     const VolkDeviceTable& vk = device.vk();
-    VkResult result = vk.vkCreateRayTracingPipelinesKHR(device.handle(), VK_NULL_HANDLE, device.pipeline_cache(), 1, &info,
-                                                        nullptr, &self.pipeline_);
+    VkResult result = vk.vkCreateRayTracingPipelinesKHR(device.handle(), VK_NULL_HANDLE, device.pipeline_cache(), 1,
+                                                        &info, nullptr, &self.pipeline_);
     if (result != VK_SUCCESS) {
         self.pipeline_ = VK_NULL_HANDLE;
         return device.error(result, std::string("creating ray-tracing pipeline ") + name);
@@ -197,8 +202,8 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     const std::uint32_t handle_bytes = rt.shaderGroupHandleSize;
     const std::uint32_t stride = align_up(handle_bytes, rt.shaderGroupHandleAlignment);
     std::vector<std::byte> handles(groups.size() * std::size_t(handle_bytes));
-    result = vk.vkGetRayTracingShaderGroupHandlesKHR(device.handle(), self.pipeline_, 0,
-                                                     static_cast<std::uint32_t>(groups.size()), handles.size(), handles.data());
+    result = vk.vkGetRayTracingShaderGroupHandlesKHR(
+        device.handle(), self.pipeline_, 0, static_cast<std::uint32_t>(groups.size()), handles.size(), handles.data());
     if (result != VK_SUCCESS) return device.error(result, std::string("reading the shader groups of ") + name);
     const std::uint32_t counts[4] = {1, static_cast<std::uint32_t>(shaders.misses.size()),
                                      static_cast<std::uint32_t>(shaders.hit_groups.size()),
@@ -211,13 +216,16 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
         const std::size_t start = align_up(static_cast<std::uint32_t>(table.size()), rt.shaderGroupBaseAlignment);
         table.resize(start + std::size_t(counts[r]) * stride);
         for (std::uint32_t i = 0; i < counts[r]; ++i, ++group)
-            std::memcpy(table.data() + start + std::size_t(i) * stride, handles.data() + group * handle_bytes, handle_bytes);
+            std::memcpy(table.data() + start + std::size_t(i) * stride, handles.data() + group * handle_bytes,
+                        handle_bytes);
         *regions[r] = {.deviceAddress = start, .stride = stride, .size = VkDeviceSize(counts[r]) * stride};
     }
     // Room to align the start: the base alignment is that of an address.
-    RESTAGE_TRY(self.binding_table_, device.create_buffer(table.size() + rt.shaderGroupBaseAlignment, BufferKind::device, name));
+    RESTAGE_TRY(self.binding_table_,
+                device.create_buffer(table.size() + rt.shaderGroupBaseAlignment, BufferKind::device, name));
     const VkDeviceAddress address = self.binding_table_.address();
-    const VkDeviceAddress aligned = (address + rt.shaderGroupBaseAlignment - 1) / rt.shaderGroupBaseAlignment * rt.shaderGroupBaseAlignment;
+    const VkDeviceAddress aligned =
+        (address + rt.shaderGroupBaseAlignment - 1) / rt.shaderGroupBaseAlignment * rt.shaderGroupBaseAlignment;
     RESTAGE_CHECK(device.upload(self.binding_table_, aligned - address, table));
     for (VkStridedDeviceAddressRegionKHR* region : regions)
         if (region->size > 0) region->deviceAddress += aligned;
@@ -228,7 +236,9 @@ RayTracingPipeline::~RayTracingPipeline() {
     if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
     if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
 }
-RayTracingPipeline::RayTracingPipeline(RayTracingPipeline&& other) noexcept { *this = std::move(other); }
+RayTracingPipeline::RayTracingPipeline(RayTracingPipeline&& other) noexcept {
+    *this = std::move(other);
+}
 RayTracingPipeline& RayTracingPipeline::operator=(RayTracingPipeline&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pipeline_, other.pipeline_);

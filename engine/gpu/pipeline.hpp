@@ -22,7 +22,7 @@ struct SpecConstant {
 };
 
 class ComputePipeline {
-public:
+  public:
     // The workgroup size is the shader's; it may come from specialization constants (local_size_x_id).
     static Result<ComputePipeline> create(Device& device, const Spirv& shader, std::uint32_t push_constant_bytes,
                                           std::span<const SpecConstant> constants, const char* name);
@@ -36,7 +36,7 @@ public:
     VkPipelineLayout layout() const { return layout_; }
     std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
 
-private:
+  private:
     Device* device_ = nullptr;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
@@ -58,10 +58,10 @@ struct RayTracingShaders {
 
 // Recursion depth is 1: only raygen traces. Geometry contributes nothing to the hit group index (sbtRecordStride 0).
 class RayTracingPipeline {
-public:
+  public:
     static Result<RayTracingPipeline> create(Device& device, const RayTracingShaders& shaders,
-                                             std::uint32_t push_constant_bytes,
-                                             std::span<const SpecConstant> constants, const char* name);
+                                             std::uint32_t push_constant_bytes, std::span<const SpecConstant> constants,
+                                             const char* name);
     RayTracingPipeline() = default;
     ~RayTracingPipeline();
     RayTracingPipeline(RayTracingPipeline&& other) noexcept;
@@ -76,7 +76,7 @@ public:
                                                  VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
                                                  VK_SHADER_STAGE_CALLABLE_BIT_KHR;
 
-private:
+  private:
     friend class CommandList;
     Device* device_ = nullptr;
     VkPipeline pipeline_ = VK_NULL_HANDLE;

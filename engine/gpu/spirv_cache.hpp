@@ -11,14 +11,14 @@
 namespace restage::gpu {
 
 class SpirvCache {
-public:
+  public:
     explicit SpirvCache(std::filesystem::path folder); // empty: a cache that holds nothing
     std::optional<std::vector<std::uint32_t>> load(const std::string& key) const;
     void store(const std::string& key, const std::vector<std::uint32_t>& words) const; // failing to is no error
     // Removes the longest unused entries beyond `entries`.
     void trim(std::size_t entries) const;
 
-private:
+  private:
     std::filesystem::path file_of(const std::string& key) const;
     std::filesystem::path folder_;
 };

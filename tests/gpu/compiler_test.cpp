@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL to SPIR-V: includes, where errors point, and the disk cache.
+#include "gpu/includes.hpp"
+#include "test_device.hpp"
+
+#include <catch2/matchers/catch_matchers_string.hpp>
+
+#include <fstream>
+#include <thread>
+
+using namespace restage;
+using namespace restage::gpu;
+using namespace restage::gpu::test;
+using Catch::Matchers::ContainsSubstring;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const std::string head = "#version 460\nlayout(local_size_x = 1) in;\n"; // two lines
+
+std::string error_of(const ShaderCompiler& compiler, const ShaderSource& source) {
+    const auto result = compiler.compile(source);
+    REQUIRE_FALSE(result.has_value());
+    return result.error().message;
+}
+
+} // namespace
+
+TEST_CASE("an error points at the line of the text itself", "[compiler]") {
+    const ShaderCompiler compiler({});
+    const std::string error =
+        error_of(compiler, {.name = "wave.comp", .text = head + "void main() {\n    float x = y;\n}\n"});
+    CHECK_THAT(error, StartsWith("wave.comp:4: "));
+    CHECK_THAT(error, ContainsSubstring("'y' : undeclared identifier"));
+    CHECK_THAT(error, !ContainsSubstring("No code generated"));
+    // Definitions come before the text and do not move its lines.
+    CHECK_THAT(error_of(compiler, {.name = "wave.comp",
+                                   .text = head + "void main() {\n    float x = y;\n}\n",
+                                   .defines = {{"A", "1"}, {"B", "2"}}}),
+               StartsWith("wave.comp:4: "));
+}
+
+TEST_CASE("an error points at the included file, on disk and in memory, and lines after an include stay right",
+          "[compiler]") {
+    const TemporaryFolder folder;
+    folder.write("plugin oak/oak.glsl", "// oak\n#include \"grain.glsl\"\nfloat oak() { return grain() * zz; }\n");
+    folder.write("plugin oak/grain.glsl", "#pragma once\n\nfloat grain() { return 1.0; }\n");
+    const ShaderCompiler compiler({.include_dirs = {folder.path()}});
+    const std::string oak = (folder.path() / "plugin oak/oak.glsl").string();
+
+    CHECK_THAT(
+        error_of(compiler, {.name = "main", .text = head + "#include \"plugin oak/oak.glsl\"\nvoid main() {}\n"}),
+        StartsWith(oak + ":3: 'zz'"));
+    CHECK_THAT(error_of(compiler, {.name = "main",
+                                   .text = head + "#include \"memory.glsl\"\nvoid main() {}\n",
+                                   .files = {{"memory.glsl", "\n\n\nint f() { return q; }\n"}}}),
+               StartsWith("memory.glsl:4: 'q'"));
+    CHECK_THAT(error_of(compiler, {.name = "main",
+                                   .text = head + "#include \"memory.glsl\"\nvoid main() {\n  w;\n}\n",
+                                   .files = {{"memory.glsl", "int f() { return 1; }\nint g() { return 1; }\n"}}}),
+               StartsWith("main:5: 'w'"));
+    // A file in memory may include one on disk; a macro's use is where it is reported.
+    CHECK_THAT(error_of(compiler,
+                        {.name = "main",
+                         .text = head + "#include \"memory.glsl\"\nvoid main() { }\n",
+                         .files = {{"memory.glsl", "#include \"plugin oak/grain.glsl\"\nfloat f() { return hh; }\n"}}}),
+               StartsWith("memory.glsl:2: 'hh'"));
+}
+
+TEST_CASE("what cannot be included is said where it is asked for, and only if that place is compiled", "[compiler]") {
+    const ShaderCompiler compiler({});
+    CHECK_THAT(error_of(compiler, {.name = "main", .text = head + "#include \"nowhere.glsl\"\nvoid main() {}\n"}),
+               StartsWith("main:3: ") && ContainsSubstring("nowhere.glsl"));
+    CHECK_THAT(error_of(compiler, {.name = "main", .text = head + "#include nonsense\nvoid main() {}\n"}),
+               StartsWith("main:3: "));
+    CHECK(compiler.compile(
+        {.name = "main", .text = head + "#if 0\n#include \"nowhere.glsl\"\n#endif\nvoid main() {}\n"}));
+    CHECK(compiler.compile({.name = "main", .text = head + "/*\n#include \"nowhere.glsl\"\n*/\nvoid main() {}\n"}));
+    CHECK(compiler.compile({.name = "main", .text = head + "// x /*\n// #include \"nowhere.glsl\"\nvoid main() {}\n"}));
+}
+
+TEST_CASE("#pragma once includes once, also under #if and in a cycle", "[compiler]") {
+    const ShaderCompiler compiler({});
+    const std::map<std::string, std::string> files{
+        {"a.glsl", "#pragma once\n#include \"b.glsl\"\nint a() { return 1; }\n"},
+        {"b.glsl", "#pragma once\n#include \"a.glsl\"\nint b() { return 2; }\n"}};
+    const std::string use = "layout(binding = 0) buffer B { int v; };\nvoid main() { v = a() + b(); }\n";
+    CHECK(compiler.compile({.name = "m",
+                            .text = head + "#include \"a.glsl\"\n#include \"b.glsl\"\n#include \"a.glsl\"\n" + use,
+                            .files = files}));
+    // The first inclusion is not compiled, so the second must count.
+    CHECK(compiler.compile({.name = "m",
+                            .text = head + "#if 0\n#include \"a.glsl\"\n#endif\n#include \"a.glsl\"\n" + use,
+                            .files = files}));
+    // Without it: twice is twice, and a cycle is an error.
+    CHECK_THAT(error_of(compiler, {.name = "m",
+                                   .text = head + "#include \"c.glsl\"\n#include \"c.glsl\"\nvoid main() {}\n",
+                                   .files = {{"c.glsl", "int c() { return 1; }\n"}}}),
+               StartsWith("c.glsl:1: "));
+    CHECK_THAT(error_of(compiler, {.name = "m",
+                                   .text = head + "#include \"c.glsl\"\nvoid main() {}\n",
+                                   .files = {{"c.glsl", "int c() { return 1; }\n#include \"c.glsl\"\n"}}}),
+               StartsWith("c.glsl:2: ") && ContainsSubstring("includes itself"));
+}
+
+TEST_CASE("files are searched in order: memory, beside the includer, the source's folders, the compiler's",
+          "[compiler]") {
+    const TemporaryFolder folder;
+    folder.write("late/f.glsl", "#define WHO 4\n");
+    folder.write("early/f.glsl", "#define WHO 3\n");
+    folder.write("beside/f.glsl", "#define WHO 2\n");
+    folder.write("beside/entry.glsl", "#include \"f.glsl\"\n");
+    const ShaderCompiler compiler({.include_dirs = {folder.path() / "late", folder.path() / "beside"}});
+    const auto who = [&](const std::string& text, std::map<std::string, std::string> files, bool early) {
+        std::vector<std::filesystem::path> dirs;
+        if (early) dirs.push_back(folder.path() / "early");
+        for (int i = 1; i <= 4; ++i)
+            if (compiler.compile({.name = "m",
+                                  .text = head + text + "\n#if WHO != " + std::to_string(i) +
+                                          "\n#error no\n#endif\nvoid main() {}\n",
+                                  .files = files,
+                                  .include_dirs = dirs}))
+                return i;
+        return 0;
+    };
+    CHECK(who("#include \"f.glsl\"", {{"f.glsl", "#define WHO 1\n"}}, true) == 1);
+    CHECK(who("#include \"entry.glsl\"", {}, true) == 2);
+    CHECK(who("#include <f.glsl>", {}, true) == 3);
+    CHECK(who("#include \"f.glsl\"", {}, false) == 4);
+}
+
+TEST_CASE("the files of a shader are listed, each once", "[compiler]") {
+    const TemporaryFolder folder;
+    folder.write("a.glsl", "#pragma once\n#include \"b.glsl\"\n");
+    folder.write("b.glsl", "#pragma once\n");
+    const ShaderCompiler compiler({.include_dirs = {folder.path()}});
+    const auto spirv = value(
+        compiler.compile({.name = "m", .text = head + "#include \"a.glsl\"\n#include \"b.glsl\"\nvoid main() {}\n"}));
+    CHECK(spirv.files == std::vector{std::filesystem::canonical(folder.path() / "a.glsl"),
+                                     std::filesystem::canonical(folder.path() / "b.glsl")});
+}
+
+TEST_CASE("the cache gives back what was compiled, and notices every change", "[compiler]") {
+    const TemporaryFolder folder;
+    folder.write("part.glsl", "#define N 1\n");
+    const ShaderCompilerOptions options{.include_dirs = {folder.path()}, .cache_dir = folder.path() / "cache"};
+    ShaderSource source{.name = "m",
+                        .text = head +
+                                "#include \"part.glsl\"\nlayout(binding = 0) buffer B { int v; };\n"
+                                "#ifndef M\n#define M 0\n#endif\nvoid main() { v = N + M; }\n"};
+    const ShaderCompiler compiler(options);
+    const Spirv first = value(compiler.compile(source));
+    CHECK_FALSE(first.from_cache);
+    const Spirv again = value(ShaderCompiler(options).compile(source));
+    CHECK(again.from_cache);
+    CHECK(again.words == first.words);
+    CHECK(again.key == first.key);
+    CHECK(again.files == first.files);
+
+    source.name = "renamed"; // does not go into the code
+    CHECK(value(compiler.compile(source)).from_cache);
+    source.defines = {{"M", "5"}};
+    const Spirv defined = value(compiler.compile(source));
+    CHECK_FALSE(defined.from_cache);
+    CHECK(defined.words != first.words);
+    source.defines.clear();
+    folder.write("part.glsl", "#define N 2\n");
+    CHECK_FALSE(value(compiler.compile(source)).from_cache);
+    folder.write("part.glsl", "#define N 1\n");
+    CHECK(value(compiler.compile(source)).words == first.words);
+    ShaderCompilerOptions plain = options;
+    plain.optimize = false;
+    CHECK_FALSE(value(ShaderCompiler(plain).compile(source)).from_cache);
+}
+
+TEST_CASE("a damaged cache entry is compiled again", "[compiler]") {
+    const TemporaryFolder folder;
+    const ShaderCompiler compiler({.cache_dir = folder.path() / "cache"});
+    const ShaderSource source{.name = "m", .text = head + "void main() {}\n"};
+    const Spirv first = value(compiler.compile(source));
+    const auto file = folder.path() / "cache" / (first.key + ".spv");
+    const std::string good = value(read_file(file));
+    std::string flipped = good;
+    flipped[flipped.size() - 3] ^= 0x10;
+    for (const std::string& bad : {std::string(), good.substr(0, good.size() / 2), good.substr(0, good.size() - 4),
+                                   flipped, std::string(good.size(), '\0')}) {
+        ok(write_file_atomic(file, bad));
+        const Spirv spirv = value(compiler.compile(source));
+        CHECK_FALSE(spirv.from_cache);
+        CHECK(spirv.words == first.words);
+        CHECK(value(compiler.compile(source)).from_cache); // and was repaired
+    }
+}
+
+TEST_CASE("many threads compile at once into one cache", "[compiler]") {
+    const TemporaryFolder folder;
+    const ShaderCompiler compiler({.cache_dir = folder.path() / "cache"});
+    std::vector<std::thread> threads;
+    std::vector<std::vector<std::uint32_t>> words(8);
+    for (std::size_t t = 0; t < words.size(); ++t)
+        threads.emplace_back([&, t] {
+            auto spirv =
+                compiler.compile({.name = "m",
+                                  .text = head + "layout(binding = 0) buffer B { int v; };\nvoid main() { v = K; }\n",
+                                  .defines = {{"K", std::to_string(t % 2)}}});
+            if (spirv) words[t] = spirv->words;
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (std::size_t t = 0; t < words.size(); ++t) {
+        CHECK_FALSE(words[t].empty());
+        CHECK(words[t] == words[t % 2]);
+    }
+    CHECK(words[0] != words[1]);
+}
+
+TEST_CASE("every ray-tracing stage compiles", "[compiler]") {
+    const ShaderCompiler compiler({});
+    const std::string rt = "#version 460\n#extension GL_EXT_ray_tracing : require\n";
+    const std::string payload = "layout(location = 0) rayPayloadInEXT vec4 p;\nhitAttributeEXT vec2 b;\n";
+    CHECK(compiler.compile({.name = "a",
+                            .text = rt + "layout(location = 0) rayPayloadEXT vec4 p;\nvoid main() {}\n",
+                            .stage = ShaderStage::raygen}));
+    CHECK(compiler.compile(
+        {.name = "b", .text = rt + payload + "void main() { p.xy = b; }\n", .stage = ShaderStage::closest_hit}));
+    CHECK(compiler.compile({.name = "c",
+                            .text = rt + payload + "void main() { ignoreIntersectionEXT; }\n",
+                            .stage = ShaderStage::any_hit}));
+    CHECK(compiler.compile({.name = "d",
+                            .text = rt + "layout(location = 0) rayPayloadInEXT vec4 p;\nvoid main() { p = vec4(0); }\n",
+                            .stage = ShaderStage::miss}));
+    CHECK(
+        compiler.compile({.name = "e",
+                          .text = rt + "layout(location = 0) callableDataInEXT vec4 p;\nvoid main() { p = vec4(0); }\n",
+                          .stage = ShaderStage::callable}));
+    CHECK_THAT(
+        error_of(compiler,
+                 {.name = "f", .text = rt + "void main() { ignoreIntersectionEXT; }\n", .stage = ShaderStage::miss}),
+        StartsWith("f:3: "));
+    // A text without main() is an error that says so.
+    CHECK_THAT(error_of(compiler, {.name = "g", .text = "#version 460\n"}),
+               StartsWith("g: ") && ContainsSubstring("entry point"));
+}
