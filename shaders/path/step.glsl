@@ -33,6 +33,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     shadow.tmax = -1.0;
     next.tmax = -1.0;
     shadow_contribution = vec3(0);
+    guide = GuideSample(vec3(0), vec3(0), 0.0, 0u, 0u, 1.0, 0u);
     vec3 wo_world = -ray_direction;
     uint depth = path.flags & PATH_DEPTH_MASK;
     bool specular = (path.flags & PATH_SPECULAR) != 0u;
@@ -65,12 +66,12 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         guide.material_id = material_data.id;
     }
     if (depth >= scene.max_depth) return finite(path.radiance);
-    Rng rng = Rng(pcg_hash(path.sampler ^ pcg_hash(path.sample_index * 64u + depth)));
-    vec2 u_pick = sample_pair(path.sampler, path.sample_index, pair_light_pick(depth));
+    Rng rng = Rng(pcg_hash(path.seed ^ pcg_hash(path.sample_index * 64u + depth)));
+    vec2 u_pick = sample_pair(path.seed, path.sample_index, pair_light_pick(depth));
 
     // Next-event estimation
     if (scene.light_count > 0u) {
-        LightSample light = light_sample(scene, s.p, u_pick.x, sample_pair(path.sampler, path.sample_index, pair_light(depth)));
+        LightSample light = light_sample(scene, s.p, u_pick.x, sample_pair(path.seed, path.sample_index, pair_light(depth)));
         if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
@@ -93,8 +94,8 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
 
     // BSDF sampling
-    vec2 u = sample_pair(path.sampler, path.sample_index, pair_bsdf(depth));
-    float u_lobe = sample_pair(path.sampler, path.sample_index, pair_lobe(depth)).x;
+    vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
+    float u_lobe = sample_pair(path.seed, path.sample_index, pair_lobe(depth)).x;
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
     bool ok = finite(shadow_contribution) && finite(b.weight) && finite(path.radiance);
     if (!ok) {
@@ -114,7 +115,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
 
     // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2
     if (scene.russian_roulette != 0u && depth > 0u) {
-        float survive = max_component(path.throughput) * path.eta_scale;
+        float survive = max_component(abs(path.throughput)) * path.eta_scale; // signed by some pixel filters
         if (survive < 1.0) {
             if (u_pick.y >= survive) return true;
             path.throughput /= survive;

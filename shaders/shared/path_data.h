@@ -45,7 +45,7 @@ struct PathState { // 48 bytes
     uint flags;       // depth | PATH_*
     float eta_scale;  // product of eta^2 on transmissions; Russian roulette looks through it
     uint medium;
-    uint sampler;     // seed of the pixel
+    uint seed;        // of the pixel's random numbers
     uint sample_index;
 };
 

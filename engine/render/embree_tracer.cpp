@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `embree` tracer: a wavefront. Kernels generate, shade (one a material type, over a queue of its hits) and
+// accumulate; between two bounces one CPU pass lets Embree answer the shadow rays of the last vertex and find the next
+// hits, in natural path order and in place, and queues each hit for its type's kernel.
+#include "base/file.hpp"
+#include "render/embree_scene.hpp"
+#include "render/tracer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace restage::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: stays near the caches, amortises a submit
+constexpr std::uint32_t group_size = 64;      // of the kernels
+constexpr std::size_t chunk = 2048;           // paths a job
+constexpr std::uint8_t type_none = 255, type_escape = 254;
+
+class EmbreeTracer final : public Tracer {
+public:
+    explicit EmbreeTracer(const TracerContext& c) : c_(c) {}
+    const char* name() const override { return "embree"; }
+
+    Result<void> start() {
+        RESTAGE_TRY(embree_, EmbreeScene::create(c_.jobs.threads()));
+        const auto host = gpu::BufferKind::readback; // both sides read and write it
+        RESTAGE_TRY(rays_, c_.device.create_buffer(wave_paths * sizeof(shared::RayHit), host, "rays"));
+        RESTAGE_TRY(shadows_, c_.device.create_buffer(wave_paths * sizeof(shared::ShadowRay), host, "shadow rays"));
+        RESTAGE_TRY(paths_, c_.device.create_buffer(wave_paths * sizeof(shared::PathState), host, "paths"));
+        RESTAGE_TRY(guides_, c_.device.create_buffer(wave_paths * sizeof(shared::GuideSample), host, "guide samples"));
+        RESTAGE_TRY(queue_, c_.device.create_buffer(wave_paths * sizeof(std::uint32_t), host, "queue"));
+        RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_MAX_TYPES * sizeof(std::uint32_t), host, "counters"));
+        RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
+        std::memset(counters_.mapped(), 0, counters_.size());
+        types_.resize(wave_paths);
+        return {};
+    }
+
+    Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
+        RESTAGE_CHECK(embree_->update(scene, changes));
+        if (changes.shaders)
+            pipelines_ready_ = false;
+        return {};
+    }
+
+    Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
+        const auto start = Clock::now();
+        RESTAGE_CHECK(make_pipelines(scene, request));
+        const std::uint32_t pixels = film.width() * film.height();
+        // A wave holds all pixels some samples each, or part of the pixels one sample each.
+        const std::uint32_t samples = std::clamp(wave_paths / std::max(pixels, 1u), 1u, request.samples);
+        for (std::uint32_t s = 0; s < request.samples; s += samples)
+            for (std::uint32_t p = 0; p < pixels; p += wave_paths) {
+                if (request.keep_going && !request.keep_going())
+                    return finish(scene, start);
+                shared::FrameData f{};
+                f.first_pixel = p;
+                f.pixel_count = std::min(wave_paths, pixels - p);
+                f.samples = std::min(samples, request.samples - s);
+                f.first_sample = request.first_sample + s;
+                f.crop_x = request.crop_x;
+                f.crop_y = request.crop_y;
+                f.crop_width = film.width();
+                f.seed = request.seed;
+                f.film = film.pixels();
+                f.film_guides = film.guides();
+                RESTAGE_CHECK(wave(scene, f));
+            }
+        return finish(scene, start);
+    }
+
+private:
+    Result<void> finish(const GpuScene& scene, Clock::time_point start) {
+        stats_.seconds += seconds_since(start);
+        auto counts = counters_.span<std::uint32_t>();
+        for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
+            if (counts[i])
+                stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
+        return {};
+    }
+
+    Result<void> make_pipelines(const GpuScene& scene, const TraceRequest& request) {
+        if (pipelines_ready_ && guides_on_ == request.guides && strategy_ == request.strategy)
+            return {};
+        stats_.shader_bytes = 0;
+        const auto kernel = [&](const gpu::ShaderSource& source, const MaterialType* type, gpu::ComputePipeline& out) -> Result<void> {
+            RESTAGE_TRY(const auto spirv, c_.compiler.compile(source));
+            stats_.shader_bytes += spirv.words.size() * 4;
+            const auto constants = spec_constants(scene.features(), request.guides, request.strategy, type);
+            RESTAGE_TRY(out, gpu::ComputePipeline::create(c_.device, spirv, sizeof(shared::WavePush), constants,
+                                                          source.name.c_str()));
+            return {};
+        };
+        const auto file = [&](const char* name) -> Result<gpu::ShaderSource> {
+            RESTAGE_TRY(auto text, read_file(c_.shader_dir / name));
+            return gpu::ShaderSource{.name = (c_.shader_dir / name).string(), .text = std::move(text)};
+        };
+        RESTAGE_TRY(const auto generate, file("wave_generate.comp"));
+        RESTAGE_TRY(const auto escape, file("wave_escape.comp"));
+        RESTAGE_TRY(const auto accumulate, file("wave_accumulate.comp"));
+        RESTAGE_CHECK(kernel(generate, nullptr, generate_));
+        RESTAGE_CHECK(kernel(escape, nullptr, escape_));
+        RESTAGE_CHECK(kernel(accumulate, nullptr, accumulate_));
+        if (scene.types().size() > type_escape)
+            return fail("a scene may use at most 254 material types");
+        shade_.clear();
+        shade_.resize(scene.types().size());
+        for (std::size_t i = 0; i < shade_.size(); ++i) {
+            const MaterialType& type = scene.types()[i];
+            if (!type.plugin.table || !type.plugin.table->glsl_file)
+                continue;
+            RESTAGE_CHECK(kernel(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute), &type, shade_[i]));
+        }
+        pipelines_ready_ = true;
+        guides_on_ = request.guides;
+        strategy_ = request.strategy;
+        return {};
+    }
+
+    Result<void> wave(const GpuScene& scene, shared::FrameData& f) {
+        f.scene = scene.address();
+        f.rays = rays_.address();
+        f.shadows = shadows_.address();
+        f.paths = paths_.address();
+        f.guides = guides_.address();
+        f.queue = queue_.address();
+        f.counters = counters_.address();
+        RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
+        const std::uint32_t count = f.pixel_count * f.samples;
+        stats_.paths += count;
+
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, generate_, 0, count); }));
+        active_.resize(count);
+        for (std::uint32_t i = 0; i < count; ++i)
+            active_[i] = i;
+        for (;;) {
+            trace_rays(scene);
+            if (active_.empty() && !escaped_)
+                break;
+            RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
+                std::uint32_t first = 0;
+                for (std::size_t t = 0; t < type_count_.size(); ++t) {
+                    if (type_count_[t] && t == type_escape)
+                        dispatch(list, escape_, first, type_count_[t]);
+                    else if (type_count_[t])
+                        dispatch(list, shade_[t], first, type_count_[t]);
+                    first += type_count_[t];
+                }
+            }));
+        }
+        return submit([&](gpu::CommandList& list) { dispatch(list, accumulate_, 0, f.pixel_count); });
+    }
+
+    void dispatch(gpu::CommandList& list, const gpu::ComputePipeline& kernel, std::uint32_t first, std::uint32_t count) {
+        const shared::WavePush push{frame_.address(), first, count};
+        list.dispatch(kernel, gpu::push_bytes(push), (count + group_size - 1) / group_size);
+    }
+
+    template <class Record>
+    Result<void> submit(Record&& record) {
+        const auto start = Clock::now();
+        if (!list_) {
+            RESTAGE_TRY(list_, c_.device.begin());
+        } else {
+            list_.reset();
+        }
+        record(list_);
+        RESTAGE_CHECK(c_.device.submit_and_wait(list_));
+        stats_.seconds_shading += seconds_since(start);
+        return {};
+    }
+
+    // Shadow rays of the last vertex, then the next hits, for the active paths in natural order. Afterwards `queue_`
+    // holds the hit paths sorted by type, type_count_ their numbers, active_ those that will be shaded.
+    void trace_rays(const GpuScene& scene) {
+        const auto start = Clock::now();
+        auto rays = rays_.span<shared::RayHit>();
+        auto shadows = shadows_.span<shared::ShadowRay>();
+        auto paths = paths_.span<shared::PathState>();
+        auto queue = queue_.span<std::uint32_t>();
+        const std::size_t n = active_.size(), chunks = (n + chunk - 1) / chunk;
+        const bool environment = scene.features().environment;
+        counts_.assign(chunks, {});
+        std::atomic<std::uint64_t> rays_traced = 0, shadows_traced = 0;
+        c_.jobs.parallel_for(chunks, 1, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t k = begin; k < end; ++k) {
+                std::uint32_t closest = 0, any = 0;
+                for (std::size_t a = k * chunk; a < std::min(n, (k + 1) * chunk); ++a) {
+                    const std::uint32_t i = active_[a];
+                    if (shadows[i].tfar > 0) {
+                        ++any;
+                        embree_->occluded(shadows[i]);
+                        if (shadows[i].tfar > 0)
+                            paths[i].radiance += shadows[i].contribution;
+                        shadows[i].tfar = -1;
+                    }
+                    std::uint8_t type = type_none;
+                    if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
+                        ++closest;
+                        embree_->intersect(ray);
+                        if (ray.inst == NONE) {
+                            type = environment ? type_escape : type_none;
+                        } else {
+                            // varies over the surface and does not depend on the tracer
+                            const glm::vec3 p(ray.u, ray.v, float(ray.prim));
+                            ray.geom = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v}, p);
+                            type = std::uint8_t(scene.materials()[ray.geom].type);
+                        }
+                    }
+                    types_[i] = type;
+                    ++counts_[k][type];
+                }
+                rays_traced += closest;
+                shadows_traced += any;
+            }
+        });
+        // Where each chunk's paths of each type begin in the queue, and its live ones in the next active list.
+        type_count_.fill(0);
+        for (auto& c : counts_)
+            for (std::size_t t = 0; t < type_none; ++t)
+                type_count_[t] += c[t];
+        escaped_ = type_count_[type_escape] > 0;
+        std::array<std::uint32_t, 256> next{};
+        for (std::uint32_t t = 1; t < 256; ++t)
+            next[t] = next[t - 1] + type_count_[t - 1];
+        std::uint32_t live = 0;
+        std::vector<std::uint32_t> live_first(chunks);
+        for (std::size_t k = 0; k < chunks; ++k) {
+            live_first[k] = live;
+            for (std::size_t t = 0; t < type_none; ++t) {
+                const std::uint32_t c = counts_[k][t];
+                counts_[k][t] = next[t];
+                next[t] += c;
+                live += t < type_escape ? c : 0;
+            }
+        }
+        next_active_.resize(live);
+        c_.jobs.parallel_for(chunks, 4, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t k = begin; k < end; ++k) {
+                std::uint32_t to = live_first[k];
+                for (std::size_t a = k * chunk; a < std::min(n, (k + 1) * chunk); ++a) {
+                    const std::uint32_t i = active_[a];
+                    if (types_[i] == type_none)
+                        continue;
+                    queue[counts_[k][types_[i]]++] = i;
+                    if (types_[i] < type_escape)
+                        next_active_[to++] = i;
+                }
+            }
+        });
+        active_.swap(next_active_);
+        stats_.rays += rays_traced;
+        stats_.shadow_rays += shadows_traced;
+        stats_.seconds_tracing += seconds_since(start);
+    }
+
+    TracerContext c_;
+    std::unique_ptr<EmbreeScene> embree_;
+    gpu::Buffer rays_, shadows_, paths_, guides_, queue_, counters_, frame_;
+    gpu::ComputePipeline generate_, escape_, accumulate_;
+    std::vector<gpu::ComputePipeline> shade_; // by material type
+    bool pipelines_ready_ = false, guides_on_ = false, escaped_ = false;
+    Strategy strategy_ = Strategy::mis;
+    gpu::CommandList list_;
+    std::vector<std::uint32_t> active_, next_active_;
+    std::vector<std::uint8_t> types_; // by path
+    std::vector<std::array<std::uint32_t, 256>> counts_;
+    std::array<std::uint32_t, 256> type_count_{};
+};
+
+} // namespace
+
+Result<std::unique_ptr<Tracer>> make_embree_tracer(const TracerContext& context) {
+    auto tracer = std::make_unique<EmbreeTracer>(context);
+    RESTAGE_CHECK(tracer->start());
+    return tracer;
+}
+
+} // namespace restage::render

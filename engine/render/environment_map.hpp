@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The environment as texels with an alias table over the power of each, and its mean over the sphere.
+#pragma once
+
+#include "scene/scene.hpp"
+#include "shared/scene_data.h"
+
+#include <vector>
+
+namespace restage::render {
+
+struct EnvironmentMap {
+    std::uint32_t width = 0, height = 0;
+    std::vector<glm::vec4> texels;         // rgb, row 0 on top; empty for a constant
+    std::vector<shared::AliasEntry> alias; // weight: luminance * solid angle of the texel
+    glm::vec3 mean{0};                     // over the sphere, without scale
+};
+
+// An image without light, or none, gives an empty map with mean 1 (constant) or 0 (black image).
+EnvironmentMap make_environment_map(const scene::PixelData*, RestageMapping);
+
+} // namespace restage::render

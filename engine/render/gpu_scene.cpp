@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gpu_scene.hpp"
+
+#include "render/filter_table.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace restage::render {
+
+using scene::Id;
+using scene::Scene;
+
+static_assert(sizeof(shared::InstanceData) == 168);
+static_assert(sizeof(shared::MaterialData) == 32);
+static_assert(sizeof(shared::TextureOp) == 48);
+static_assert(sizeof(shared::LightData) == 64);
+static_assert(sizeof(shared::ImageData) == 24);
+
+GpuScene::GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup)
+    : device_(&device), jobs_(&jobs), lookup_(std::move(lookup)) {
+    scene_data_.resize(1, {});
+}
+
+const GpuMesh* GpuScene::mesh(Id<scene::Mesh> id) const {
+    const auto it = meshes_.find(id.value);
+    return it == meshes_.end() ? nullptr : &it->second;
+}
+
+Result<SceneChanges> GpuScene::sync(const Scene& scene) {
+    SceneChanges changes;
+    if (!have_origin_) {
+        if (const auto* camera = scene.cameras.find(scene.active_camera.value))
+            origin_ = glm::dvec3(camera->camera_to_world[3]);
+        have_origin_ = true;
+    }
+    const bool meshes = first_ || scene.meshes.version() != seen_.meshes;
+    const bool images = first_ || scene.images.version() != seen_.images;
+    const bool textures = images || scene.textures.version() != seen_.textures;
+    const bool materials = first_ || scene.materials.version() != seen_.materials || textures;
+    const bool instances = first_ || meshes || scene.instances.version() != seen_.instances;
+    const bool lights = instances || images || scene.lights.version() != seen_.lights ||
+                        scene.environment.version != seen_.environment || scene.meshes.version() != seen_.meshes;
+    if (meshes)
+        RESTAGE_CHECK(sync_meshes(scene, changes));
+    if (textures)
+        RESTAGE_CHECK(sync_textures(scene, changes));
+    if (materials || instances) // an instance may bring in a type
+        RESTAGE_CHECK(sync_materials(scene, changes));
+    if (instances || materials)
+        RESTAGE_CHECK(sync_instances(scene, changes));
+    if (lights)
+        RESTAGE_CHECK(sync_lights(scene, changes));
+    RESTAGE_CHECK(sync_root(scene, changes));
+    changes.image = first_ || scene.clock != seen_.settings || changes.image;
+    changes.film = first_ || scene.film.version != seen_.film;
+    seen_ = {.meshes = scene.meshes.version(), .images = scene.images.version(), .textures = scene.textures.version(),
+             .materials = scene.materials.version(), .instances = scene.instances.version(),
+             .lights = scene.lights.version(), .media = scene.media.version(), .cameras = scene.cameras.version(),
+             .environment = scene.environment.version, .active_camera = scene.active_camera.version,
+             .film = scene.film.version, .settings = scene.clock};
+    first_ = false;
+    return changes;
+}
+
+Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
+    mesh_data_.resize(scene.meshes.size() + 1);
+    for (std::uint32_t i = 1; i <= scene.meshes.size(); ++i) {
+        const Id<scene::Mesh> id{i};
+        const auto* mesh = scene.meshes.find(id);
+        if (!mesh || !mesh->data || mesh->data->triangles.empty()) {
+            if (meshes_.erase(i))
+                changes.meshes.push_back(id);
+            mesh_data_[i].reset();
+            continue;
+        }
+        if (mesh_data_[i] == mesh->data && meshes_.contains(i))
+            continue; // a rename is no new geometry
+        const scene::MeshData& data = *mesh->data;
+        GpuMesh g;
+        std::size_t at = 0;
+        const auto place = [&](std::size_t bytes) {
+            const std::size_t here = at;
+            at = (at + bytes + 16 + 15) & ~std::size_t(15); // Embree reads up to 16 bytes past the end
+            return bytes ? here : std::size_t(-1);
+        };
+        const auto positions = place(std::span(data.positions).size_bytes());
+        const auto indices = place(std::span(data.triangles).size_bytes());
+        const auto normals = place(std::span(data.normals).size_bytes());
+        const auto uvs = place(std::span(data.uvs).size_bytes());
+        RESTAGE_TRY(g.buffer, device_->create_buffer(at, gpu::BufferKind::host, mesh->name.c_str()));
+        const auto put = [&](std::size_t offset, std::span<const std::byte> bytes, std::uint64_t& address) -> Result<void> {
+            if (bytes.empty())
+                return {};
+            address = g.buffer.address() + offset;
+            return device_->upload(g.buffer, offset, bytes);
+        };
+        RESTAGE_CHECK(put(positions, std::as_bytes(std::span(data.positions)), g.positions));
+        RESTAGE_CHECK(put(indices, std::as_bytes(std::span(data.triangles)), g.indices));
+        RESTAGE_CHECK(put(normals, std::as_bytes(std::span(data.normals)), g.normals));
+        RESTAGE_CHECK(put(uvs, std::as_bytes(std::span(data.uvs)), g.uvs));
+        g.positions_offset = positions;
+        g.indices_offset = indices;
+        g.vertex_count = std::uint32_t(data.positions.size());
+        g.triangle_count = std::uint32_t(data.triangles.size());
+        g.version = scene.meshes.version(id);
+        meshes_[i] = std::move(g);
+        mesh_data_[i] = mesh->data;
+        changes.meshes.push_back(id);
+    }
+    return {};
+}
+
+Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out) {
+    const scene::PixelData& pixels = *image.data;
+    const std::size_t n = std::size_t(pixels.width) * pixels.height;
+    float largest = 0;
+    for (float v : pixels.values)
+        largest = std::max(largest, std::abs(v));
+    const bool half = largest < 65504.f; // the largest half
+    RESTAGE_TRY(out.buffer, device_->create_buffer(n * (half ? 8 : 16), gpu::BufferKind::host, image.name.c_str()));
+    std::vector<std::byte> staging;
+    std::byte* target = out.buffer.mapped();
+    if (!target) {
+        staging.resize(out.buffer.size());
+        target = staging.data();
+    }
+    jobs_->parallel_for(n, 1 << 14, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const float* v = &pixels.values[i * pixels.channels];
+            const glm::vec4 c = pixels.channels == 1   ? glm::vec4(v[0], v[0], v[0], 1)
+                                : pixels.channels == 3 ? glm::vec4(v[0], v[1], v[2], 1)
+                                                       : glm::vec4(v[0], v[1], v[2], v[3]);
+            if (half) {
+                const std::uint32_t h[2] = {glm::packHalf2x16({c.x, c.y}), glm::packHalf2x16({c.z, c.w})};
+                std::memcpy(target + i * 8, h, 8);
+            } else {
+                std::memcpy(target + i * 16, &c, 16);
+            }
+        }
+    });
+    if (!staging.empty())
+        RESTAGE_CHECK(device_->upload(out.buffer, 0, staging));
+    out.data = image.data;
+    return {};
+}
+
+Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges&) {
+    pixels_.resize(scene.images.size() + 1);
+    cpu_images_.resize(pixels_.size());
+    std::vector<char> used(pixels_.size());
+    scene.textures.each([&](Id<scene::Texture>, const scene::Texture& t) {
+        if (t.image)
+            used[t.image.value] = 1;
+    });
+    images_.resize(pixels_.size(), {});
+    for (std::uint32_t i = 1; i < pixels_.size(); ++i) {
+        const auto* image = scene.images.find({i});
+        if (!image || !image->data || !used[i]) {
+            pixels_[i] = {};
+            cpu_images_[i] = {};
+            continue;
+        }
+        if (pixels_[i].data == image->data)
+            continue;
+        RESTAGE_CHECK(upload_image(*image, pixels_[i]));
+        cpu_images_[i].pixels = pixels_[i].data.get();
+        const std::size_t n = std::size_t(image->data->width) * image->data->height;
+        images_.set(i, {pixels_[i].buffer.address(), image->data->width, image->data->height,
+                        pixels_[i].buffer.size() == n * 8 ? TEXEL_HALF4 : TEXEL_FLOAT4, 0});
+    }
+    textures_ = compile_textures(scene);
+    programs_.assign(textures_.programs);
+    ops_.assign(textures_.ops);
+    RESTAGE_CHECK(images_.flush(*device_));
+    RESTAGE_CHECK(programs_.flush(*device_));
+    return ops_.flush(*device_);
+}
+
+glm::vec2 GpuScene::uv_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
+                          glm::vec2 b) const {
+    if (!(instance.flags & INSTANCE_HAS_UVS))
+        return b;
+    const auto t = mesh.triangles[prim];
+    return (1 - b.x - b.y) * mesh.uvs[t.x] + b.x * mesh.uvs[t.y] + b.y * mesh.uvs[t.z];
+}
+
+namespace {
+// The same hash as shaders/lib/hash.glsl: both tracers cut out alike.
+std::uint32_t pcg(std::uint32_t x) {
+    const std::uint32_t s = x * 747796405u + 2891336453u;
+    const std::uint32_t w = ((s >> ((s >> 28u) + 4u)) ^ s) * 277803737u;
+    return (w >> 22u) ^ w;
+}
+float hash_unit(std::initializer_list<float> values) {
+    std::uint32_t h = 0x9e3779b9u;
+    for (float v : values)
+        h = pcg(h ^ std::bit_cast<std::uint32_t>(v));
+    return float(h >> 8) * (1.f / 16777216.f);
+}
+} // namespace
+
+bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const float* o, const float* d) const {
+    const auto& instance = instances_[id];
+    float alpha = instance.alpha;
+    if (instance.alpha_texture)
+        alpha = evaluate_texture(textures_, cpu_images_, instance.alpha_texture,
+                                 uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary)).x;
+    if (alpha >= 1)
+        return true;
+    return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2]}) < alpha; // pbrt 4ed, 7.1.1
+}
+
+std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const glm::vec3& p) const {
+    const auto& instance = instances_[id];
+    std::uint32_t m = instance.material;
+    for (int depth = 0; depth < 8 && types_[materials_[m].type].mix(); ++depth) {
+        float amount = mix_amount_[m];
+        if (mix_texture_[m])
+            amount = evaluate_texture(textures_, cpu_images_, mix_texture_[m],
+                                      uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary)).x;
+        const bool second = hash_unit({p.x, p.y, p.z, float(depth)}) < amount;
+        m = second ? materials_[m].mix_second : materials_[m].mix_first;
+    }
+    return types_[materials_[m].type].mix() ? 0 : m; // deeper than 8: the placeholder
+}
+
+std::size_t GpuScene::bytes() const {
+    std::size_t sum = instances_.size() * sizeof(shared::InstanceData) + lights_.size() * sizeof(shared::LightData) +
+                      env_texels_.size() * sizeof(glm::vec4) + env_alias_.size() * sizeof(shared::AliasEntry);
+    for (const auto& [id, mesh] : meshes_)
+        sum += mesh.buffer.size();
+    for (const auto& p : pixels_)
+        sum += p.buffer.size();
+    return sum;
+}
+
+std::size_t GpuScene::uploaded_bytes() const {
+    return instances_.uploaded_bytes() + materials_.uploaded_bytes() + params_.uploaded_bytes() +
+           programs_.uploaded_bytes() + ops_.uploaded_bytes() + images_.uploaded_bytes() + lights_.uploaded_bytes() +
+           light_alias_.uploaded_bytes() + media_.uploaded_bytes() + env_texels_.uploaded_bytes() +
+           env_alias_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes();
+}
+
+} // namespace restage::render

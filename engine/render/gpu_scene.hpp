@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// GpuScene: the scene as tracers see it, derived from a scene::Scene by comparing version counters. Moving one of many
+// instances rewrites one record. World space is relative to origin(), the camera's position when the scene was opened.
+// One thread at a time; no work that reads it may be running during sync().
+#pragma once
+
+#include "base/jobs.hpp"
+#include "gpu/device.hpp"
+#include "render/environment_map.hpp"
+#include "render/gpu_array.hpp"
+#include "render/light_table.hpp"
+#include "render/material_composer.hpp"
+#include "render/texture_program.hpp"
+#include "scene/scene.hpp"
+
+#include <memory>
+#include <unordered_map>
+
+namespace restage::render {
+
+// A mesh in memory that Embree, kernels and the builder of acceleration structures share.
+struct GpuMesh {
+    gpu::Buffer buffer; // positions, normals, uvs, indices, each 16-byte aligned
+    std::uint64_t positions = 0, normals = 0, uvs = 0, indices = 0; // addresses; 0 = has none
+    std::size_t positions_offset = 0, indices_offset = 0;           // in the buffer, for Embree
+    std::uint32_t vertex_count = 0, triangle_count = 0;
+    scene::Version version = 0;
+};
+
+// What a sync found to have changed; tracers update themselves by it.
+struct SceneChanges {
+    bool image = false;    // anything that changes the picture: the film starts again
+    bool shaders = false;  // material types or features: pipelines
+    std::vector<scene::Id<scene::Mesh>> meshes;         // new or replaced
+    std::vector<scene::Id<scene::Instance>> instances;  // moved, added, removed, shown, hidden; or of a replaced mesh
+    bool film = false;     // size or crop
+};
+
+class GpuScene {
+public:
+    GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup);
+
+    // Result: what changed. After an error the GpuScene must not be traced.
+    Result<SceneChanges> sync(const scene::Scene& scene);
+
+    std::uint64_t address() const { return scene_data_.address(); } // of shared::SceneData
+    const shared::SceneData& data() const { return scene_data_[0]; }
+    const glm::dvec3& origin() const { return origin_; }
+    const SceneFeatures& features() const { return features_; }
+
+    // By index into types(), as in shared::MaterialData::type. Types never change place while the scene lives.
+    const std::vector<MaterialType>& types() const { return types_; }
+    const std::vector<shared::MaterialData>& materials() const { return materials_.host(); }
+    const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
+    const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
+    // Is this instance something rays can hit?
+    bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
+    scene::Id<scene::Mesh> mesh_of(std::uint32_t instance) const { return mesh_of_[instance]; }
+
+    // What the CPU resolves at a hit (thread-safe).
+    bool alpha_passes(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const float* org, const float* dir) const;
+    // The material of a hit, through mixes. p: anything that varies over the surface.
+    std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const glm::vec3& p) const;
+
+    std::size_t bytes() const; // of device memory
+    std::size_t uploaded_bytes() const;
+
+private:
+    struct Pixels {
+        gpu::Buffer buffer;
+        scene::Version version = 0;
+        std::shared_ptr<const scene::PixelData> data;
+    };
+    Result<void> sync_meshes(const scene::Scene&, SceneChanges&);
+    Result<void> sync_textures(const scene::Scene&, SceneChanges&);
+    Result<void> sync_materials(const scene::Scene&, SceneChanges&);
+    Result<void> sync_instances(const scene::Scene&, SceneChanges&);
+    Result<void> sync_lights(const scene::Scene&, SceneChanges&);
+    Result<void> sync_root(const scene::Scene&, SceneChanges&);
+    Result<void> upload_image(const scene::Image&, Pixels&);
+    std::uint32_t type_index(const std::string& type);
+    shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
+    glm::vec2 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
+
+    gpu::Device* device_;
+    Jobs* jobs_;
+    MaterialLookup lookup_;
+    glm::dvec3 origin_{0};
+    bool have_origin_ = false;
+    SceneFeatures features_;
+
+    std::unordered_map<std::uint32_t, GpuMesh> meshes_;
+    std::vector<std::shared_ptr<const scene::MeshData>> mesh_data_; // by Id<Mesh>::value
+    std::vector<Pixels> pixels_;                                    // by Id<Image>::value
+    std::vector<CpuImage> cpu_images_;
+    TexturePrograms textures_;
+    std::vector<MaterialType> types_;
+    std::vector<float> mix_amount_; // constants by MaterialData index
+    std::vector<std::uint32_t> mix_texture_;
+    std::vector<char> traced_;
+    std::vector<scene::Id<scene::Mesh>> mesh_of_;
+    EnvironmentMap environment_;
+
+    GpuArray<shared::InstanceData> instances_{"instances"};
+    GpuArray<shared::MaterialData> materials_{"materials"};
+    GpuArray<std::uint32_t> params_{"material parameters"};
+    GpuArray<shared::TextureProgram> programs_{"textures"};
+    GpuArray<shared::TextureOp> ops_{"texture operations"};
+    GpuArray<shared::ImageData> images_{"images"};
+    GpuArray<shared::LightData> lights_{"lights"};
+    GpuArray<shared::AliasEntry> light_alias_{"light alias table"};
+    GpuArray<shared::MediumData> media_{"media"};
+    GpuArray<glm::vec4> env_texels_{"environment"};
+    GpuArray<shared::AliasEntry> env_alias_{"environment alias table"};
+    GpuArray<float> filter_{"pixel filter"};
+    GpuArray<shared::SceneData> scene_data_{"scene"};
+    LightTable light_table_;
+    double radius_ = 1; // of what is visible
+    glm::vec2 filter_weight_{1};
+    std::uint32_t filter_entries_ = 0;
+
+    struct Versions {
+        scene::Version meshes = 0, images = 0, textures = 0, materials = 0, instances = 0, lights = 0, media = 0,
+                       cameras = 0, environment = 0, active_camera = 0, film = 0, settings = 0;
+    } seen_;
+    bool first_ = true;
+};
+
+} // namespace restage::render

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+// GpuScene's derivation of materials, instances, lights and the root record.
+#include "render/filter_table.hpp"
+#include "render/gpu_scene.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace restage::render {
+
+using scene::Id;
+using scene::Scene;
+
+std::uint32_t GpuScene::type_index(const std::string& type) {
+    for (std::uint32_t i = 0; i < types_.size(); ++i)
+        if (types_[i].type == type)
+            return i;
+    MaterialType t;
+    t.type = type;
+    if (const auto plugin = lookup_(type))
+        t.plugin = *plugin;
+    types_.push_back(t);
+    return std::uint32_t(types_.size() - 1);
+}
+
+// Material records: 0 is the placeholder, then one per Id<Material>. Only types that a visible instance uses are noted.
+Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes) {
+    std::vector<char> used(scene.materials.size() + 1);
+    const auto use = [&](auto&& self, Id<scene::Material> id, int depth) -> void {
+        const auto* m = scene.materials.find(id);
+        if (!m || depth > 8 || used[id.value])
+            return;
+        used[id.value] = 1;
+        for (const auto& e : m->params.entries())
+            if (e.value.type == RESTAGE_MATERIAL)
+                self(self, e.value.material, depth + 1);
+    };
+    scene.instances.each([&](Id<scene::Instance>, const scene::Instance& i) {
+        if (!i.hidden)
+            use(use, i.material, 0);
+    });
+
+    const auto old_types = types_;
+    for (auto& t : types_) {
+        t.textured = 0;
+        t.bump = false;
+    }
+    const std::uint32_t fallback = type_index("diffuse"); // what a missing plugin's materials look like
+    if (!types_[fallback].plugin.table)
+        return fail("no plugin for the material type \"diffuse\": Restage's own plugins were not found; look at "
+                    "`restage plugins`");
+    std::vector<shared::MaterialData> records(scene.materials.size() + 1);
+    std::vector<std::uint32_t> words;
+    mix_amount_.assign(records.size(), 0.5f);
+    mix_texture_.assign(records.size(), 0);
+    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type) {
+        record.type = type;
+        record.params = std::uint32_t(words.size());
+        const auto packed = pack_material(*types_[type].plugin.table, params);
+        words.insert(words.end(), packed.begin(), packed.end());
+    };
+    scene::ParamSet pink;
+    pink.set("reflectance", scene::Value::color(0.8f, 0.1f, 0.5f));
+    pack(records[0], pink, fallback);
+
+    scene.materials.each([&](Id<scene::Material> id, const scene::Material& m) {
+        shared::MaterialData& record = records[id.value];
+        record = records[0];
+        record.id = id.value;
+        if (!used[id.value])
+            return;
+        const std::uint32_t index = type_index(m.type);
+        MaterialType& type = types_[index];
+        if (!type.plugin.table)
+            return;
+        if (type.mix()) {
+            record.type = index;
+            const auto child = [&](const char* param) {
+                const auto* v = m.params.find(param);
+                return v && scene.materials.find(v->material) ? v->material.value : 0u;
+            };
+            record.mix_first = child("first");
+            record.mix_second = child("second");
+            mix_amount_[id.value] = m.params.number("amount", 0.5f);
+            mix_texture_[id.value] = m.params.texture("amount").value;
+            // words: amount, texture - for the tracer that resolves mixes in its shaders
+            record.params = std::uint32_t(words.size());
+            words.push_back(std::bit_cast<std::uint32_t>(mix_amount_[id.value]));
+            words.push_back(mix_texture_[id.value]);
+            return;
+        }
+        if (type.null_surface()) {
+            record.type = index;
+            return;
+        }
+        pack(record, m.params, index);
+        record.bump = m.params.texture("bump").value;
+        record.normal_map = m.params.texture("normalmap").value;
+        type.bump |= record.bump || record.normal_map;
+        const RestageMaterial1& table = *type.plugin.table;
+        for (std::uint32_t i = 0; i < table.param_count; ++i)
+            if ((table.params[i].flags & RESTAGE_PARAM_TEXTURABLE) && m.params.texture(table.params[i].id))
+                type.textured |= std::uint64_t(1) << i;
+    });
+    changes.shaders |= old_types.size() != types_.size();
+    for (std::size_t i = 0; i < old_types.size() && !changes.shaders; ++i)
+        changes.shaders = old_types[i].textured != types_[i].textured || old_types[i].bump != types_[i].bump;
+    materials_.assign(std::move(records));
+    params_.assign(std::move(words));
+    RESTAGE_CHECK(materials_.flush(*device_));
+    return params_.flush(*device_);
+}
+
+shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t id, const scene::Instance& in) const {
+    shared::InstanceData out{};
+    glm::dmat4 m = in.object_to_world;
+    m[3] -= glm::dvec4(origin_, 0);
+    out.object_to_world = glm::mat4x3(m);
+    out.normal_to_world = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(in.object_to_world))));
+    out.material = scene.materials.find(in.material) ? in.material.value : 0;
+    out.light_base = NONE;
+    out.object_id = id;
+    out.alpha_texture = scene.textures.find(in.alpha_texture) ? in.alpha_texture.value : 0;
+    out.alpha = in.alpha;
+    if (in.reverse_orientation)
+        out.flags |= INSTANCE_FLIP_NORMAL;
+    if (out.alpha_texture || in.alpha < 1)
+        out.flags |= INSTANCE_HAS_ALPHA;
+    if (in.emission) {
+        out.flags |= INSTANCE_EMITS | (in.emission->two_sided ? INSTANCE_TWO_SIDED : 0);
+        out.emission = in.emission->radiance;
+    }
+    if (in.media) {
+        out.flags |= INSTANCE_HAS_MEDIA;
+        out.interior = in.media->interior.value;
+        out.exterior = in.media->exterior.value;
+    }
+    if (const GpuMesh* g = mesh(in.mesh)) {
+        out.positions = g->positions;
+        out.normals = g->normals;
+        out.uvs = g->uvs;
+        out.indices = g->indices;
+        out.flags |= (g->normals ? INSTANCE_HAS_NORMALS : 0) | (g->uvs ? INSTANCE_HAS_UVS : 0);
+    }
+    return out;
+}
+
+Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes) {
+    const std::uint32_t n = scene.instances.size() + 1;
+    const std::uint32_t old = std::uint32_t(traced_.size());
+    if (instances_.size() != n) {
+        instances_.resize(n, {});
+        traced_.resize(n, 0);
+        mesh_of_.resize(n);
+    }
+    std::vector<char> replaced(scene.meshes.size() + 1);
+    for (auto id : changes.meshes)
+        replaced[id.value] = 1;
+    for (std::uint32_t i = 1; i < n; ++i) {
+        const Id<scene::Instance> id{i};
+        const auto* in = scene.instances.find(id);
+        const auto* material = in ? scene.materials.find(in->material) : nullptr;
+        // `interface`: rays pass through, unless it shines
+        const bool nothing = material && types_[materials_[in->material.value].type].null_surface();
+        const bool traced = in && !in->hidden && mesh(in->mesh) && (!nothing || in->emission);
+        const bool changed = i >= old || scene.instances.version(id) > seen_.instances || traced != (traced_[i] != 0) ||
+                             (in && replaced[in->mesh.value]);
+        if (!changed)
+            continue;
+        auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
+        record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
+        if (nothing)
+            record.material = 0;
+        instances_.set(i, record);
+        traced_[i] = traced;
+        mesh_of_[i] = in ? in->mesh : Id<scene::Mesh>{};
+        changes.instances.push_back(id);
+    }
+    return instances_.flush(*device_);
+}
+
+Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges&) {
+    const auto& env = scene.environment.value;
+    if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
+        const auto* image = env ? scene.images.find(env->image) : nullptr;
+        environment_ = make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : RESTAGE_EQUIRECT);
+        env_texels_.assign(environment_.texels);
+        env_alias_.assign(environment_.alias);
+        RESTAGE_CHECK(env_texels_.flush(*device_));
+        RESTAGE_CHECK(env_alias_.flush(*device_));
+    }
+    // Radius of the scene: of what is visible, about its centre.
+    glm::dvec3 lower(1e300), upper(-1e300);
+    scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& i) {
+        if (!traced_[id.value])
+            return;
+        const auto& mesh = *scene.meshes[i.mesh].data;
+        for (int k = 0; k < 8; ++k) {
+            const glm::dvec3 corner(k & 1 ? mesh.upper.x : mesh.lower.x, k & 2 ? mesh.upper.y : mesh.lower.y,
+                                    k & 4 ? mesh.upper.z : mesh.lower.z);
+            const glm::dvec3 p(i.object_to_world * glm::dvec4(corner, 1));
+            lower = glm::min(lower, p);
+            upper = glm::max(upper, p);
+        }
+    });
+    radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
+
+    light_table_ = make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), radius_);
+    for (std::uint32_t i = 1; i < instances_.size(); ++i)
+        if (instances_[i].light_base != light_table_.light_base[i]) {
+            auto record = instances_[i];
+            record.light_base = light_table_.light_base[i];
+            instances_.set(i, record);
+        }
+    lights_.assign(light_table_.lights);
+    light_alias_.assign(light_table_.alias);
+    RESTAGE_CHECK(instances_.flush(*device_));
+    RESTAGE_CHECK(lights_.flush(*device_));
+    return light_alias_.flush(*device_);
+}
+
+namespace {
+
+// pbrt 4ed, 5.2: the screen window at z = 1, `fov` on the shorter side.
+void set_camera(const Scene& scene, const glm::dvec3& origin, shared::CameraData& out) {
+    const scene::Film& film = scene.film.value;
+    out.width = film.width;
+    out.height = film.height;
+    const scene::Camera* found = scene.cameras.find(scene.active_camera.value);
+    const scene::Camera camera = found ? *found : scene::Camera{};
+    glm::dmat4 m = camera.camera_to_world;
+    m[3] -= glm::dvec4(origin, 0);
+    out.camera_to_world = glm::mat4x3(m);
+    const double aspect = camera.frame_aspect > 0 ? camera.frame_aspect : double(film.width) / film.height;
+    glm::dvec4 window = aspect > 1 ? glm::dvec4(-aspect, aspect, -1, 1) : glm::dvec4(-1, 1, -1 / aspect, 1 / aspect);
+    if (camera.screen_window)
+        window = *camera.screen_window;
+    window *= std::tan(glm::radians(double(camera.fov)) / 2);
+    out.screen_min = {window.x, window.w};
+    out.screen_max = {window.y, window.z};
+    out.lens_radius = camera.lens_radius;
+    out.focal_distance = camera.focal_distance;
+}
+
+} // namespace
+
+Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
+    if (first_ || scene.media.version() != seen_.media) {
+        std::vector<shared::MediumData> media(scene.media.size() + 1);
+        scene.media.each([&](Id<scene::Medium> id, const scene::Medium& m) { media[id.value].sigma_a = m.sigma_a; });
+        media_.assign(std::move(media));
+        RESTAGE_CHECK(media_.flush(*device_));
+    }
+    shared::SceneData d{};
+    d.instances = instances_.address();
+    d.materials = materials_.address();
+    d.params = params_.address();
+    d.textures = programs_.address();
+    d.texture_ops = ops_.address();
+    d.images = images_.address();
+    d.lights = lights_.address();
+    d.light_alias = light_alias_.address();
+    d.media = media_.address();
+    d.light_count = std::uint32_t(lights_.size());
+    d.environment.light = light_table_.environment;
+    if (const auto& env = scene.environment.value) {
+        const glm::dmat3 rotation(env->light_to_world);
+        d.environment.world_from_env = glm::mat3(rotation);
+        d.environment.env_from_world = glm::mat3(glm::inverse(rotation));
+        d.environment.scale = env->scale;
+        d.environment.mapping = environment_.texels.empty()          ? ENV_CONSTANT
+                                : env->mapping == RESTAGE_OCTAHEDRAL ? ENV_OCTAHEDRAL
+                                                                     : ENV_EQUIRECT;
+        d.environment.width = environment_.width;
+        d.environment.height = environment_.height;
+        d.environment.texels = env_texels_.address();
+        d.environment.alias = env_alias_.address();
+    }
+    set_camera(scene, origin_, d.camera);
+    const scene::Filter& filter = scene.film.value.filter;
+    d.filter_.radius = filter.radius;
+    d.filter_.weight = glm::vec2(1);
+    d.filter_.kind = filter.kind == scene::FilterKind::box        ? FILTER_BOX
+                     : filter.kind == scene::FilterKind::triangle ? FILTER_TRIANGLE
+                                                                  : FILTER_TABLE;
+    if (first_ || scene.film.version != seen_.film) {
+        FilterTable table;
+        if (d.filter_.kind == FILTER_TABLE)
+            table = make_filter_table(filter);
+        filter_.assign(std::move(table.data));
+        RESTAGE_CHECK(filter_.flush(*device_));
+        filter_weight_ = table.weight;
+        filter_entries_ = table.entries;
+    }
+    d.filter_.table = filter_.address();
+    d.filter_.table_size = filter_entries_;
+    d.filter_.weight = filter_weight_;
+    const scene::Settings& settings = scene.settings.value;
+    d.max_depth = std::min(settings.max_depth, 0xfffeu);
+    d.russian_roulette = settings.russian_roulette;
+    d.camera_medium = settings.camera_medium.value;
+    d.clamp_direct = settings.clamp_direct;
+    d.clamp_indirect = settings.clamp_indirect;
+    d.ray_epsilon = settings.ray_epsilon;
+    scene_data_.set(0, d);
+    RESTAGE_CHECK(scene_data_.flush(*device_));
+
+    SceneFeatures f;
+    f.environment = d.environment.light != NONE;
+    f.lens = d.camera.lens_radius > 0;
+    f.media = scene.media.live() > 0;
+    f.filter_table = d.filter_.kind == FILTER_TABLE;
+    changes.shaders |= f != features_ || first_;
+    features_ = f;
+    return {};
+}
+
+} // namespace restage::render

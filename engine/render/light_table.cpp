@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light_table.hpp"
+
+#include "render/alias_table.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace restage::render {
+namespace {
+
+using scene::Id;
+using shared::LightData;
+constexpr double pi = std::numbers::pi;
+
+double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+bool visible(const scene::Scene& scene, const scene::Instance& instance) {
+    const auto* mesh = scene.meshes.find(instance.mesh);
+    return !instance.hidden && mesh && mesh->data;
+}
+
+} // namespace
+
+glm::dvec3 outward_normal(const scene::Instance& instance, const scene::MeshData& mesh, const glm::uvec3& t) {
+    const glm::dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
+    const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(glm::dmat3(instance.object_to_world)));
+    glm::dvec3 n = normal_to_world * glm::cross(p1 - p0, p2 - p0);
+    if (!mesh.normals.empty()) {
+        // a flip by reverse_orientation turns both normals, and the geometric one then follows the shading one
+        const glm::dvec3 s = normal_to_world * glm::dvec3(mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]);
+        if (glm::dot(n, s) < 0)
+            n = -n;
+    }
+    return instance.reverse_orientation ? -n : n;
+}
+
+LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
+                            double radius) {
+    LightTable table;
+    table.light_base.assign(scene.instances.size() + 1, NONE);
+    std::vector<double> power;
+
+    scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& instance) {
+        if (!instance.emission || !visible(scene, instance) || luminance(instance.emission->radiance) <= 0)
+            return;
+        const auto& mesh = *scene.meshes[instance.mesh].data;
+        table.light_base[id.value] = std::uint32_t(table.lights.size());
+        const double exitance = pi * luminance(instance.emission->radiance) * (instance.emission->two_sided ? 2 : 1);
+        for (const auto& t : mesh.triangles) {
+            const auto world = [&](std::uint32_t i) {
+                return glm::dvec3(instance.object_to_world * glm::dvec4(mesh.positions[i], 1)) - origin;
+            };
+            const glm::dvec3 p0 = world(t.x);
+            glm::dvec3 b = world(t.y) - p0, c = world(t.z) - p0;
+            if (glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0)
+                std::swap(b, c);
+            const double area = 0.5 * glm::length(glm::cross(b, c));
+            LightData light{};
+            light.kind = LIGHT_TRIANGLE | (instance.emission->two_sided ? LIGHT_TWO_SIDED : 0);
+            light.a = p0;
+            light.b = b;
+            light.c = c;
+            light.area = float(area);
+            light.value = instance.emission->radiance;
+            table.lights.push_back(light);
+            power.push_back(std::isfinite(area) ? exitance * area : 0);
+        }
+    });
+    scene.lights.each([&](Id<scene::Light>, const scene::Light& item) {
+        const glm::dmat4& m = item.light_to_world;
+        LightData light{};
+        light.value = item.value;
+        light.a = glm::dvec3(m[3]) - origin;
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(m[2]));
+        switch (item.kind) {
+        case RESTAGE_LIGHT_POINT:
+            light.kind = LIGHT_POINT;
+            power.push_back(4 * pi * luminance(item.value));
+            break;
+        case RESTAGE_LIGHT_SPOT: { // pbrt 4ed, eq. 12.5
+            light.kind = LIGHT_SPOT;
+            light.b = axis;
+            const double total = std::cos(glm::radians(double(item.cone_angle)));
+            const double start = std::cos(glm::radians(double(item.cone_angle - item.cone_delta)));
+            light.c = {total, start, 0};
+            power.push_back(2 * pi * ((1 - start) + (start - total) / 2) * luminance(item.value));
+            break;
+        }
+        case RESTAGE_LIGHT_DISTANT:
+            light.kind = LIGHT_DISTANT;
+            light.b = -axis;
+            power.push_back(pi * radius * radius * luminance(item.value));
+            break;
+        }
+        table.lights.push_back(light);
+    });
+    if (scene.environment.value && luminance(environment_mean) > 0) {
+        LightData light{};
+        light.kind = LIGHT_ENVIRONMENT;
+        table.environment = std::uint32_t(table.lights.size());
+        table.lights.push_back(light);
+        power.push_back(4 * pi * pi * radius * radius * luminance(environment_mean));
+    }
+    table.alias = make_alias_table(power);
+    if (table.alias.empty()) {
+        table.lights.clear();
+        table.environment = NONE;
+        table.light_base.assign(table.light_base.size(), NONE);
+    }
+    for (std::size_t i = 0; i < table.lights.size(); ++i)
+        table.lights[i].pmf = table.alias[i].pmf;
+    return table;
+}
+
+} // namespace restage::render

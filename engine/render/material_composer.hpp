@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials are composed, not linked: for each type in the scene a shader from its parameter struct, its fetch code, the
+// plugin's GLSL and the tracer's own main.
+#pragma once
+
+#include "gpu/compiler.hpp"
+#include "gpu/pipeline.hpp"
+#include "render/material_types.hpp"
+
+#include <vector>
+
+namespace restage::render {
+
+// What the whole scene does not use; see the constants of shaders/lib/scene.glsl.
+struct SceneFeatures {
+    bool environment = false;
+    bool lens = false;
+    bool media = false;
+    bool filter_table = false;
+    bool operator==(const SceneFeatures&) const = default;
+};
+enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };
+
+// `main_file`: "wave_shade.glsl" or what another tracer wraps around path_step.
+gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage);
+
+// For a material's shader: what this type uses; or for a kernel without material.
+std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures&, bool guides, Strategy, const MaterialType* = nullptr);
+
+} // namespace restage::render

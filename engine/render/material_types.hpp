@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The material types a scene uses, and how a material's values lie in the parameter words that shaders read.
+// render/material_composer.cpp writes the GLSL that reads what pack_material writes: both follow for_each_word.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <restage/material.h>
+#include <string>
+#include <vector>
+
+namespace restage::render {
+
+struct MaterialPlugin {
+    const RestageMaterial1* table = nullptr;
+    std::filesystem::path folder; // where its GLSL is
+};
+// Finds the plugin of a material type; nullopt = there is none. The tables outlive the renderer.
+using MaterialLookup = std::function<std::optional<MaterialPlugin>(const std::string& type)>;
+
+struct MaterialType {
+    std::string type;
+    MaterialPlugin plugin;
+    std::uint64_t textured = 0; // bit i: some material of the scene has a texture in table line i
+    bool bump = false;          // some material of the type has a bump or normal map
+    bool mix() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_MIX); }
+    bool null_surface() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_NULL); }
+};
+
+// Words of one table line: its components, then the texture when it may have one. Lines shaders never see have none.
+std::uint32_t value_words(const RestageParam&);
+inline std::uint32_t line_words(const RestageParam& p) {
+    const auto n = value_words(p);
+    return n == 0 ? 0 : n + ((p.flags & RESTAGE_PARAM_TEXTURABLE) ? 1 : 0);
+}
+
+// The words of one material: values of the table's lines in order, defaults where nothing is set.
+std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::ParamSet&);
+
+} // namespace restage::render

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tracer: who finds the hits. Two of them, over one path step; both fill the same film with the same picture.
+#pragma once
+
+#include "base/jobs.hpp"
+#include "gpu/compiler.hpp"
+#include "gpu/device.hpp"
+#include "render/film.hpp"
+#include "render/gpu_scene.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace restage::render {
+
+struct TracerContext {
+    gpu::Device& device;
+    const gpu::ShaderCompiler& compiler;
+    Jobs& jobs;
+    Log& log;
+    std::filesystem::path shader_dir;
+};
+
+struct TraceRequest {
+    std::uint32_t first_sample = 0, samples = 1; // a pixel
+    std::uint32_t seed = 0;
+    std::uint32_t crop_x = 0, crop_y = 0; // of the film's first pixel within the camera's
+    bool guides = true;
+    Strategy strategy = Strategy::mis;
+    // Asked between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.
+    std::function<bool()> keep_going;
+};
+
+struct TraceStats {
+    std::uint64_t rays = 0, shadow_rays = 0, paths = 0;
+    double seconds = 0, seconds_shading = 0, seconds_tracing = 0; // wall
+    std::map<std::string, std::uint64_t> not_finite;              // samples dropped, by material type
+    std::size_t shader_bytes = 0; // SPIR-V of all kernels in use
+};
+
+class Tracer {
+public:
+    virtual ~Tracer() = default;
+    virtual const char* name() const = 0;
+    // Brings pipelines and acceleration structures up to date.
+    virtual Result<void> update(const GpuScene& scene, const SceneChanges& changes) = 0;
+    // Adds samples to the film; waits.
+    virtual Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) = 0;
+    const TraceStats& stats() const { return stats_; }
+    void reset_stats() { stats_ = {.shader_bytes = stats_.shader_bytes}; }
+
+protected:
+    TraceStats stats_;
+};
+
+Result<std::unique_ptr<Tracer>> make_embree_tracer(const TracerContext& context); // wavefront, see embree_tracer.cpp
+Result<std::unique_ptr<Tracer>> make_vulkan_tracer(const TracerContext& context); // ray-tracing pipeline
+
+} // namespace restage::render
