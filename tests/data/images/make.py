@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+# Writes the pictures beside it, all of one motif: 16 x 8 texels, (200,100,50) left of column 8 and (20,60,220) right of
+# it, with the top left texel (255,255,255). Needs Pillow. The results are checked in; this is their source.
+import pathlib
+import struct
+import zlib
+
+from PIL import Image
+
+here = pathlib.Path(__file__).parent
+LEFT, RIGHT, WHITE = (200, 100, 50), (20, 60, 220), (255, 255, 255)
+
+
+def texel(x, y):
+    return WHITE if x == y == 0 else LEFT if x < 8 else RIGHT
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png16(path):  # 16-bit RGB, which Pillow cannot write: v * 257 is the same value
+    rows = b"".join(b"\0" + b"".join(struct.pack(">3H", *(c * 257 for c in texel(x, y))) for x in range(16)) for y in range(8))
+    header = struct.pack(">IIBBBBB", 16, 8, 16, 2, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def tga16(path):  # X1R5G5B5, bottom up
+    rows = b""
+    for y in reversed(range(8)):
+        for x in range(16):
+            r, g, b = (c >> 3 for c in texel(x, y))
+            rows += struct.pack("<H", r << 10 | g << 5 | b)
+    path.write_bytes(struct.pack("<BBBHHBHHHHBB", 0, 0, 2, 0, 0, 0, 0, 0, 16, 8, 16, 0) + rows)
+
+
+rgb = Image.new("RGB", (16, 8))
+rgb.putdata([texel(x, y) for y in range(8) for x in range(16)])
+rgba = rgb.convert("RGBA")
+rgba.putalpha(128)
+grey_alpha = Image.new("LA", (16, 8), (100, 128))
+flat = Image.new("RGB", (16, 8), LEFT)  # lossy formats: nothing to ring
+
+rgb.save(here / "rgb8.png", optimize=True)
+rgba.save(here / "rgba8.png", optimize=True)
+grey_alpha.save(here / "grey_alpha8.png", optimize=True)
+rgb.quantize(16).save(here / "palette.png", optimize=True)
+png16(here / "rgb16.png")
+flat.save(here / "baseline.jpg", quality=95, optimize=True, subsampling=0)
+flat.save(here / "progressive.jpg", quality=95, progressive=True, subsampling=2)
+flat.convert("L").save(here / "grey.jpg", quality=95, optimize=True)
+rgb.save(here / "rgb24.bmp")
+rgb.save(here / "rgb24.tga")
+rgb.save(here / "rgb24_rle.tga", compression="tga_rle")
+rgba.save(here / "rgba32_rle.tga", compression="tga_rle")
+rgb.convert("L").save(here / "grey8.tga")
+tga16(here / "rgb16.tga")
