@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tileable noise, and PNG and PFM writers on the standard library: what the textures of the bundled scenes need."""
+import struct
+import zlib
+
+import numpy as np
+
+
+def noise(shape, seed, beta=1.0, stretch=(1.0, 1.0), low=1.0):
+    """Tileable 1/f^beta noise of unit variance; stretch > 1 elongates an axis (rows, columns); low cuts below cycles."""
+    white = np.random.default_rng(seed).standard_normal(shape)
+    fy = np.fft.fftfreq(shape[0])[:, None] * shape[0] * stretch[0]
+    fx = np.fft.rfftfreq(shape[1])[None, :] * shape[1] * stretch[1]
+    f = np.hypot(fy, fx)
+    gain = np.where(f >= low, 1 / np.maximum(f, 1e-9)**beta, 0.0)
+    out = np.fft.irfft2(np.fft.rfft2(white) * gain, shape)
+    return (out - out.mean()) / out.std()
+
+
+def smoothstep(a, b, x):
+    t = np.clip((x - a) / (b - a), 0, 1)
+    return t * t * (3 - 2 * t)
+
+
+def mix(a, b, t):
+    """Between two colours (or images), t an image or a number."""
+    t = np.asarray(t, float)
+    a, b = np.asarray(a, float), np.asarray(b, float)
+    if t.ndim == 2:
+        t = t[..., None]
+    return a * (1 - t) + b * t
+
+
+def srgb(linear):
+    x = np.clip(linear, 0, 1)
+    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9)**(1 / 2.4) - 0.055)
+
+
+def linear(encoded):
+    x = np.asarray(encoded, float)
+    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055)**2.4)
+
+
+def colour(hexadecimal):
+    """'#a0703c' as sRGB-encoded floats (textures are painted in sRGB)."""
+    return np.array([int(hexadecimal[k:k + 2], 16) for k in (1, 3, 5)]) / 255
+
+
+def _filtered(rows):
+    """PNG's filter 4 (Paeth) for every row: (height, width * channels) bytes with the filter byte in front."""
+    height, width, channels = rows.shape
+    x = rows.astype(np.int16)
+    left = np.zeros_like(x)
+    left[:, 1:] = x[:, :-1]
+    above = np.zeros_like(x)
+    above[1:] = x[:-1]
+    corner = np.zeros_like(x)
+    corner[1:, 1:] = x[:-1, :-1]
+    p = left + above - corner
+    pa, pb, pc = abs(p - left), abs(p - above), abs(p - corner)
+    guess = np.where((pa <= pb) & (pa <= pc), left, np.where(pb <= pc, above, corner))
+    body = ((x - guess) & 255).astype(np.uint8).reshape(height, width * channels)
+    return np.concatenate([np.full((height, 1), 4, np.uint8), body], 1)
+
+
+def write_png(path, encoded, levels=256):
+    """8-bit grey (h,w) or RGB (h,w,3) from floats in 0..1, already encoded; row 0 is the top.
+
+    Fewer levels pack grainy images tighter; the grain hides the steps.
+    """
+    image = np.asarray(encoded, float)
+    image = image[..., None] if image.ndim == 2 else image
+    rows = np.rint(np.rint(np.clip(image, 0, 1) * (levels - 1)) / (levels - 1) * 255).astype(np.uint8)
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", rows.shape[1], rows.shape[0], 8, {1: 0, 3: 2}[rows.shape[2]], 0, 0, 0)
+    packed = zlib.compress(_filtered(rows).tobytes(), 9)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", packed) + chunk(b"IEND", b""))
+
+
+def write_pfm(path, rgb):
+    """Little-endian colour PFM; row 0 of the array is the top, the file starts at the bottom."""
+    image = np.asarray(rgb, "<f4")[::-1]
+    path.write_bytes(f"PF\n{image.shape[1]} {image.shape[0]}\n-1.0\n".encode() + image.tobytes())

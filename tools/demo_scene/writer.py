@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes a scene as pbrt-v4 text: named textures and materials, objects (ObjectBegin) and their named placings."""
+import shutil
+
+import numpy as np
+
+from .mesh import write_ply
+
+
+def numbers(values):
+    return " ".join(f"{float(x):.6g}" for x in np.ravel(values))
+
+
+class Scene:
+    def __init__(self, folder):
+        self.folder = folder
+        for name in ("geometry", "textures"):
+            shutil.rmtree(folder / name, ignore_errors=True)
+        (folder / "geometry").mkdir(parents=True)
+        (folder / "textures").mkdir(parents=True)
+        self.materials, self.objects, self.placings, self.triangles = [], [], [], 0
+
+    def section(self, title):
+        for lines in (self.materials, self.objects, self.placings):
+            if lines and lines[-1].startswith("\n# ---"):
+                lines.pop()
+            lines.append(f"\n# --- {title}")
+
+    def texture(self, name, kind, filename, **params):
+        """kind is spectrum or float; params become \"string x\" or \"float x\"."""
+        lines = [f'Texture "{name}" "{kind}" "imagemap"', f'    "string filename" [ "textures/{filename}" ]']
+        for key, value in params.items():
+            lines.append(f'    "string {key}" [ "{value}" ]' if isinstance(value, str) else f'    "float {key}" [ {value} ]')
+        self.materials.append("\n".join(lines))
+
+    def material(self, name, kind, **params):
+        """A parameter: rgb triple, number, ('texture', name), or a string (a named spectrum)."""
+        lines = [f'MakeNamedMaterial "{name}"', f'    "string type" [ "{kind}" ]']
+        for key, value in params.items():
+            if isinstance(value, tuple) and value[0] == "texture":
+                lines.append(f'    "texture {key}" [ "{value[1]}" ]')
+            elif isinstance(value, str):
+                lines.append(f'    "spectrum {key}" [ "{value}" ]')
+            elif np.ndim(value) == 1:
+                lines.append(f'    "rgb {key}" [ {numbers(value)} ]')
+            else:
+                lines.append(f'    "float {key}" [ {numbers(value)} ]')
+        self.materials.append("\n".join(lines))
+
+    def mesh(self, name, mesh):
+        write_ply(self.folder / "geometry" / f"{name}.ply", mesh)
+        self.triangles += len(mesh.f)
+        return f'Shape "plymesh"\n        "string filename" [ "geometry/{name}.ply" ]'
+
+    def object(self, name, *parts):
+        """parts: (material, shape text as mesh() returns it, what the part is called)."""
+        lines = [f'ObjectBegin "{name}"']
+        for material, shape, label in parts:
+            lines += [f"    # name: {label}", f'    NamedMaterial "{material}"', f"    {shape}"]
+        self.objects.append("\n".join(lines + ["ObjectEnd"]))
+
+    def place(self, label, name, matrix=None):
+        lines = [f"# name: {label}", "AttributeBegin"]
+        if matrix is not None:  # pbrt writes matrices column by column
+            lines.append(f"    ConcatTransform [ {numbers(np.asarray(matrix).T)} ]")
+        self.placings.append("\n".join(lines + [f'    ObjectInstance "{name}"', "AttributeEnd"]))
+
+    def write(self, filename, head, lights):
+        note = "# SPDX-License-Identifier: CC0-1.0\n# Written by tools/make_demo_scene.py: edit that, or this; not both.\n"
+        (self.folder / "materials.pbrt").write_text(note + "\n".join(self.materials) + "\n")
+        (self.folder / "objects.pbrt").write_text(note + "\n".join(self.objects) + "\n")
+        (self.folder / filename).write_text(
+            note + head + "\nWorldBegin\n" + lights + '\nInclude "materials.pbrt"\nInclude "objects.pbrt"\n' +
+            "\n".join(self.placings) + "\n")

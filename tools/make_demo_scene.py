@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes scenes/demo (pbrt-v4): a breakfast corner at late morning. Needs numpy; the same files every time."""
+import pathlib
+import sys
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from demo_scene import furniture, images, room, sky, tableware, textures  # noqa: E402
+from demo_scene.mesh import rotate, scale, translate  # noqa: E402
+from demo_scene.writer import Scene, numbers  # noqa: E402
+
+EYE, TARGET, FOV = (3.72, -4.50, 1.48), (1.56, -0.90, 0.93), 36.0
+SUN_ELEVATION, SUN_HEADING = 31.0, 5.0  # light travels along +x, turned by the heading about z [degrees]
+SUN_IRRADIANCE = np.array([1.0, 0.84, 0.64]) * 18.0
+SKY_SCALE = 2.6
+TABLE = (1.95, -1.62)
+
+
+def sun_from():
+    e, h = np.radians(SUN_ELEVATION), np.radians(SUN_HEADING)
+    return np.array([-np.cos(e) * np.cos(h), -np.cos(e) * np.sin(h), np.sin(e)])
+
+
+def head():
+    return f"""
+# A breakfast corner at late morning. Metres; z is up. See scenes/README.md.
+Option "string rendercoordsys" "world"
+Scale -1 1 1
+LookAt {numbers(EYE)}  {numbers(TARGET)}  0 0 1
+Camera "perspective"
+    "float fov" [ {FOV} ]
+Film "rgb"
+    "integer xresolution" [ 960 ]
+    "integer yresolution" [ 540 ]
+    "string filename" [ "demo.exr" ]
+PixelFilter "gaussian"
+    "float xradius" [ 1.5 ]
+    "float yradius" [ 1.5 ]
+    "float sigma" [ 0.5 ]
+Sampler "zsobol"
+    "integer pixelsamples" [ 256 ]
+Integrator "volpath"
+    "integer maxdepth" [ 12 ]
+"""
+
+
+def lights():
+    return f"""
+# name: Sky
+AttributeBegin
+    LightSource "infinite"
+        "string filename" [ "textures/sky.pfm" ]
+        "float scale" [ {SKY_SCALE} ]
+AttributeEnd
+# name: Sun
+AttributeBegin
+    LightSource "distant"
+        "point3 from" [ {numbers(sun_from())} ]
+        "point3 to" [ 0 0 0 ]
+        "rgb L" [ {numbers(SUN_IRRADIANCE)} ]
+AttributeEnd
+"""
+
+
+def furnish(scene):
+    room.shell(scene)
+    room.window(scene)
+    room.curtains(scene)
+    furniture.table(scene, TABLE, 38)
+    room.rug(scene, (TABLE[0] + 0.05, TABLE[1] - 0.1), 4)
+    furniture.chair(scene)
+    for k, (x, y, turn) in enumerate(((0.60, -0.52, 50), (0.10, 0.82, 172), (-0.80, -0.30, -66))):
+        scene.place(f"Chair {k + 1}", "Chair", translate(TABLE[0] + x, TABLE[1] + y, 0.013) @ rotate((0, 0, 1), turn))
+    top = furniture.sideboard(scene, 2.45)
+    furniture.pendant(scene, (TABLE[0], TABLE[1]), 1.62, room.HEIGHT)
+    furniture.books(scene)
+    room.picture(scene, 2.28, 1.52)
+    room.mirror(scene, 3.02, 1.50)
+    lay_table(scene)
+    tableware.vase(scene)
+    scene.place("Vase", "Vase", translate(1.92, -0.21, top))
+    furniture.stack_books(scene, (2.42, -0.21, top), ("ink", "ochre", "cream"), 1,
+                          ((0.21, 0.28, 0.034), (0.19, 0.26, 0.026), (0.16, 0.22, 0.03)), (88, 97, 84))
+    furniture.upright_books(scene, (2.70, -0.31, top), ("green", "red", "cream", "ink", "ochre", "red"), 4,
+                            ((0.16, 0.235, 0.030), (0.15, 0.215, 0.024), (0.17, 0.245, 0.036), (0.15, 0.205, 0.020),
+                             (0.16, 0.228, 0.028), (0.15, 0.20, 0.022)), (0, 0, 0, 0, 0, 0))
+    tableware.plant(scene, (0.47, -0.40))
+
+
+def lay_table(scene):
+    z = furniture.TABLE_HEIGHT
+    x, y = TABLE
+    tableware.glassware(scene)
+    scene.place("Tray", "Tray", translate(x + 0.19, y + 0.16, z))
+    scene.place("Carafe", "Carafe", translate(x + 0.16, y + 0.21, z + 0.0023))
+    scene.place("Glass 1", "Glass", translate(x + 0.265, y + 0.145, z + 0.0023))
+    scene.place("Glass 2", "Glass", translate(x + 0.175, y + 0.095, z + 0.0023))
+    tableware.bowl(scene)
+    bx, by = x - 0.21, y - 0.10
+    scene.place("Bowl", "Bowl", translate(bx, by, z))
+    fruit = (("Orange", 0.052, 0.014, 0.063, 20, 40), ("Orange", -0.050, 0.030, 0.062, 70, 10), ("Orange", 0.000, -0.056, 0.061, 130, 70),
+             ("Orange", 0.004, 0.004, 0.118, 35, 190), ("Lemon", 0.036, 0.078, 0.078, 85, 30), ("Lemon", -0.062, -0.042, 0.072, 80, 120))
+    count = {}
+    for name, dx, dy, dz, tilt, turn in fruit:
+        count[name] = count.get(name, 0) + 1
+        scene.place(f"{name} {count[name]}", name, translate(bx + dx, by + dy, z + dz) @ rotate((0, 0, 1), turn) @ rotate((1, 0, 0), tilt))
+    scene.place("Pear 1", "Pear", translate(bx + 0.20, by - 0.09, z + 0.0435) @ rotate((0, 0, 1), 30) @ scale(1))
+    scene.place("Pear 2", "Pear", translate(bx + 0.275, by - 0.045, z + 0.0365) @ rotate((0, 0, 1), 160) @ rotate((1, 0, 0), 96))
+
+
+def main():
+    folder = pathlib.Path(__file__).resolve().parent.parent / "scenes" / "demo"
+    scene = Scene(folder)
+    textures.write_all(folder / "textures")
+    images.write_pfm(folder / "textures" / "sky.pfm", sky.sky_image(192, sun_from()))
+    furnish(scene)
+    scene.write("demo.pbrt", head(), lights())
+    size = sum(p.stat().st_size for p in folder.rglob("*") if p.is_file())
+    print(f"{folder}: {scene.triangles} triangles in {len(list((folder / 'geometry').iterdir()))} meshes, "
+          f"{len(scene.placings)} placed, {size / 1e6:.2f} MB")
+
+
+if __name__ == "__main__":
+    main()
