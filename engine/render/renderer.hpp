@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renderer: from a scene to a film, in the order sync, reset, trace. Denoising and display work on what image() gives.
+// One thread at a time.
+#pragma once
+
+#include "render/tracer.hpp"
+
+#include <memory>
+#include <string>
+
+namespace restage::render {
+
+struct RendererOptions {
+    std::string device;            // index or part of a name; empty = the best
+    std::string tracer;            // "embree", "vulkan"; empty = by device: vulkan on GPUs with ray tracing
+    bool validation = false;
+    unsigned threads = 0;          // for Embree; 0 = all
+    std::uint32_t seed = 0;
+    Strategy strategy = Strategy::mis;
+    std::filesystem::path shader_dir; // empty = <program>/../share/restage/shaders
+    std::filesystem::path cache_dir;  // empty = base's cache_dir()
+};
+
+class Renderer {
+public:
+    static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options, MaterialLookup lookup, Log& log);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+
+    // Follows the scene. When something changed that the picture shows, the film starts again.
+    Result<void> sync(const scene::Scene& scene);
+    // Adds `samples` to every pixel. `keep_going` is asked every few ms; false stops early and is no error.
+    Result<void> trace(std::uint32_t samples, std::function<bool()> keep_going = {});
+
+    std::uint32_t samples() const { return samples_; } // a pixel, since the last reset
+    FilmImage image() const { return film_ ? film_->read() : FilmImage{}; }
+    double relative_error() const { return film_ ? film_->relative_error() : 1e30; }
+    void reset() { samples_ = 0; if (film_) film_->clear(); }
+
+    const TraceStats& stats() const { return tracer_->stats(); }
+    void reset_stats() { tracer_->reset_stats(); }
+    const char* tracer_name() const { return tracer_->name(); }
+    gpu::Device& device() { return *device_; }
+    const GpuScene& gpu_scene() const { return *gpu_scene_; }
+    Jobs& jobs() { return jobs_; }
+    // A new scene: forgets what was derived from the old one.
+    void forget_scene();
+
+private:
+    Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log);
+
+    RendererOptions options_;
+    MaterialLookup lookup_;
+    Log* log_;
+    Jobs jobs_;
+    std::unique_ptr<gpu::Device> device_;
+    std::unique_ptr<gpu::ShaderCompiler> compiler_;
+    std::unique_ptr<GpuScene> gpu_scene_;
+    std::unique_ptr<Tracer> tracer_;
+    std::optional<Film> film_;
+    glm::uvec2 crop_origin_{0};
+    std::uint32_t samples_ = 0;
+};
+
+} // namespace restage::render
