@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file becomes a Scene: the importer that is surest of the file reads it. Three outcomes: nobody knows the format,
+// somebody does but the file is broken (file:line:column), or a scene with a report.
+#pragma once
+
+#include "base/jobs.hpp"
+#include "base/result.hpp"
+#include "io/report.hpp"
+#include "plugin/registry.hpp"
+#include "scene/scene.hpp"
+
+#include <string>
+
+namespace restage::io {
+
+struct ImportOptions {
+    Progress progress;      // may be empty
+    std::string format;     // of one importer; "" = ask all of them
+    Jobs* jobs = nullptr;   // for decoding images; null = a pool of its own
+    bool read_images = true;
+};
+
+struct ImportedScene {
+    scene::Scene scene;
+    Report report;
+    std::string importer; // its format: "pbrt"
+};
+
+Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry&, const ImportOptions& = {});
+
+} // namespace restage::io

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scene_reader.hpp"
+
+#include <cstring>
+#include <filesystem>
+
+namespace restage::io {
+
+using namespace scene;
+
+namespace {
+
+template <class T>
+RestageText text(const T& item) {
+    return {item.name.c_str(), item.origin.verbatim.c_str(), item.origin.format.c_str()};
+}
+
+void copy(const glm::dmat4& from, double to[16]) { std::memcpy(to, &from[0][0], 16 * sizeof(double)); }
+void copy(glm::vec3 from, float to[3]) { std::memcpy(to, &from.x, 3 * sizeof(float)); }
+
+const char* filter_name(FilterKind kind) {
+    switch (kind) {
+    case FilterKind::box:
+        return "box";
+    case FilterKind::triangle:
+        return "triangle";
+    case FilterKind::gaussian:
+        return "gaussian";
+    case FilterKind::mitchell:
+        return "mitchell";
+    case FilterKind::sinc:
+        return "sinc";
+    }
+    return "box";
+}
+
+} // namespace
+
+const RestageValue* SceneReader::values(const ParamSet& params, std::uint32_t& count) {
+    auto& list = values_.emplace_back();
+    for (const auto& [id, value] : params.entries()) {
+        RestageValue out{.id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = nullptr};
+        std::memcpy(out.v, value.v.data(), sizeof out.v);
+        if (value.type == RESTAGE_ENUM || value.type == RESTAGE_TEXT)
+            out.text = value.text.c_str();
+        out.ref = value.type == RESTAGE_MATERIAL ? value.material.value : value.texture.value;
+        list.push_back(out);
+    }
+    count = static_cast<std::uint32_t>(list.size());
+    return list.data();
+}
+
+struct SceneReader::Calls {
+    static SceneReader& self(void* ctx) { return *static_cast<SceneReader*>(ctx); }
+    static const Scene& scene(void* ctx) { return self(ctx).scene_; }
+
+    static std::uint32_t count(void* ctx, std::uint32_t kind) {
+        const Scene& s = scene(ctx);
+        switch (kind) {
+        case RESTAGE_KIND_MESH:
+            return s.meshes.size();
+        case RESTAGE_KIND_IMAGE:
+            return s.images.size();
+        case RESTAGE_KIND_TEXTURE:
+            return s.textures.size();
+        case RESTAGE_KIND_MATERIAL:
+            return s.materials.size();
+        case RESTAGE_KIND_MEDIUM:
+            return s.media.size();
+        case RESTAGE_KIND_GROUP:
+            return s.groups.size();
+        case RESTAGE_KIND_INSTANCE:
+            return s.instances.size();
+        case RESTAGE_KIND_LIGHT:
+            return s.lights.size();
+        case RESTAGE_KIND_CAMERA:
+            return s.cameras.size();
+        default:
+            return 0;
+        }
+    }
+
+    static int mesh(void* ctx, RestageHandle handle, RestageMesh* out) {
+        const Mesh* m = scene(ctx).meshes.find({handle});
+        if (!m || !m->data)
+            return 0;
+        const MeshData& d = *m->data;
+        *out = {.text = text(*m),
+                .vertex_count = static_cast<std::uint32_t>(d.positions.size()),
+                .triangle_count = static_cast<std::uint32_t>(d.triangles.size()),
+                .positions = d.positions.empty() ? nullptr : &d.positions[0].x,
+                .normals = d.normals.empty() ? nullptr : &d.normals[0].x,
+                .uvs = d.uvs.empty() ? nullptr : &d.uvs[0].x,
+                .indices = d.triangles.empty() ? nullptr : &d.triangles[0].x,
+                .source_file = m->source_file.c_str(),
+                .primitive = m->primitive.c_str()};
+        return 1;
+    }
+
+    static int image(void* ctx, RestageHandle handle, RestageImage* out) {
+        const Image* i = scene(ctx).images.find({handle});
+        if (!i)
+            return 0;
+        *out = {.text = text(*i),
+                .path = i->path.c_str(),
+                .encoding = static_cast<std::uint32_t>(i->encoding),
+                .gamma = i->gamma,
+                .width = 0,
+                .height = 0,
+                .channels = 0,
+                .pixels = nullptr};
+        std::error_code code;
+        if (i->data && (i->path.empty() || !std::filesystem::exists(i->path, code))) {
+            out->width = i->data->width;
+            out->height = i->data->height;
+            out->channels = i->data->channels;
+            out->pixels = i->data->values.data();
+        }
+        return 1;
+    }
+
+    static int texture(void* ctx, RestageHandle handle, RestageTexture* out) {
+        const Texture* t = scene(ctx).textures.find({handle});
+        if (!t)
+            return 0;
+        *out = {.text = text(*t), .type = t->type.c_str(), .is_float = t->is_float, .image = t->image.value, .values = nullptr, .value_count = 0};
+        out->values = self(ctx).values(t->params, out->value_count);
+        return 1;
+    }
+
+    static int material(void* ctx, RestageHandle handle, RestageMaterialDesc* out) {
+        const Material* m = scene(ctx).materials.find({handle});
+        if (!m)
+            return 0;
+        *out = {.text = text(*m), .type = m->type.c_str(), .values = nullptr, .value_count = 0};
+        out->values = self(ctx).values(m->params, out->value_count);
+        return 1;
+    }
+
+    static int medium(void* ctx, RestageHandle handle, RestageMedium* out) {
+        const Medium* m = scene(ctx).media.find({handle});
+        if (!m)
+            return 0;
+        *out = {.text = text(*m), .sigma_a = {}, .sigma_s = {}, .g = m->g};
+        copy(m->sigma_a, out->sigma_a);
+        copy(m->sigma_s, out->sigma_s);
+        return 1;
+    }
+
+    static int group(void* ctx, RestageHandle handle, RestageGroup* out) {
+        const Group* g = scene(ctx).groups.find({handle});
+        if (!g)
+            return 0;
+        *out = {.text = text(*g), .parent = g->parent.value};
+        return 1;
+    }
+
+    static int instance(void* ctx, RestageHandle handle, RestageInstance* out) {
+        const Instance* i = scene(ctx).instances.find({handle});
+        if (!i)
+            return 0;
+        *out = {.text = text(*i),
+                .mesh = i->mesh.value,
+                .material = i->material.value,
+                .group = i->group.value,
+                .alpha_texture = i->alpha_texture.value,
+                .interior = i->media ? i->media->interior.value : 0,
+                .exterior = i->media ? i->media->exterior.value : 0,
+                .has_medium_interface = i->media.has_value(),
+                .flags = 0,
+                .alpha = i->alpha,
+                .emission = {},
+                .object_to_world = {}};
+        if (i->reverse_orientation)
+            out->flags |= RESTAGE_INSTANCE_REVERSE_ORIENTATION;
+        if (i->hidden)
+            out->flags |= RESTAGE_INSTANCE_HIDDEN;
+        if (i->emission) {
+            out->flags |= RESTAGE_INSTANCE_EMITS;
+            if (i->emission->two_sided)
+                out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
+            copy(i->emission->radiance, out->emission);
+        }
+        copy(i->object_to_world, out->object_to_world);
+        return 1;
+    }
+
+    static int light(void* ctx, RestageHandle handle, RestageLight* out) {
+        const Light* l = scene(ctx).lights.find({handle});
+        if (!l)
+            return 0;
+        *out = {.text = text(*l),
+                .kind = static_cast<std::uint32_t>(l->kind),
+                .value = {},
+                .light_to_world = {},
+                .cone_angle = l->cone_angle,
+                .cone_delta = l->cone_delta};
+        copy(l->value, out->value);
+        copy(l->light_to_world, out->light_to_world);
+        return 1;
+    }
+
+    static int environment(void* ctx, RestageEnvironment* out) {
+        const auto& e = scene(ctx).environment.value;
+        if (!e)
+            return 0;
+        *out = {.text = text(*e), .image = e->image.value, .mapping = static_cast<std::uint32_t>(e->mapping), .scale = {}, .light_to_world = {}};
+        copy(e->scale, out->scale);
+        copy(e->light_to_world, out->light_to_world);
+        return 1;
+    }
+
+    static int camera(void* ctx, RestageHandle handle, RestageCamera* out) {
+        const Camera* c = scene(ctx).cameras.find({handle});
+        if (!c)
+            return 0;
+        *out = {.text = text(*c),
+                .camera_to_world = {},
+                .fov = c->fov,
+                .screen_window = {},
+                .lens_radius = c->lens_radius,
+                .focal_distance = c->focal_distance,
+                .frame_aspect = c->frame_aspect};
+        if (c->screen_window)
+            for (int i = 0; i < 4; ++i)
+                out->screen_window[i] = (*c->screen_window)[i];
+        copy(c->camera_to_world, out->camera_to_world);
+        return 1;
+    }
+
+    static RestageHandle active_camera(void* ctx) { return scene(ctx).active_camera.value.value; }
+    static RestageHandle camera_medium(void* ctx) { return scene(ctx).settings.value.camera_medium.value; }
+
+    static void film(void* ctx, RestageFilm* out) {
+        const Film& f = scene(ctx).film.value;
+        *out = {.width = f.width,
+                .height = f.height,
+                .crop = {f.crop.x, f.crop.y, f.crop.z, f.crop.w},
+                .filter = filter_name(f.filter.kind),
+                .filter_radius = {f.filter.radius.x, f.filter.radius.y},
+                .filter_params = {f.filter.params.x, f.filter.params.y},
+                .exposure = f.exposure,
+                .filename = f.filename.c_str()};
+    }
+
+    static void settings(void* ctx, RestageSettings* out) {
+        const Settings& s = scene(ctx).settings.value;
+        *out = {.max_depth = s.max_depth,
+                .samples = s.samples,
+                .text = {"", s.origin.verbatim.c_str(), s.origin.format.c_str()}};
+    }
+
+    static void report(void* ctx, int fate, const char* what, const char* note) {
+        self(ctx).report.add(static_cast<RestageFate>(fate < 0 || fate > 2 ? 2 : fate), what ? what : "", note ? note : "");
+    }
+
+    static void error(void* ctx, const char* file, const char* message) {
+        std::string& e = self(ctx).error_;
+        if (e.empty())
+            e = std::string(file ? file : "") + (file && *file ? ": " : "") + (message ? message : "");
+    }
+
+    static int progress(void* ctx, float done, const char* what) {
+        SceneReader& s = self(ctx);
+        if (!s.cancelled_ && s.progress_ && !s.progress_(done, what ? what : ""))
+            s.cancelled_ = true;
+        return !s.cancelled_;
+    }
+};
+
+SceneReader::SceneReader(const Scene& scene, Progress progress) : scene_(scene), progress_(std::move(progress)) {
+    table_ = {.size = sizeof(RestageSceneReader1),
+              .ctx = this,
+              .count = Calls::count,
+              .mesh = Calls::mesh,
+              .image = Calls::image,
+              .texture = Calls::texture,
+              .material = Calls::material,
+              .medium = Calls::medium,
+              .group = Calls::group,
+              .instance = Calls::instance,
+              .light = Calls::light,
+              .environment = Calls::environment,
+              .camera = Calls::camera,
+              .active_camera = Calls::active_camera,
+              .camera_medium = Calls::camera_medium,
+              .film = Calls::film,
+              .settings = Calls::settings,
+              .report = Calls::report,
+              .error = Calls::error,
+              .progress = Calls::progress};
+}
+
+} // namespace restage::io

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host's side of restage.scene_writer: an importer pushes, a Scene grows. Data is copied and checked as it comes;
+// what cannot be (an index out of range, a handle that was never given) is refused with a line in the report, so that
+// the scene is sound whatever the importer does. Image files are read at the end, all cores at once.
+#pragma once
+
+#include "base/jobs.hpp"
+#include "base/result.hpp"
+#include "io/report.hpp"
+#include "plugin/registry.hpp"
+#include "scene/scene.hpp"
+
+#include <map>
+#include <restage/scene_io.h>
+#include <set>
+#include <string>
+#include <tuple>
+
+namespace restage::io {
+
+class SceneWriter {
+public:
+    SceneWriter(const plugin::Registry&, Progress);
+    SceneWriter(const SceneWriter&) = delete; // table().ctx is this
+    SceneWriter& operator=(const SceneWriter&) = delete;
+
+    const RestageSceneWriter1& table() const { return table_; }
+    const std::string& error() const { return error_; } // "file:line:column: message"; "" = none was raised
+    bool cancelled() const { return cancelled_; }
+
+    // Names what has no name, gives a scene without camera one, decodes images, validates. Call once, after load.
+    Result<> finish(Jobs&, bool read_images);
+
+    scene::Scene scene;
+    Report report;
+
+private:
+    struct Calls; // the C functions
+    template <class T>
+    RestageHandle push(T item);
+    template <class T>
+    bool known(RestageHandle handle, const char* who_kind, const std::string& who, bool needed = false);
+    void refuse(const std::string& what, const std::string& why);
+    std::string unique_name(const char* kind, const std::string& wanted);
+    scene::Origin origin(const RestageText&);
+    scene::ParamSet params(const RestageValue*, std::uint32_t count, const std::string& who);
+    void read_images(Jobs&);
+    void add_camera();
+
+    const plugin::Registry& registry_;
+    Progress progress_;
+    RestageSceneWriter1 table_{};
+    std::string error_;
+    bool cancelled_ = false;
+    std::map<std::string, std::set<std::string>> names_;    // by kind
+    std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
+    std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;
+};
+
+} // namespace restage::io
