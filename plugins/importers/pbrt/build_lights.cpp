@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights without a surface. pbrt-v4: `rgb` is relative to the illuminant of its colour space, so it is the value in the
+// picture; a spectrum is made to have luminance 1 (lights.cpp, 1 / SpectrumToPhotometric) before scale, power and
+// illuminance multiply it. pbrt-v3: value times `scale`, which may be a colour.
+#include "builder.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace restage::pbrt {
+
+double Builder::light_scale(const Directive& d, Rgb& color) {
+    if (!d.params.has("scale")) return 1;
+    if (d.params.find("scale")->type == "float") return d.params.number("scale", 1);
+    color = color * import_.color(d.params, "scale", Role::light, {1, 1, 1});
+    return 1;
+}
+
+void Builder::light(const Directive& d) {
+    const std::string what = "LightSource " + quote(d.name);
+    if (d.name == "infinite" || d.name == "exinfinite") {
+        infinite_light(d);
+        return;
+    }
+    RestageLight out{};
+    Matrix to_world = ctm(d);
+    const bool is_distant = d.name == "distant";
+    Rgb value = import_.color(d.params, is_distant ? "L" : "I", Role::light, {1, 1, 1});
+    double scale = light_scale(d, value);
+    const double power = d.params.number("power", -1);
+    const auto from = d.params.triple("from", {0, 0, 0}), to = d.params.triple("to", {0, 0, 1});
+    const Vec3 origin{from[0], from[1], from[2]}, direction = Vec3{to[0], to[1], to[2]} - origin;
+    const bool aims = d.name == "spot" || is_distant;
+    if (aims && !(length(direction) > 0)) throw ImportError{d.at, what + ": \"from\" and \"to\" are the same point; move one"};
+    if (d.name == "spot" || d.name == "projection") {
+        out.kind = RESTAGE_LIGHT_SPOT;
+        to_world = to_world * translation(origin);
+        if (aims) to_world = to_world * frame_along(direction);
+        double cone = d.params.number("coneangle", 30), delta = d.params.number("conedeltaangle", 5);
+        if (d.name == "projection") {
+            cone = d.params.number("fov", d.params.has("fov") ? 45 : import_.v3() ? 45 : 90) / 2;
+            delta = 0;
+            d.params.mark_all_used();
+            import_.approximated(d.at, what, "a spot light stands for it; the picture it throws is not rendered");
+        }
+        out.cone_angle = static_cast<float>(cone);
+        out.cone_delta = static_cast<float>(delta);
+        if (power > 0) { // pbrt-v4 SpotLight::Create: the smooth edge counts half
+            const double end = std::cos(cone * std::numbers::pi / 180), start = std::cos((cone - delta) * std::numbers::pi / 180);
+            scale *= power / (2 * std::numbers::pi * ((1 - start) + (start - end) / 2));
+        }
+    } else if (is_distant) {
+        out.kind = RESTAGE_LIGHT_DISTANT;
+        to_world = to_world * frame_along(direction);
+        const double illuminance = d.params.number("illuminance", -1);
+        if (illuminance > 0) scale *= illuminance;
+    } else if (d.name == "point" || d.name == "goniometric") {
+        out.kind = RESTAGE_LIGHT_POINT;
+        to_world = to_world * translation(origin);
+        if (power > 0) scale *= power / (4 * std::numbers::pi);
+        if (d.name == "goniometric") {
+            d.params.mark_all_used();
+            import_.approximated(d.at, what, "a point light stands for it; its distribution is not rendered");
+        }
+    } else {
+        d.params.mark_all_used();
+        import_.dropped(d.at, what, "there is no such light in pbrt");
+        return;
+    }
+    value = value * scale;
+    out.value[0] = static_cast<float>(value.r);
+    out.value[1] = static_cast<float>(value.g);
+    out.value[2] = static_cast<float>(value.b);
+    std::memcpy(out.light_to_world, to_world.m.data(), sizeof out.light_to_world);
+    std::string verbatim = import_.keep_unused(d.params, what);
+    if (d.name == "goniometric" || d.name == "projection") verbatim = "LightSource " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
+    const std::string name = d.name + " " + std::to_string(d.at.line);
+    out.text = import_.text(name, verbatim);
+    import_.out.light(import_.out.ctx, &out);
+}
+
+// The host has one environment: constant lights are summed; the first image wins over all others.
+void Builder::infinite_light(const Directive& d) {
+    const std::string what = "LightSource \"infinite\"";
+    Rgb value = import_.color(d.params, "L", Role::light, {1, 1, 1});
+    double scale = light_scale(d, value);
+    for (const char* name : {"samples", "nsamples"}) d.params.find(name); // how, not what
+    const std::string file = d.params.string(d.params.has("filename") ? "filename" : "mapname", "");
+    if (d.params.find("portal")) import_.approximated(d.at, what, "the light is not limited to its portal");
+    const double illuminance = d.params.number("illuminance", -1);
+    RestageHandle pixels = 0;
+    if (!file.empty()) {
+        // v3 reads environment images as they are (infinite.cpp: ReadImage); v4 decodes 8-bit ones as sRGB.
+        pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1);
+        if (illuminance > 0) import_.approximated(d.at, what, "\"illuminance\" of a picture is not reached; the picture's own values are used");
+    } else if (illuminance > 0) {
+        scale *= illuminance / std::numbers::pi;
+    }
+    const std::string verbatim = import_.keep_unused(d.params, what);
+    if (!file.empty() && pixels == 0) return; // the missing image is in the report
+    value = value * scale;
+    PendingEnvironment& pending = environment_;
+    if (pending.set && pending.has_image) {
+        import_.dropped(d.at, what, "there is one environment only, and the one before has a picture");
+        return;
+    }
+    if (pending.set && pixels == 0) { // both constant
+        pending.value.scale[0] += static_cast<float>(value.r);
+        pending.value.scale[1] += static_cast<float>(value.g);
+        pending.value.scale[2] += static_cast<float>(value.b);
+        import_.approximated(d.at, what, "added to the environment before it");
+        return;
+    }
+    if (pending.set) import_.dropped(pending.at, what, "there is one environment only, and one with a picture follows");
+    pending.set = true;
+    pending.has_image = pixels != 0;
+    pending.at = d.at;
+    pending.verbatim = verbatim;
+    pending.name = file.empty() ? "environment" : std::filesystem::path(file).stem().string();
+    pending.value = {};
+    pending.value.image = pixels;
+    pending.value.mapping = import_.v3() || d.params.has("mapname") ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL;
+    pending.value.scale[0] = static_cast<float>(value.r);
+    pending.value.scale[1] = static_cast<float>(value.g);
+    pending.value.scale[2] = static_cast<float>(value.b);
+    const Matrix to_world = ctm(d);
+    std::memcpy(pending.value.light_to_world, to_world.m.data(), sizeof pending.value.light_to_world);
+}
+
+void Builder::flush_environment() {
+    if (!environment_.set) return;
+    environment_.value.text = import_.text(environment_.name, environment_.verbatim);
+    import_.out.environment(import_.out.ctx, &environment_.value);
+}
+
+} // namespace restage::pbrt

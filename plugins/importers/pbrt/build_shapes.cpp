@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shapes become a mesh (shared by all that are made from the same) and an instance; ObjectInstance repeats instances.
+#include "builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace restage::pbrt {
+
+namespace {
+
+void set_matrix(double (&to)[16], const Matrix& from) { std::memcpy(to, from.m.data(), sizeof to); }
+
+bool is_affine(const Matrix& m) {
+    return m.at(3, 0) == 0 && m.at(3, 1) == 0 && m.at(3, 2) == 0 && m.at(3, 3) == 1;
+}
+
+} // namespace
+
+RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
+    const std::string file = d.params.string("filename", "");
+    if (file.empty()) throw ImportError{d.at, "Shape \"plymesh\" needs \"string filename\""};
+    const std::string path = import_.resolve(file, d.at).string();
+    if (d.params.has("displacement") && d.params.find("displacement")) {
+        d.params.find("edgelength");
+        import_.dropped(d.at, "displacement of " + quote(file), "meshes are not displaced");
+    }
+    if (const auto known = mesh_cache_.find(path); known != mesh_cache_.end() && !state_.area_light) return known->second;
+    std::string reason;
+    const auto bytes = FileBytes::open(path, reason);
+    if (!bytes) {
+        import_.dropped(d.at, "Shape \"plymesh\" " + quote(file), reason + ": " + path);
+        return 0;
+    }
+    Mesh mesh = read_ply(path, bytes->view(), d.at);
+    if (mesh.has_bent_quads)
+        import_.approximated(d.at, "Shape \"plymesh\" " + quote(file), "polygons that are not flat are split into triangles");
+    if (const std::size_t repaired = repair_normals(mesh))
+        import_.approximated(d.at, "Shape \"plymesh\" " + quote(file), std::to_string(repaired) + " normals without a direction are replaced by the faces'");
+    RestageHandle& handle = mesh_cache_[path];
+    if (handle == 0) {
+        std::string name = std::filesystem::path(path).stem().string();
+        if (name.ends_with(".ply")) name.resize(name.size() - 4); // of .ply.gz
+        const RestageMesh out{.text = import_.text(name, ""),
+                              .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
+                              .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
+                              .positions = mesh.positions.data(),
+                              .normals = mesh.normals.empty() ? nullptr : mesh.normals.data(),
+                              .uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data(),
+                              .indices = mesh.indices.data(),
+                              .source_file = path.c_str(),
+                              .primitive = ""};
+        handle = import_.out.mesh(import_.out.ctx, &out);
+    }
+    if (state_.area_light) data = &(emitter_meshes_[path] = std::move(mesh));
+    return handle;
+}
+
+RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
+    if (d.name == "plymesh") return ply_mesh(d, data);
+    Mesh mesh;
+    std::string primitive; // the shape's own line, for what is more than triangles
+    const bool is_triangles = d.name == "trianglemesh";
+    if (!is_triangles) {
+        primitive = d.name;
+        for (const Param& param : d.params.params)
+            if (param.name != "alpha" && param.name != "shadowalpha") (primitive += ' ') += to_text(param);
+        if (const auto known = mesh_cache_.find(primitive); known != mesh_cache_.end() && !state_.area_light) {
+            d.params.mark_all_used();
+            return known->second;
+        }
+    }
+    if (auto quadric = make_quadric(import_, d)) {
+        mesh = std::move(*quadric);
+    } else if (is_triangles) {
+        mesh = make_triangle_mesh(import_, d);
+    } else if (d.name == "bilinearmesh") {
+        mesh = make_bilinear(import_, d);
+    } else if (d.name == "loopsubdiv") {
+        mesh = make_loop(import_, d);
+    } else if (d.name == "heightfield" || d.name == "heightfield2") {
+        mesh = make_heightfield(import_, d);
+    } else {
+        d.params.mark_all_used();
+        import_.dropped(d.at, "Shape " + quote(d.name),
+                        d.name == "curve" || d.name == "nurbs" ? d.name + "s are not made into triangles" : "there is no such shape in pbrt");
+        return 0;
+    }
+    if (const std::size_t repaired = repair_normals(mesh))
+        import_.approximated(d.at, "Shape " + quote(d.name), std::to_string(repaired) + " normals without a direction are replaced by the faces'");
+    for (const float value : mesh.positions)
+        if (!std::isfinite(value)) throw ImportError{d.at, "Shape " + quote(d.name) + " has a vertex that is not finite; check its parameters"};
+    if (mesh.indices.empty()) {
+        import_.dropped(d.at, "Shape " + quote(d.name), "it is empty");
+        return 0;
+    }
+    const std::string name = d.name + " " + std::to_string(d.at.line);
+    const RestageMesh out{.text = import_.text(name, ""),
+                          .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
+                          .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
+                          .positions = mesh.positions.data(),
+                          .normals = mesh.normals.empty() ? nullptr : mesh.normals.data(),
+                          .uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data(),
+                          .indices = mesh.indices.data(),
+                          .source_file = "",
+                          .primitive = primitive.c_str()};
+    RestageHandle handle = 0;
+    if (is_triangles) {
+        handle = import_.out.mesh(import_.out.ctx, &out);
+    } else {
+        RestageHandle& cached = mesh_cache_[primitive];
+        if (cached == 0) cached = import_.out.mesh(import_.out.ctx, &out);
+        handle = cached;
+    }
+    if (state_.area_light) data = &(emitter_meshes_[primitive] = std::move(mesh));
+    return handle;
+}
+
+void Builder::shape(const Directive& d) {
+    const Matrix to_world = ctm(d);
+    if (!is_affine(to_world) || !(std::abs(determinant3(to_world)) > 0)) {
+        d.params.mark_all_used();
+        import_.dropped(d.at, "Shape " + quote(d.name), is_affine(to_world) ? "its transformation flattens it to nothing" : "its transformation is not affine");
+        return;
+    }
+    const Mesh* data = nullptr;
+    RestageInstance instance{};
+    instance.alpha = 1;
+    instance.mesh = mesh(d, data);
+    if (instance.mesh == 0) {
+        d.params.mark_all_used();
+        return;
+    }
+    instance.material = state_.material ? state_.material : default_material(d);
+    if (d.params.has("alpha")) {
+        const Argument alpha = float_argument(d, "alpha", 1);
+        instance.alpha_texture = alpha.texture;
+        instance.alpha = static_cast<float>(std::clamp(alpha.value.r, 0.0, 1.0));
+    }
+    if (d.params.find("shadowalpha")) import_.dropped(d.at, "\"shadowalpha\" of Shape " + quote(d.name), "shadows use \"alpha\"");
+    // Which side is outside. The host transforms the object-space normal by the inverse transpose, which keeps it outside
+    // under a mirror, and negates it for REVERSE_ORIENTATION. pbrt takes cross(e1, e2) in world space and flips it if
+    // ReverseOrientation xor (the transform swaps handedness); but a world-space cross product has flipped once already
+    // when handedness is swapped (cross(M a, M b) = det(M) M^-T cross(a, b)), so the two cancel and ReverseOrientation
+    // alone remains. Explicit normals decide the side in both, negated when reversed. For mirrored quadrics pbrt
+    // contradicts itself (Sphere::Intersect flips by the xor, Sphere::Sample by ReverseOrientation alone); this is the
+    // latter, which also is the side a user sees.
+    if (state_.reverse_orientation) instance.flags |= RESTAGE_INSTANCE_REVERSE_ORIENTATION;
+    if (!state_.interior.empty() || !state_.exterior.empty()) {
+        instance.interior = medium_named(state_.interior, d);
+        instance.exterior = medium_named(state_.exterior, d);
+        instance.has_medium_interface = 1;
+    }
+    set_matrix(instance.object_to_world, to_world);
+    if (state_.area_light && data) emission(d, *data, instance);
+    const std::string what = "Shape " + quote(d.name);
+    const std::string verbatim = import_.keep_unused(d.params, what);
+    const std::string name = d.name == "plymesh" ? std::filesystem::path(d.params.string("filename", "")).stem().string()
+                                                 : d.name + " " + std::to_string(d.at.line);
+    instance.text = import_.text(name, verbatim);
+    if (open_object_.empty()) {
+        import_.out.instance(import_.out.ctx, &instance);
+        return;
+    }
+    Object& object = objects_[open_object_];
+    instance.text.name = object.names.emplace_back(name).c_str();
+    instance.text.verbatim = object.names.emplace_back(verbatim).c_str();
+    object.instances.push_back(instance);
+}
+
+bool Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance) {
+    const Directive& d = *state_.area_light;
+    if (!open_object_.empty()) {
+        import_.dropped(d.at, "AreaLightSource in ObjectBegin", "pbrt lets objects that are instanced not emit");
+        d.params.mark_all_used();
+        return false;
+    }
+    if (!import_.v3() && interfaces_.count(instance.material)) {
+        import_.dropped(d.at, "AreaLightSource on an interface", "pbrt lets surfaces without a material not emit");
+        d.params.mark_all_used();
+        return false;
+    }
+    if (d.name != "diffuse" && d.name != "area") {
+        import_.dropped(d.at, "AreaLightSource " + quote(d.name), "there is no such area light in pbrt");
+        d.params.mark_all_used();
+        return false;
+    }
+    Rgb radiance = import_.color(d.params, "L", Role::light, {1, 1, 1});
+    const double scale = light_scale(d, radiance);
+    const bool two_sided = d.params.boolean("twosided", false);
+    if (d.params.find("filename"))
+        import_.approximated(d.at, "AreaLightSource with a picture", "emits evenly, with the strength of a white picture");
+    radiance = radiance * scale;
+    const double power = d.params.number("power", -1); // v4: of each light, and each triangle is one
+    if (power > 0) {
+        Matrix to_world;
+        std::memcpy(to_world.m.data(), instance.object_to_world, sizeof instance.object_to_world);
+        const bool by_triangle = shape.name == "trianglemesh" || shape.name == "plymesh" || shape.name == "loopsubdiv";
+        const double lights = by_triangle ? static_cast<double>(mesh.triangle_count()) : 1;
+        radiance = radiance * (power * lights / ((two_sided ? 2 : 1) * area(mesh, to_world) * 3.14159265358979323846));
+        if (lights > 2) import_.approximated(d.at, "\"power\" of an AreaLightSource", "pbrt gives it to each triangle; it is spread evenly");
+    }
+    for (const char* name : {"samples", "nsamples"}) d.params.find(name); // how, not what
+    instance.flags |= RESTAGE_INSTANCE_EMITS | (two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
+    instance.emission[0] = static_cast<float>(radiance.r);
+    instance.emission[1] = static_cast<float>(radiance.g);
+    instance.emission[2] = static_cast<float>(radiance.b);
+    import_.keep_unused(d.params, "AreaLightSource " + quote(d.name));
+    d.params.mark_all_used(); // said once
+    return true;
+}
+
+void Builder::object_instance(const Directive& d) {
+    in_world(d);
+    if (!open_object_.empty()) throw ImportError{d.at, "ObjectInstance inside ObjectBegin; pbrt does not nest objects: move it out"};
+    const auto found = objects_.find(d.name.empty() ? " " : d.name);
+    if (found == objects_.end()) {
+        import_.dropped(d.at, "ObjectInstance " + quote(d.name), "no ObjectBegin has that name");
+        return;
+    }
+    const Matrix placed = ctm(d);
+    const RestageGroup group{.text = import_.text(d.name, "")};
+    const RestageHandle handle = import_.out.group(import_.out.ctx, &group);
+    for (RestageInstance instance : found->second.instances) { // a copy
+        Matrix own;
+        std::memcpy(own.m.data(), instance.object_to_world, sizeof instance.object_to_world);
+        const Matrix to_world = placed * own;
+        if (!is_affine(to_world) || !(std::abs(determinant3(to_world)) > 0)) {
+            import_.dropped(d.at, "ObjectInstance " + quote(d.name), "its transformation flattens it to nothing");
+            return;
+        }
+        set_matrix(instance.object_to_world, to_world);
+        instance.group = handle;
+        import_.out.instance(import_.out.ctx, &instance);
+    }
+}
+
+} // namespace restage::pbrt

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures and arguments that may be textures. Images are named to the host, which reads them.
+#include "builder.hpp"
+
+#include <algorithm>
+
+namespace restage::pbrt {
+
+namespace {
+
+std::string lower_extension(const std::string& file) {
+    std::string out = std::filesystem::path(file).extension().string();
+    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return out;
+}
+
+} // namespace
+
+RestageHandle Builder::find_texture(const Directive& d, const char* name, bool is_float) {
+    const std::string texture = d.params.texture(name);
+    if (texture.empty()) return 0;
+    const auto& own = is_float ? state_.names->float_textures : state_.names->color_textures;
+    if (const auto found = own.find(texture); found != own.end()) {
+        if (found->second == 0) import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"", "it could not be made; the default stands for it");
+        return found->second;
+    }
+    const auto& other = is_float ? state_.names->color_textures : state_.names->float_textures;
+    const bool wrong_kind = other.count(texture) > 0;
+    import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
+                    wrong_kind ? (is_float ? "it is a spectrum texture where a float one is needed; the default stands for it"
+                                           : "it is a float texture where a spectrum one is needed; the default stands for it")
+                               : "no texture has that name; the default stands for it");
+    return 0;
+}
+
+Argument Builder::float_argument(const Directive& d, const char* name, double otherwise) {
+    Argument out;
+    out.texture = find_texture(d, name, true);
+    double value = otherwise;
+    if (out.texture == 0 && d.params.has(name) && d.params.find(name)->type != "texture") {
+        const Param& param = *d.params.find(name);
+        if (param.type == "spectrum" || param.type == "rgb" || param.type == "color" || param.type == "blackbody")
+            value = luminance(import_.color(d.params, name, Role::unbounded).value_or(Rgb{otherwise, otherwise, otherwise}));
+        else
+            value = d.params.number(name, otherwise);
+    }
+    out.value = {value, value, value};
+    return out;
+}
+
+Argument Builder::color_argument(const Directive& d, const char* name, Role role, Rgb otherwise) {
+    Argument out;
+    out.texture = find_texture(d, name, false);
+    out.value = out.texture ? otherwise : import_.color(d.params, name, role, otherwise);
+    return out;
+}
+
+void Builder::put_float(Values& values, const char* id, const Directive& d, const char* name, double otherwise) {
+    const Argument argument = float_argument(d, name, otherwise);
+    if (argument.texture)
+        values.texture(id, RESTAGE_FLOAT, argument.texture);
+    else
+        values.number(id, argument.value.r);
+}
+
+void Builder::put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise) {
+    const Argument argument = color_argument(d, name, role, otherwise);
+    if (argument.texture)
+        values.texture(id, RESTAGE_COLOR, argument.texture);
+    else
+        values.color(id, argument.value);
+}
+
+RestageHandle Builder::image(const Directive& d, const std::string& file, RestageEncoding encoding, float gamma) {
+    const std::string path = import_.resolve(file, d.at).string();
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(path, code)) {
+        import_.dropped(d.at, "image " + quote(file), "there is no such file: " + path);
+        return 0;
+    }
+    RestageHandle& handle = images_[path + '\n' + std::to_string(encoding) + '\n' + std::to_string(gamma)];
+    if (handle) return handle;
+    const std::string name = std::filesystem::path(path).stem().string();
+    RestageImage image{.text = import_.text(name, ""), .path = path.c_str(), .encoding = static_cast<std::uint32_t>(encoding), .gamma = gamma};
+    handle = import_.out.image(import_.out.ctx, &image);
+    return handle;
+}
+
+RestageHandle Builder::image_texture(const Directive& d, const char* what) {
+    const std::string file = d.params.string("filename", "");
+    if (file.empty()) {
+        import_.dropped(d.at, std::string(what) + " " + quote(d.name), "it names no file");
+        return 0;
+    }
+    // How 8-bit texels are encoded; float files are linear whatever this says. pbrt-v3 imagemap.cpp: "gamma" is sRGB,
+    // default true for TGA and PNG. pbrt-v4 textures.cpp: PNG obeys "encoding" (default sRGB), while all that stb
+    // reads (TGA, JPEG, BMP) is sRGB always (image.cpp). Scalar and colour textures are alike in both.
+    RestageEncoding encoding = RESTAGE_SRGB;
+    float gamma = 2.2f;
+    const std::string extension = lower_extension(file);
+    const std::string asked = d.params.string("encoding", "sRGB");
+    if (import_.v3() || d.params.has("gamma")) {
+        encoding = d.params.boolean("gamma", extension == ".tga" || extension == ".png") ? RESTAGE_SRGB : RESTAGE_LINEAR;
+    } else if (extension == ".png") {
+        if (asked == "linear") {
+            encoding = RESTAGE_LINEAR;
+        } else if (asked.starts_with("gamma ")) {
+            encoding = RESTAGE_GAMMA;
+            gamma = static_cast<float>(parse_double(asked.substr(6)).value_or(2.2));
+        } else if (asked != "sRGB") {
+            import_.approximated(d.at, std::string(what) + " " + quote(d.name), "encoding " + quote(asked) + " is unknown; sRGB is taken");
+        }
+    }
+    return image(d, file, encoding, gamma);
+}
+
+// Shapes of pbrt's texture classes in the host's terms; what has none keeps its text and shades as an average.
+void Builder::texture(const Directive& d) {
+    const bool is_float = d.second == "float";
+    if (!is_float && d.second != "spectrum" && d.second != "color")
+        throw ImportError{d.at, "Texture " + quote(d.name) + " has the value type " + quote(d.second) + "; write \"float\" or \"spectrum\""};
+    const RestageHandle handle = simple_texture(d, is_float);
+    Names& names = writable_names();
+    (is_float ? names.float_textures : names.color_textures)[d.name] = handle;
+}
+
+RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
+    const Rgb zero{0, 0, 0}, one{1, 1, 1}, half{0.5, 0.5, 0.5};
+    const std::string what = "Texture " + quote(d.name);
+    Values values;
+    RestageTexture out{.type = d.third.c_str(), .is_float = is_float ? 1u : 0u};
+    const auto argument = [&](const char* name, Rgb otherwise) {
+        return is_float ? float_argument(d, name, otherwise.r) : color_argument(d, name, Role::albedo, otherwise);
+    };
+    const auto put = [&](const char* id, const char* name, Rgb otherwise) {
+        const Argument a = argument(name, otherwise);
+        if (a.texture)
+            values.texture(id, RESTAGE_COLOR, a.texture);
+        else
+            values.color(id, a.value);
+    };
+    const auto put_mapping = [&] {
+        const std::string mapping = d.params.string("mapping", "uv");
+        if (mapping != "uv") import_.approximated(d.at, what, "mapping " + quote(mapping) + " is done by uv instead");
+        for (const char* id : {"uscale", "vscale"}) values.number(id, d.params.number(id, 1));
+        for (const char* id : {"udelta", "vdelta"}) values.number(id, d.params.number(id, 0));
+        if (mapping != "uv") { // written back, since the renderer does not need them
+            d.params.find("v1");
+            d.params.find("v2");
+        }
+    };
+    std::string kept; // what the renderer cannot show
+    const auto keep_all = [&](Rgb average, const char* note) {
+        values.color("average", average);
+        d.params.mark_all_used();
+        kept = to_text(d.params, "\n");
+        if (!kept.empty()) kept += '\n';
+        import_.approximated(d.at, what + " (" + d.third + ")", note);
+    };
+    const std::string& type = d.third;
+    if (type == "constant") {
+        put("value", "value", one);
+    } else if (type == "scale") { // v3: tex1 and tex2; v4: tex and scale, the scale a scalar
+        const bool old = !d.params.has("tex") && !d.params.has("scale");
+        put("tex", old ? "tex1" : "tex", one);
+        if (old) {
+            put("scale", "tex2", one);
+        } else {
+            const Argument a = float_argument(d, "scale", 1);
+            if (a.texture)
+                values.texture("scale", RESTAGE_COLOR, a.texture);
+            else
+                values.color("scale", a.value);
+        }
+    } else if (type == "mix") {
+        put("tex1", "tex1", zero);
+        put("tex2", "tex2", one);
+        put_float(values, "amount", d, "amount", 0.5);
+    } else if (type == "checkerboard" && d.params.integer("dimension", 2) == 2) {
+        put("tex1", "tex1", one);
+        put("tex2", "tex2", zero);
+        put_mapping();
+    } else if (type == "imagemap") {
+        out.image = image_texture(d, "Texture");
+        if (out.image == 0) return 0;
+        values.number("scale", d.params.number("scale", 1));
+        values.boolean("invert", d.params.boolean("invert", false));
+        const std::string wrap = d.params.string("wrap", "repeat");
+        const char* modes[] = {"repeat", "black", "clamp"};
+        const auto mode = std::find(std::begin(modes), std::end(modes), wrap);
+        if (mode == std::end(modes)) import_.approximated(d.at, what, "wrap " + quote(wrap) + " is done as repeat");
+        values.choice("wrap", mode == std::end(modes) ? "repeat" : *mode);
+        put_mapping();
+        for (const char* quiet : {"filter", "maxanisotropy", "trilinear"}) // how, not what
+            if (d.params.has(quiet)) (kept += to_text(*d.params.find(quiet))) += '\n';
+    } else if (type == "checkerboard" || type == "dots" || type == "bilerp" || type == "directionmix") {
+        const bool corners = type == "bilerp", dots = type == "dots";
+        std::vector<Argument> parts;
+        if (corners)
+            parts = {argument("v00", zero), argument("v01", one), argument("v10", zero), argument("v11", one)};
+        else
+            parts = {argument(dots ? "inside" : "tex1", type == "directionmix" ? zero : one),
+                     argument(dots ? "outside" : "tex2", type == "directionmix" ? one : zero)};
+        Rgb average;
+        for (const Argument& part : parts) average = average + part.value * (1.0 / static_cast<double>(parts.size()));
+        keep_all(average, "shades as the average of its colours");
+    } else if (type == "marble") { // the mean of its nine colours (pbrt-v3 marble.cpp)
+        keep_all({0.52, 0.52, 0.56}, "shades as its average colour");
+    } else if (type == "uv") {
+        keep_all({0.5, 0.5, 0}, "shades as its average colour");
+    } else if (type == "fbm" || type == "wrinkled" || type == "windy" || type == "ptex") {
+        keep_all(half, "shades as a grey of 0.5");
+    } else {
+        keep_all(half, "no such texture class in pbrt; shades as a grey of 0.5");
+    }
+    kept += import_.keep_unused(d.params, what);
+    out.text = import_.text(d.name, kept);
+    out.values = values.data();
+    out.value_count = values.size();
+    return import_.out.texture(import_.out.ctx, &out);
+}
+
+RestageHandle Builder::scaled_texture(RestageHandle texture, double scale, bool is_float) {
+    Values values;
+    values.texture("tex", RESTAGE_COLOR, texture);
+    values.color("scale", {scale, scale, scale});
+    RestageTexture out{.text = import_.text("", ""), .type = "scale", .is_float = is_float ? 1u : 0u,
+                       .values = values.data(), .value_count = values.size()};
+    return import_.out.texture(import_.out.ctx, &out);
+}
+
+} // namespace restage::pbrt

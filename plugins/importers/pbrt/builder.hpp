@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks the directives with pbrt's graphics state and pushes the scene to the host. Scoping lives in builder.cpp; each
+// kind of thing has a file of its own (build_*.cpp).
+#pragma once
+
+#include "mesh.hpp"
+
+#include <set>
+
+namespace restage::pbrt {
+
+// Names visible at a point of the file. v3 scopes them to attribute blocks, v4 has one space for all.
+struct Names {
+    std::map<std::string, RestageHandle> float_textures, color_textures, materials;
+};
+
+struct State { // pbrt's graphics state
+    Matrix ctm[2]; // at the start and end of the shutter
+    unsigned active = 3;
+    bool reverse_orientation = false;
+    RestageHandle material = 0; // 0 = the default, made when first needed
+    const Directive* area_light = nullptr;
+    std::string interior, exterior;
+    ColorSpace color_space = ColorSpace::srgb;
+    std::map<std::string, ParamList> attributes; // of directive Attribute: "shape", "light", ...
+    std::shared_ptr<Names> names = std::make_shared<Names>();
+};
+
+// A scalar or colour argument: a texture or a constant.
+struct Argument {
+    RestageHandle texture = 0;
+    Rgb value;
+};
+
+class Builder {
+  public:
+    explicit Builder(Import& import) : import_(import) {}
+    // 1 = done, 0 = the user stopped it. Throws ImportError.
+    bool run(SceneFile& scene);
+
+  private:
+    // builder.cpp: scoping
+    void step(Directive& directive);
+    void option_step(Directive& directive);
+    void transform_step(const Directive& directive);
+    void push(const Directive& directive);
+    void pop(const Directive& directive, bool only_transform);
+    void finish(const SceneFile& scene);
+    void add_attributes(Directive& directive, const char* target);
+    Names& writable_names();
+    const Matrix& ctm(const Directive& directive); // at shutter opening; motion is reported
+    bool in_world(const Directive& directive) const;
+
+    // build_textures.cpp
+    void texture(const Directive& directive);
+    RestageHandle image(const Directive& directive, const std::string& file, RestageEncoding encoding, float gamma);
+    RestageHandle image_texture(const Directive& directive, const char* what);
+    RestageHandle simple_texture(const Directive& d, bool is_float);
+    Argument float_argument(const Directive& directive, const char* name, double otherwise);
+    Argument color_argument(const Directive& directive, const char* name, Role role, Rgb otherwise);
+    void put_float(Values& values, const char* id, const Directive& d, const char* name, double otherwise);
+    void put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise);
+    RestageHandle find_texture(const Directive& directive, const char* name, bool is_float);
+    RestageHandle scaled_texture(RestageHandle texture, double scale, bool is_float);
+
+    // build_materials*.cpp
+    RestageHandle material(const Directive& directive, const std::string& name, const std::string& type);
+    bool material_v4(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    void put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id, const char* k_id);
+    void put_index(Values& values, const char* id, const Directive& d, const char* name, double otherwise);
+    void put_roughness(Values& values, const Directive& d, const std::string& prefix, double otherwise,
+                       const char* u_id = "uroughness", const char* v_id = "vroughness");
+    void put_common(Values& values, const Directive& d);
+    RestageHandle named_material(const Directive& directive, const std::string& name);
+    RestageHandle default_material(const Directive& directive);
+
+    // build_shapes.cpp
+    void shape(const Directive& directive);
+    RestageHandle mesh(const Directive& directive, const Mesh*& data);
+    RestageHandle ply_mesh(const Directive& directive, const Mesh*& data);
+    void object_instance(const Directive& directive);
+    bool emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance);
+
+    // build_lights.cpp, build_camera.cpp, build_media.cpp
+    void light(const Directive& directive);
+    void infinite_light(const Directive& directive);
+    void flush_environment();
+    double light_scale(const Directive& d, Rgb& color);
+    void camera(const Directive& directive);
+    void film_and_settings();
+    void medium(const Directive& directive);
+    RestageHandle medium_named(const std::string& name, const Directive& directive);
+
+    Import& import_;
+    State state_;
+    struct Saved {
+        State state;
+        const Directive* opened;
+    };
+    std::vector<Saved> stack_;
+    std::map<std::string, std::array<Matrix, 2>> coordinate_systems_;
+    bool world_ = false;
+    const Directive* film_ = nullptr;
+    const Directive* filter_ = nullptr;
+    const Directive* sampler_ = nullptr;
+    const Directive* integrator_ = nullptr;
+    const Directive* camera_ = nullptr;
+    std::string camera_exterior_;
+    std::string option_lines_; // verbatim, of directives that only pbrt understands
+    std::map<std::string, const Directive*> later_materials_; // v4: NamedMaterial may come first
+    std::map<std::string, RestageHandle> media_;
+    std::set<RestageHandle> interfaces_; // materials without a surface
+
+    struct Object {
+        std::vector<RestageInstance> instances;
+        std::deque<std::string> names;
+    };
+    std::map<std::string, Object> objects_;
+    std::string open_object_;
+    std::map<std::string, RestageHandle> mesh_cache_; // by what they are made from
+    std::map<std::string, double> mesh_area_cache_;
+    std::map<std::string, Mesh> emitter_meshes_;
+    std::map<std::string, RestageHandle> images_, materials_by_content_;
+    RestageHandle default_material_ = 0;
+
+    struct PendingEnvironment {
+        bool set = false, has_image = false;
+        RestageEnvironment value{};
+        std::string name, verbatim;
+        Location at;
+    } environment_;
+};
+
+} // namespace restage::pbrt

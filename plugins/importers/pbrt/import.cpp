@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import.hpp"
+
+#include "lexer.hpp"
+
+#include <algorithm>
+
+namespace restage::pbrt {
+
+void Values::number(const char* id, double value) {
+    values_.push_back({.id = id, .type = RESTAGE_FLOAT, .v = {static_cast<float>(value)}});
+}
+void Values::integer(const char* id, int value) {
+    values_.push_back({.id = id, .type = RESTAGE_INT, .v = {static_cast<float>(value)}});
+}
+void Values::boolean(const char* id, bool value) {
+    values_.push_back({.id = id, .type = RESTAGE_BOOL, .v = {value ? 1.f : 0.f}});
+}
+void Values::color(const char* id, Rgb c) {
+    values_.push_back({.id = id,
+                       .type = RESTAGE_COLOR,
+                       .v = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1.f}});
+}
+void Values::choice(const char* id, const char* value) {
+    values_.push_back({.id = id, .type = RESTAGE_ENUM, .text = value});
+}
+void Values::texture(const char* id, RestageType type, RestageHandle handle) {
+    values_.push_back({.id = id, .type = static_cast<std::uint32_t>(type), .ref = handle});
+}
+void Values::material(const char* id, RestageHandle handle) {
+    values_.push_back({.id = id, .type = RESTAGE_MATERIAL, .ref = handle});
+}
+
+void Import::report(RestageFate fate, Location at, std::string what, std::string note) {
+    // What is folded: everything of `what` but quoted names, so `Shape "curve"` of many lines is one line.
+    std::string kind;
+    bool quoted = false;
+    for (const char c : what) {
+        if (c == '"') quoted = !quoted;
+        if (!quoted) kind += c;
+    }
+    const std::string key = std::to_string(fate) + '\n' + kind + '\n' + note;
+    if (Line*& line = folded_[key]; line) {
+        ++line->count;
+    } else {
+        lines_.push_back({fate, at, std::move(what), std::move(note)});
+        line = &lines_.back();
+    }
+}
+
+void Import::flush_report() {
+    for (const Line& line : lines_) {
+        std::string note = line.note;
+        if (line.count > 1) note += (note.empty() ? "(" : " (") + std::to_string(line.count) + " times; this is the first)";
+        out.report(out.ctx, line.fate, sources.name(line.at.file).c_str(), line.at.line, line.what.c_str(), note.c_str());
+    }
+    lines_.clear();
+    folded_.clear();
+}
+
+std::string Import::keep_unused(const ParamList& params, const std::string& what) {
+    std::string verbatim;
+    params.each_unused([&](const Param& param) {
+        kept(param.at, what, "parameter \"" + param.type + " " + param.name + "\" means nothing to the renderer; written back as it is");
+        (verbatim += to_text(param)) += '\n';
+    });
+    return verbatim;
+}
+
+std::filesystem::path Import::resolve(const std::string& name, Location at) const {
+    namespace fs = std::filesystem;
+    std::error_code code;
+    const auto find = [&](const std::string& as) {
+        const fs::path path(as);
+        if (path.is_absolute()) return path;
+        const fs::path beside_main = folder_ / path;
+        if (fs::exists(beside_main, code)) return beside_main;
+        const fs::path beside_file = fs::path(sources.name(at.file)).parent_path() / path;
+        return fs::exists(beside_file, code) ? beside_file : beside_main;
+    };
+    fs::path path = find(name);
+    if (name.find('\\') != name.npos && !fs::exists(path, code)) { // written on Windows
+        std::string slashes = name;
+        std::replace(slashes.begin(), slashes.end(), '\\', '/');
+        path = find(slashes);
+    }
+    const fs::path real = fs::weakly_canonical(path, code);
+    return code ? path : real;
+}
+
+std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location at) {
+    const std::string path = resolve(name, at).string();
+    if (const auto known = spectra_.find(path); known != spectra_.end()) return known->second;
+    std::optional<Spectrum>& out_spectrum = spectra_[path];
+    std::string reason;
+    auto bytes = FileBytes::open(path, reason);
+    if (!bytes) {
+        dropped(at, "spectrum " + quote(name), reason + ": " + path + "; the default stands for it");
+        return std::nullopt;
+    }
+    Sources own; // messages name the spectrum file itself
+    own.add(path, std::move(*bytes));
+    Lexer lexer(own);
+    lexer.push(0);
+    std::vector<double> pairs;
+    try {
+        double value = 0;
+        while (lexer.number(value)) pairs.push_back(value);
+        if (lexer.peek().kind == TokenKind::end_of_file)
+            out_spectrum = from_pairs(pairs, v3() ? Ends::constant : Ends::zero);
+        else
+            reason = "line " + std::to_string(lexer.here().line) + " is no number";
+    } catch (const ImportError& error) {
+        reason = "line " + std::to_string(error.at.line) + ": " + error.message;
+    }
+    if (!out_spectrum)
+        dropped(at, "spectrum " + quote(name),
+                (reason.empty() ? std::string("wavelengths must rise and each needs a value") : reason) + ": " + path +
+                    "; the default stands for it");
+    return out_spectrum;
+}
+
+std::optional<Spectrum> Import::spectrum(const Param& param) {
+    if (!param.strings.empty()) {
+        if (auto named = named_spectrum(param.strings[0])) return named;
+        return read_spectrum(param.strings[0], param.at);
+    }
+    auto out_spectrum = from_pairs(param.numbers, v3() ? Ends::constant : Ends::zero);
+    if (!out_spectrum)
+        throw ImportError{param.at, "\"spectrum " + param.name + "\" needs pairs of wavelength [nm] and value, wavelengths rising"};
+    return out_spectrum;
+}
+
+std::optional<Spectrum> Import::spectrum(const ParamList& params, std::string_view name) {
+    const Param* param = params.has(name) ? params.find(name) : nullptr;
+    if (!param || param->type != "spectrum") return std::nullopt;
+    return spectrum(*param);
+}
+
+Rgb Import::limited(Rgb color, const Param& param, Role role) {
+    const double top = role == Role::albedo ? 1 : 1e30;
+    Rgb out_color{std::clamp(color.r, 0.0, top), std::clamp(color.g, 0.0, top), std::clamp(color.b, 0.0, top)};
+    const double change = std::abs(out_color.r - color.r) + std::abs(out_color.g - color.g) + std::abs(out_color.b - color.b);
+    if (change > 1e-3 * (1 + std::abs(color.r) + std::abs(color.g) + std::abs(color.b)))
+        approximated(param.at, "\"" + param.type + " " + param.name + "\"",
+                     role == Role::albedo ? "out of [0,1] in linear sRGB; clamped" : "negative in linear sRGB; clamped to 0");
+    return out_color;
+}
+
+std::optional<Rgb> Import::color(const ParamList& params, std::string_view name, Role role) {
+    if (!params.has(name)) return std::nullopt;
+    const Param* param = params.find(name);
+    if (param->type == "texture") return std::nullopt;
+    const auto need = [&](std::size_t count, const char* what) {
+        if (param->numbers.size() < count || param->numbers.empty())
+            throw ImportError{param->at, "\"" + param->type + " " + param->name + "\" needs " + what};
+    };
+    if (param->type == "rgb" || param->type == "color") {
+        need(3, "three numbers");
+        const Rgb given{param->numbers[0], param->numbers[1], param->numbers[2]};
+        return limited(to_srgb(given, param->color_space, role != Role::light), *param, role);
+    }
+    if (param->type == "xyz") {
+        need(3, "three numbers");
+        return limited(xyz_to_rgb({param->numbers[0], param->numbers[1], param->numbers[2]}), *param, role);
+    }
+    if (param->type == "blackbody") {
+        need(1, "a temperature [K]");
+        const Spectrum emitted = blackbody(param->numbers[0]);
+        // v3 takes temperature and scale, relative to a peak of 1; v4 makes the light's luminance 1, scale comes apart.
+        const double scale = param->numbers.size() > 1 ? param->numbers[1] : 1;
+        if (v3()) return limited(rgb_equal_energy(emitted) * scale, *param, Role::light);
+        return limited((role == Role::light ? rgb_of_light(emitted) : rgb_of_reflectance(emitted)) * scale, *param, role);
+    }
+    if (param->type == "spectrum") {
+        const auto sampled = spectrum(*param);
+        if (!sampled) return std::nullopt;
+        if (v3()) return limited(rgb_equal_energy(*sampled), *param, role == Role::albedo ? Role::unbounded : role);
+        return limited(role == Role::light ? rgb_of_light(*sampled) : rgb_of_reflectance(*sampled), *param, role);
+    }
+    if (param->numbers.size() == 1) return Rgb{param->numbers[0], param->numbers[0], param->numbers[0]};
+    throw ImportError{param->at, "parameter \"" + param->type + " " + param->name + "\" should be a colour: rgb, spectrum or blackbody"};
+}
+
+} // namespace restage::pbrt

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all parts of one import share: the host's writer, the report, the version's conventions, where files are found,
+// and colours. It knows no directive.
+#pragma once
+
+#include "directives.hpp"
+#include "spectrum.hpp"
+#include "transform.hpp"
+
+#include <deque>
+#include <map>
+#include <restage/scene_io.h>
+
+namespace restage::pbrt {
+
+// Parameter values on their way to the host. Ids and enum texts are literals.
+class Values {
+  public:
+    void number(const char* id, double value);
+    void integer(const char* id, int value);
+    void boolean(const char* id, bool value);
+    void color(const char* id, Rgb value);
+    void choice(const char* id, const char* value);
+    void texture(const char* id, RestageType type, RestageHandle handle);
+    void material(const char* id, RestageHandle handle);
+    const RestageValue* data() const { return values_.data(); }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(values_.size()); }
+
+  private:
+    std::vector<RestageValue> values_;
+};
+
+enum class Role { albedo, unbounded, light };
+
+class Import {
+  public:
+    Import(const RestageSceneWriter1& writer, Sources& all_sources, std::filesystem::path main_folder, Version detected)
+        : out(writer), sources(all_sources), version(detected), folder_(std::move(main_folder)) {}
+
+    const RestageSceneWriter1& out;
+    Sources& sources;
+    const Version version;
+    bool v3() const { return version == Version::v3; }
+    const char* format() const { return v3() ? "pbrt-v3" : "pbrt-v4"; }
+
+    // A line of the report. Lines that say the same of the same kind of thing are folded into the first one.
+    void report(RestageFate fate, Location at, std::string what, std::string note);
+    void kept(Location at, std::string what, std::string note) { report(RESTAGE_KEPT, at, what, note); }
+    void approximated(Location at, std::string what, std::string note) { report(RESTAGE_APPROXIMATED, at, what, note); }
+    void dropped(Location at, std::string what, std::string note) { report(RESTAGE_DROPPED, at, what, note); }
+    void flush_report();
+
+    // Parameters nobody asked for: reported as kept, and returned as verbatim lines.
+    std::string keep_unused(const ParamList& params, const std::string& what);
+
+    // Where the scene means: beside the main file, else beside the file that says it. Absolute; may not exist.
+    std::filesystem::path resolve(const std::string& name, Location at) const;
+
+    // A colour parameter in linear sRGB. nullopt: absent, a texture, or unreadable (reported).
+    std::optional<Rgb> color(const ParamList& params, std::string_view name, Role role);
+    Rgb color(const ParamList& params, std::string_view name, Role role, Rgb otherwise) {
+        return color(params, name, role).value_or(otherwise);
+    }
+    // The spectrum of a parameter of type "spectrum"; nullopt if it is of another type, absent or unreadable.
+    std::optional<Spectrum> spectrum(const ParamList& params, std::string_view name);
+
+    RestageText text(const std::string& name, const std::string& verbatim) const {
+        return {name.c_str(), verbatim.c_str(), format()};
+    }
+
+  private:
+    std::optional<Spectrum> spectrum(const Param& param);
+    std::optional<Spectrum> read_spectrum(const std::string& name, Location at);
+    Rgb limited(Rgb color, const Param& param, Role role);
+
+    struct Line {
+        RestageFate fate;
+        Location at;
+        std::string what, note;
+        std::size_t count = 1;
+    };
+    std::deque<Line> lines_;
+    std::map<std::string, Line*> folded_;
+    std::map<std::string, std::optional<Spectrum>> spectra_; // by path
+    std::filesystem::path folder_;
+};
+
+} // namespace restage::pbrt

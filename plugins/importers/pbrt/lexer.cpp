@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lexer.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace restage::pbrt {
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
+bool ends_word(char c) { return is_blank(c) || c == '"' || c == '[' || c == ']' || c == '#'; }
+bool starts_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 60;
+    std::string out = "'";
+    for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+    return out + (text.size() > longest ? "...'" : "'");
+}
+
+} // namespace
+
+double parse_number(std::string_view text, Location at) {
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (begin != end && *begin == '+') ++begin;
+    double value = 0;
+    const auto [stop, code] = std::from_chars(begin, end, value);
+    if (stop == end && begin != end && code == std::errc::result_out_of_range) {
+        // from_chars says the same of 1e-400 and of 1e400; only the first is harmless.
+        const double exact = std::strtod(std::string(text).c_str(), nullptr);
+        if (std::abs(exact) < 1) return exact;
+        throw ImportError{at, "number " + quoted(text) + " is too large for a double; write a smaller one"};
+    }
+    if (stop != end || begin == end || code != std::errc())
+        throw ImportError{at, "expected a number, found " + quoted(text)};
+    if (!std::isfinite(value))
+        throw ImportError{at, "number " + quoted(text) + " is not finite; scene files may hold finite numbers only"};
+    return value;
+}
+
+void Lexer::push(std::uint32_t file) {
+    const std::string_view text = sources_.text(file);
+    Frame frame{.file = file, .at = text.data(), .end = text.data() + text.size(), .line_start = text.data(), .line = 1};
+    if (text.starts_with("\xEF\xBB\xBF")) { // a byte order mark
+        frame.at += 3;
+        frame.line_start += 3;
+    }
+    frames_.push_back(frame);
+}
+
+bool Lexer::is_open(const std::string& name) const {
+    for (const Frame& frame : frames_)
+        if (sources_.name(frame.file) == name) return true;
+    return false;
+}
+
+Location Lexer::place(const Frame& frame, const char* at) const {
+    return {frame.file, frame.line, static_cast<std::uint32_t>(at - frame.line_start) + 1};
+}
+
+void Lexer::skip_blanks(Frame& frame) {
+    while (frame.at != frame.end) {
+        const char c = *frame.at;
+        if (c == '\n' || (c == '\r' && (frame.at + 1 == frame.end || frame.at[1] != '\n'))) {
+            ++frame.line;
+            frame.line_start = frame.at + 1;
+        } else if (c == '#') {
+            while (frame.at != frame.end && *frame.at != '\n' && *frame.at != '\r') ++frame.at;
+            continue;
+        } else if (!is_blank(c)) {
+            return;
+        }
+        ++frame.at;
+    }
+}
+
+Token Lexer::next() {
+    if (has_peeked_) {
+        has_peeked_ = false;
+        return peeked_;
+    }
+    return scan();
+}
+
+const Token& Lexer::peek() {
+    if (!has_peeked_) {
+        peeked_ = scan();
+        has_peeked_ = true;
+    }
+    return peeked_;
+}
+
+Location Lexer::here() { return peek().at; }
+
+bool Lexer::number(double& value) {
+    if (has_peeked_) {
+        if (peeked_.kind != TokenKind::word || !starts_number(peeked_.text.front())) return false;
+        has_peeked_ = false;
+        value = parse_number(peeked_.text, peeked_.at);
+        return true;
+    }
+    Frame& frame = frames_.back();
+    skip_blanks(frame);
+    if (frame.at == frame.end || !starts_number(*frame.at)) return false;
+    const char* begin = *frame.at == '+' ? frame.at + 1 : frame.at;
+    const auto [stop, code] = std::from_chars(begin, frame.end, value);
+    if (code == std::errc() && (stop == frame.end || ends_word(*stop)) && std::isfinite(value)) {
+        frame.at = stop;
+        return true;
+    }
+    const Token token = scan(); // says what is wrong with it
+    value = parse_number(token.text, token.at);
+    return true;
+}
+
+Token Lexer::scan() {
+    Frame& frame = frames_.back();
+    skip_blanks(frame);
+    if (frame.at == frame.end) return {TokenKind::end_of_file, {}, place(frame, frame.at)};
+    const Location at = place(frame, frame.at);
+    const char c = *frame.at;
+    if (c == '[') return {TokenKind::open, {frame.at++, 1}, at};
+    if (c == ']') return {TokenKind::close, {frame.at++, 1}, at};
+    if (c == '"') return scan_text(frame);
+    const char* begin = frame.at;
+    while (frame.at != frame.end && !ends_word(*frame.at)) ++frame.at;
+    return {TokenKind::word, {begin, static_cast<std::size_t>(frame.at - begin)}, at};
+}
+
+Token Lexer::scan_text(Frame& frame) {
+    const Location at = place(frame, frame.at);
+    const char* begin = ++frame.at;
+    bool escapes = false;
+    while (frame.at != frame.end && *frame.at != '"') {
+        if (*frame.at == '\n')
+            throw ImportError{at, "this string is not closed on its line; add the missing '\"'"};
+        if (*frame.at == '\\' && frame.at + 1 != frame.end && frame.at[1] != '\n') {
+            escapes = true;
+            ++frame.at;
+        }
+        ++frame.at;
+    }
+    if (frame.at == frame.end)
+        throw ImportError{at, "the file ends inside this string; add the missing '\"' or restore the rest of the file"};
+    const std::string_view raw{begin, static_cast<std::size_t>(frame.at++ - begin)};
+    if (!escapes) return {TokenKind::text, raw, at};
+    std::string& out = unescaped_.emplace_back();
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        if (raw[i] != '\\') {
+            out += raw[i];
+            continue;
+        }
+        const char next = raw[++i];
+        switch (next) {
+            case 'b': out += '\b'; break;
+            case 'f': out += '\f'; break;
+            case 'n': out += '\n'; break;
+            case 'r': out += '\r'; break;
+            case 't': out += '\t'; break;
+            case '\\':
+            case '\'':
+            case '"': out += next; break;
+            default: (out += '\\') += next; // "textures\wood.png": a path of Windows, not an escape
+        }
+    }
+    return {TokenKind::text, out, at};
+}
+
+} // namespace restage::pbrt

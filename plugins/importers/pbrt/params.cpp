@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "params.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace restage::pbrt {
+
+namespace {
+
+[[noreturn]] void wrong(const Param& param, const std::string& expected) {
+    throw ImportError{param.at, "parameter \"" + param.type + " " + param.name + "\" should be " + expected};
+}
+
+double one_number(const Param& param) {
+    if (param.numbers.size() != 1)
+        wrong(param, param.numbers.empty() ? "a number" : "one number; " + std::to_string(param.numbers.size()) + " are given");
+    return param.numbers[0];
+}
+
+} // namespace
+
+const Param* ParamList::find(std::string_view name) const {
+    for (auto it = params.rbegin(); it != params.rend(); ++it)
+        if (it->name == name) {
+            it->used = true;
+            return &*it;
+        }
+    return nullptr;
+}
+
+const Param* ParamList::find(std::string_view name, std::string_view type) const {
+    for (auto it = params.rbegin(); it != params.rend(); ++it)
+        if (it->name == name && it->type == type) {
+            it->used = true;
+            return &*it;
+        }
+    return nullptr;
+}
+
+bool ParamList::has(std::string_view name) const {
+    for (const Param& param : params)
+        if (param.name == name) return true;
+    return false;
+}
+
+double ParamList::number(std::string_view name, double otherwise) const {
+    const Param* param = find(name);
+    return param ? one_number(*param) : otherwise;
+}
+
+int ParamList::integer(std::string_view name, int otherwise) const {
+    const Param* param = find(name);
+    if (!param) return otherwise;
+    const double value = one_number(*param);
+    if (value != std::floor(value) || std::abs(value) > 2147483647.0) wrong(*param, "a whole number of 32 bits");
+    return static_cast<int>(value);
+}
+
+bool ParamList::boolean(std::string_view name, bool otherwise) const {
+    const Param* param = find(name);
+    if (!param) return otherwise;
+    if (param->bools.size() != 1) wrong(*param, "true or false");
+    return param->bools[0] != 0;
+}
+
+std::string ParamList::string(std::string_view name, std::string otherwise) const {
+    const Param* param = find(name);
+    if (!param) return otherwise;
+    if (param->strings.size() != 1) wrong(*param, "one \"string\"");
+    return param->strings[0];
+}
+
+std::string ParamList::texture(std::string_view name) const {
+    for (auto it = params.rbegin(); it != params.rend(); ++it)
+        if (it->name == name) {
+            if (it->type != "texture") return {};
+            it->used = true;
+            if (it->strings.size() != 1) wrong(*it, "the \"name\" of one texture");
+            return it->strings[0];
+        }
+    return {};
+}
+
+std::array<double, 3> ParamList::triple(std::string_view name, std::array<double, 3> otherwise) const {
+    const Param* param = find(name);
+    if (!param) return otherwise;
+    if (param->numbers.size() != 3) wrong(*param, "three numbers");
+    return {param->numbers[0], param->numbers[1], param->numbers[2]};
+}
+
+const std::vector<double>* ParamList::numbers(std::string_view name) const {
+    const Param* param = find(name);
+    if (!param) return nullptr;
+    if (param->numbers.empty() && (!param->strings.empty() || !param->bools.empty())) wrong(*param, "numbers");
+    return &param->numbers;
+}
+
+std::vector<std::uint32_t> ParamList::indices(std::string_view name, std::size_t bound) const {
+    std::vector<std::uint32_t> out;
+    const Param* param = find(name);
+    if (!param) return out;
+    if (!param->strings.empty() || !param->bools.empty()) wrong(*param, "whole numbers");
+    out.reserve(param->numbers.size());
+    for (std::size_t i = 0; i < param->numbers.size(); ++i) {
+        const double value = param->numbers[i];
+        if (!(value >= 0 && value < static_cast<double>(bound)) || value != std::floor(value))
+            throw ImportError{param->at, "\"" + param->name + "\" number " + std::to_string(i) + " is " + shortest(value) +
+                                             ", but there are " + std::to_string(bound) +
+                                             " vertices; indices count from 0"};
+        out.push_back(static_cast<std::uint32_t>(value));
+    }
+    return out;
+}
+
+void ParamList::mark_all_used() const {
+    for (const Param& param : params) param.used = true;
+}
+
+void ParamList::each_unused(const std::function<void(const Param&)>& visit) const {
+    for (const Param& param : params)
+        if (!param.used && !param.from_attribute) visit(param);
+}
+
+std::string shortest(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    return {text, end};
+}
+
+std::optional<double> parse_double(std::string_view text) {
+    double value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::string quote(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '\n') {
+            out += "\\n";
+            continue;
+        }
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+std::string to_text(const Param& param) {
+    std::string out = quote(param.type + " " + param.name) + " [";
+    for (const double value : param.numbers) (out += ' ') += shortest(value);
+    for (const std::string& value : param.strings) (out += ' ') += quote(value);
+    for (const char value : param.bools) out += value ? " true" : " false";
+    return out + " ]";
+}
+
+std::string to_text(const ParamList& list, std::string_view separator) {
+    std::string out;
+    for (const Param& param : list.params) {
+        if (!out.empty()) out += separator;
+        out += to_text(param);
+    }
+    return out;
+}
+
+} // namespace restage::pbrt

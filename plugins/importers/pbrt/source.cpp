@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "source.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <zlib.h>
+
+#if !defined(_WIN32)
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace restage::pbrt {
+
+namespace {
+
+// Nothing we read is larger; a gzip bomb ends here instead of in the memory of the machine.
+constexpr std::size_t max_file_size = std::size_t(8) << 30;
+
+std::optional<std::vector<char>> inflate(std::string_view packed, std::string& reason) {
+    std::vector<char> out;
+    z_stream stream{};
+    if (inflateInit2(&stream, 15 + 16) != Z_OK) {
+        reason = "zlib could not be started";
+        return std::nullopt;
+    }
+    std::size_t read = 0;
+    int state = Z_OK;
+    std::vector<char> block(std::size_t(1) << 18);
+    while (true) {
+        if (stream.avail_in == 0 && read < packed.size()) {
+            const std::size_t n = std::min<std::size_t>(packed.size() - read, std::size_t(1) << 30);
+            stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + read));
+            stream.avail_in = static_cast<uInt>(n);
+            read += n;
+        }
+        stream.next_out = reinterpret_cast<Bytef*>(block.data());
+        stream.avail_out = static_cast<uInt>(block.size());
+        state = ::inflate(&stream, Z_NO_FLUSH);
+        const std::size_t got = block.size() - stream.avail_out;
+        out.insert(out.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(got));
+        if (out.size() > max_file_size) {
+            reason = "it inflates to more than 8 GiB";
+            break;
+        }
+        if (state == Z_STREAM_END) {
+            if (stream.avail_in == 0 && read == packed.size()) break;
+            if (inflateReset(&stream) != Z_OK) break; // several members, one after the other
+            state = Z_OK;
+            continue;
+        }
+        if (state != Z_OK || (got == 0 && stream.avail_in == 0 && read == packed.size())) {
+            reason = state == Z_OK || state == Z_BUF_ERROR ? "the gzip data ends early" : "the gzip data is damaged";
+            break;
+        }
+    }
+    inflateEnd(&stream);
+    if (!reason.empty()) return std::nullopt;
+    return out;
+}
+
+} // namespace
+
+FileBytes::FileBytes(FileBytes&& other) noexcept
+    : data_(other.data_), size_(other.size_), mapped_(other.mapped_), owned_(std::move(other.owned_)) {
+    other.mapped_ = false;
+    other.data_ = nullptr;
+    other.size_ = 0;
+}
+
+FileBytes::~FileBytes() {
+#if !defined(_WIN32)
+    if (mapped_) munmap(const_cast<char*>(data_), size_);
+#endif
+}
+
+FileBytes FileBytes::from_memory(std::string text) {
+    FileBytes bytes;
+    bytes.owned_ = std::make_unique<std::vector<char>>(text.begin(), text.end());
+    bytes.data_ = bytes.owned_->data();
+    bytes.size_ = bytes.owned_->size();
+    return bytes;
+}
+
+std::optional<FileBytes> FileBytes::open(const std::filesystem::path& path, std::string& reason) {
+    reason.clear();
+    FileBytes bytes;
+    std::error_code code;
+    const auto kind = std::filesystem::status(path, code);
+    if (code || !std::filesystem::exists(kind)) {
+        reason = "there is no such file";
+        return std::nullopt;
+    }
+    if (!std::filesystem::is_regular_file(kind)) {
+        reason = "it is not a regular file";
+        return std::nullopt;
+    }
+#if !defined(_WIN32)
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat info {};
+    if (fd < 0 || fstat(fd, &info) != 0) {
+        reason = std::strerror(errno);
+        if (fd >= 0) ::close(fd);
+        return std::nullopt;
+    }
+    bytes.size_ = static_cast<std::size_t>(info.st_size);
+    if (bytes.size_ > 0) {
+        void* at = mmap(nullptr, bytes.size_, PROT_READ, MAP_PRIVATE, fd, 0);
+        if (at == MAP_FAILED) {
+            reason = std::strerror(errno);
+            ::close(fd);
+            bytes.size_ = 0;
+            return std::nullopt;
+        }
+        bytes.data_ = static_cast<const char*>(at);
+        bytes.mapped_ = true;
+    }
+    ::close(fd);
+#else
+    std::FILE* file = _wfopen(path.c_str(), L"rb");
+    if (!file) {
+        reason = std::strerror(errno);
+        return std::nullopt;
+    }
+    bytes.owned_ = std::make_unique<std::vector<char>>(static_cast<std::size_t>(std::filesystem::file_size(path, code)));
+    const std::size_t got = std::fread(bytes.owned_->data(), 1, bytes.owned_->size(), file);
+    std::fclose(file);
+    bytes.owned_->resize(got);
+    bytes.data_ = bytes.owned_->data();
+    bytes.size_ = got;
+#endif
+    const std::string_view view = bytes.view();
+    if (view.size() >= 2 && view[0] == '\x1f' && view[1] == '\x8b') {
+        auto plain = inflate(view, reason);
+        if (!plain) return std::nullopt;
+        FileBytes inflated;
+        inflated.owned_ = std::make_unique<std::vector<char>>(std::move(*plain));
+        inflated.data_ = inflated.owned_->data();
+        inflated.size_ = inflated.owned_->size();
+        return inflated;
+    }
+    return bytes;
+}
+
+std::uint32_t Sources::add(std::string name, FileBytes bytes) {
+    files_.push_back(std::make_unique<File>(File{std::move(name), std::move(bytes)}));
+    return static_cast<std::uint32_t>(files_.size() - 1);
+}
+
+std::string to_string(const Sources& sources, Location at) {
+    return sources.name(at.file) + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+}
+
+} // namespace restage::pbrt

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The text of the files an import reads, and places in it. Files are mapped or inflated once and live until the import
+// ends, so that tokens can be views. ImportError is the one exception of this plugin; it never leaves it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace restage::pbrt {
+
+struct Location {
+    std::uint32_t file = 0; // index into Sources
+    std::uint32_t line = 0, column = 0; // 1-based; 0 = the file as a whole
+};
+
+struct ImportError { // "mine, but malformed"
+    Location at;
+    std::string message; // what is wrong and what to do about it
+};
+
+// Bytes of a file: mapped where possible, inflated when it starts with the gzip magic number.
+class FileBytes {
+  public:
+    // nullopt and a reason when the file cannot be read.
+    static std::optional<FileBytes> open(const std::filesystem::path& path, std::string& reason);
+    static FileBytes from_memory(std::string text);
+    FileBytes(FileBytes&& other) noexcept;
+    FileBytes& operator=(FileBytes&&) = delete;
+    ~FileBytes();
+
+    std::string_view view() const { return {data_, size_}; }
+
+  private:
+    FileBytes() = default;
+    const char* data_ = nullptr;
+    std::size_t size_ = 0;
+    bool mapped_ = false;
+    std::unique_ptr<std::vector<char>> owned_;
+};
+
+class Sources {
+  public:
+    std::uint32_t add(std::string name, FileBytes bytes);
+    const std::string& name(std::uint32_t file) const { return files_[file]->name; }
+    std::string_view text(std::uint32_t file) const { return files_[file]->bytes.view(); }
+    std::size_t size() const { return files_.size(); }
+
+  private:
+    struct File {
+        std::string name;
+        FileBytes bytes;
+    };
+    std::vector<std::unique_ptr<File>> files_;
+};
+
+// "/a/scene.pbrt:12:3"
+std::string to_string(const Sources& sources, Location at);
+
+} // namespace restage::pbrt

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Spectra to linear sRGB through the CIE 1931 observer, with the conventions of pbrt-v3 and pbrt-v4. All integrals are
+// sums at 1 nm from 360 to 830 nm, as in pbrt-v4.
+#pragma once
+
+#include "params.hpp"
+
+#include <array>
+
+namespace restage::pbrt {
+
+struct Rgb {
+    double r = 0, g = 0, b = 0;
+    friend Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+    friend Rgb operator*(Rgb a, double s) { return {a.r * s, a.g * s, a.b * s}; }
+    friend Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+    bool operator==(const Rgb&) const = default;
+};
+inline double luminance(Rgb c) { return 0.212639 * c.r + 0.715169 * c.g + 0.072192 * c.b; } // of sRGB primaries
+
+constexpr int first_nm = 360, last_nm = 830;
+using Spectrum = std::array<double, last_nm - first_nm + 1>;
+
+enum class Ends { zero, constant }; // beyond the samples: pbrt-v4's inline spectra are 0, v3's go on
+// pairs: nm, value, nm, value, ...; wavelengths must rise (else nullopt).
+std::optional<Spectrum> from_pairs(const std::vector<double>& pairs, Ends ends);
+// pbrt-v4's names ("metal-Au-eta", "stdillum-D65", "glass-BK7"); nullopt if it is none.
+std::optional<Spectrum> named_spectrum(std::string_view name);
+Spectrum blackbody(double kelvin); // Planck's law, its peak over all wavelengths = 1
+
+// XYZ of an emitter, divided by the integral of y-bar: a constant spectrum of 1 has Y = 1.
+std::array<double, 3> to_xyz(const Spectrum& emitted);
+Rgb xyz_to_rgb(std::array<double, 3> xyz);
+// pbrt-v3: emission and reflectance alike, under the equal-energy illuminant.
+Rgb rgb_equal_energy(const Spectrum& spectrum);
+// pbrt-v4 makes every light that is given by a spectrum one of luminance 1 (1 / SpectrumToPhotometric); scale follows.
+Rgb rgb_of_light(const Spectrum& emitted);
+// A reflectance, seen under D65 by an observer adapted to it: a constant r gives (r, r, r).
+Rgb rgb_of_reflectance(const Spectrum& reflectance);
+double luminance_mean(const Spectrum& spectrum); // weighted with y-bar: the index of a dispersive glass
+
+// Colours given in another space (directive ColorSpace). Lights keep their chromaticity; reflectances are adapted to
+// D65 (Bradford), so that white stays white.
+Rgb to_srgb(Rgb color, ColorSpace space, bool adapt_white);
+
+// Per-channel (eta, k) whose normal-incidence Fresnel reflectance is that of the spectral metal under D65.
+struct ComplexIndex {
+    Rgb eta, k;
+};
+ComplexIndex rgb_of_metal(const Spectrum& eta, const Spectrum& k);
+// The average of one channel's reflectance at normal incidence.
+double fresnel_normal(double eta, double k);
+
+} // namespace restage::pbrt
