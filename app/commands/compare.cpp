@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage compare A B: how far picture A is from reference B, as text or JSON on stdout.
+
+#include "commands/commands.hpp"
+#include "io/exr.hpp"
+#include "io/image_compare.hpp"
+#include "io/image_file.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace restage::app {
+
+namespace {
+
+struct Options {
+    std::string a, b;
+    std::vector<std::string> halves;
+    bool json = false;
+    std::string diff, z_map;
+    io::CompareOptions compare;
+};
+
+Result<scene::PixelData> load(const std::string& path, Log& log) {
+    std::string warning;
+    auto image = io::read_image(path, RESTAGE_SRGB, 2.2f, &warning);
+    if (!warning.empty()) log.warning(warning);
+    return image;
+}
+
+// Luminance with the variance that the file's own "stderr" layer tells; nullopt when it has none.
+Result<std::optional<io::Estimate>> load_estimate(const std::string& path, const scene::PixelData& image) {
+    if (!path.ends_with(".exr") && !path.ends_with(".EXR")) return std::nullopt;
+    RESTAGE_TRY(const io::ExrImage exr, io::read_exr(path));
+    const io::ExrLayer* layer = exr.find("stderr");
+    if (!layer || layer->values.empty()) return std::nullopt;
+    const auto index = [&](const char* name) {
+        return std::find(layer->channels.begin(), layer->channels.end(), name) - layer->channels.begin();
+    };
+    const auto count = static_cast<std::ptrdiff_t>(layer->channels.size());
+    const std::ptrdiff_t y = index("Y"), rgb[3] = {index("R"), index("G"), index("B")};
+    if (y == count && (rgb[0] == count || rgb[1] == count || rgb[2] == count)) return std::nullopt;
+    io::Estimate estimate{.width = image.width, .height = image.height, .luminance = io::luminance(image)};
+    for (std::size_t i = 0; i < estimate.luminance.size(); ++i) {
+        const float* errors = &layer->values[i * layer->channels.size()];
+        float error = 0; // of luminance: its own channel, else the bound for channels that are wrong together
+        if (y < count)
+            error = errors[y];
+        else
+            for (std::size_t c = 0; c < 3; ++c)
+                error += io::luminance_weights[c] * errors[rgb[c]];
+        estimate.variance.push_back(std::isfinite(error) ? error * error : 0);
+    }
+    return estimate;
+}
+
+struct Reference {
+    scene::PixelData image;
+    std::optional<io::Estimate> estimate;
+};
+
+Result<Reference> load_reference(const Options& options, Log& log) {
+    if (options.halves.empty()) {
+        RESTAGE_TRY(scene::PixelData image, load(options.b, log));
+        RESTAGE_TRY(auto estimate, load_estimate(options.b, image));
+        return Reference{std::move(image), std::move(estimate)};
+    }
+    RESTAGE_TRY(scene::PixelData image, load(options.halves[0], log));
+    RESTAGE_TRY(const scene::PixelData other, load(options.halves[1], log));
+    auto estimate = io::estimate_of_halves(image, other);
+    if (!estimate) return fail(options.halves[0] + ", " + options.halves[1], estimate.error());
+    if (image.channels != other.channels)
+        return fail(options.halves[1] + ": has " + std::to_string(other.channels) + " channels, its other half " +
+                    std::to_string(image.channels));
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        image.values[i] = 0.5f * (image.values[i] + other.values[i]);
+    return Reference{std::move(image), std::move(*estimate)};
+}
+
+// A block each, |z| = 0 black, the threshold half grey-green, beyond it red to white.
+scene::PixelData z_picture(const io::ZTest& test) {
+    scene::PixelData image{.width = test.columns, .height = test.rows, .channels = 3};
+    for (const float z : test.z) {
+        const float t = std::abs(z) / static_cast<float>(test.threshold);
+        const float over = std::clamp((t - 1) / 3, 0.f, 1.f);
+        const glm::vec3 color = t <= 1 ? glm::vec3(0, 0.5f * t, 0.25f * t) : glm::vec3(0.6f + 0.4f * over, over, over);
+        for (int c = 0; c < 3; ++c)
+            image.values.push_back(io::srgb_to_linear(color[c]));
+    }
+    return image;
+}
+
+nlohmann::ordered_json to_json(const Options& options, const io::Comparison& c, const std::optional<io::ZTest>& z) {
+    nlohmann::ordered_json json;
+    json["a"] = options.a;
+    json["b"] = options.halves.empty() ? nlohmann::ordered_json(options.b) : nlohmann::ordered_json(options.halves);
+    json["mean_a"] = c.mean_a;
+    json["mean_b"] = c.mean_b;
+    json["luminance_a"] = c.luminance_a;
+    json["luminance_b"] = c.luminance_b;
+    json["rmse"] = c.rmse;
+    json["rel_mse"] = c.rel_mse;
+    json["flip"] = c.flip;
+    json["clip_luminance"] = c.clip_luminance;
+    json["z_test"] = nullptr;
+    if (z)
+        json["z_test"] = {{"blocks", z->z.size()},
+                          {"threshold", z->threshold},
+                          {"share_passing", z->share_passing},
+                          {"rms", z->rms},
+                          {"worst", z->worst},
+                          {"family_threshold", z->family_threshold},
+                          {"family_passes", z->family_passes}};
+    return json;
+}
+
+std::string to_text(const io::Comparison& c, const std::optional<io::ZTest>& z) {
+    const auto row = [](const char* name, double a, double b) {
+        return fmt::format("{:<12}{:>12.6g}{:>12.6g}{:>10}\n", name, a, b,
+                           b > 0 ? fmt::format("{:+.2f} %", 100 * (a / b - 1)) : "");
+    };
+    std::string text = fmt::format("{:<12}{:>12}{:>12}{:>10}\n", "mean", "A", "B", "A to B");
+    static constexpr const char* names[] = {"  red", "  green", "  blue"};
+    for (std::size_t i = 0; i < 3; ++i)
+        text += row(names[i], c.mean_a[i], c.mean_b[i]);
+    text += row("  luminance", c.luminance_a, c.luminance_b);
+    text += fmt::format("RMSE    {:.6g}\nrelMSE  {:.6g}\nFLIP    {:.5f}\n", c.rmse, c.rel_mse, c.flip);
+    if (c.clip_luminance > 0) text += fmt::format("fireflies clipped to luminance {:.4g}\n", c.clip_luminance);
+    if (z)
+        text += fmt::format(
+            "z-test  {:.2f} % of {} blocks within {:g} (by chance 99.73 %), rms {:.3f}, worst {:.2f}; "
+            "all together (limit {:.2f}): {}\n",
+            100 * z->share_passing, z->z.size(), z->threshold, z->rms, z->worst, z->family_threshold,
+            z->family_passes ? "pass" : "fail");
+    else
+        text += "z-test  not possible: A needs a layer 'stderr', B one as well or --reference-halves\n";
+    return text;
+}
+
+Result<int> run(const Options& options, Log& log) {
+    RESTAGE_TRY(const scene::PixelData a, load(options.a, log));
+    RESTAGE_TRY(const std::optional<io::Estimate> estimate_a, load_estimate(options.a, a));
+    RESTAGE_TRY(const Reference b, load_reference(options, log));
+    RESTAGE_TRY(const io::Comparison comparison, io::compare_images(a, b.image, options.compare));
+    std::optional<io::ZTest> z;
+    if (estimate_a && b.estimate) {
+        RESTAGE_TRY(z, io::z_test(*estimate_a, *b.estimate));
+    }
+    if (!options.diff.empty()) RESTAGE_CHECK(io::write_png(options.diff, io::difference_image(a, b.image)));
+    if (!options.z_map.empty()) {
+        if (!z) return fail("--z-map: no z-test without standard errors in both pictures (a layer 'stderr')");
+        RESTAGE_CHECK(io::write_png(options.z_map, z_picture(*z)));
+    }
+    const std::string out = options.json ? to_json(options, comparison, z).dump(2) + "\n" : to_text(comparison, z);
+    std::fputs(out.c_str(), stdout);
+    return exit_ok;
+}
+
+} // namespace
+
+void add_compare(CLI::App& program, Context& context) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("compare", "Measure how far picture A is from reference B");
+    command->add_option("A", options->a, "Picture (EXR, HDR, PFM; PNG, JPG, TGA, BMP as sRGB)")->required();
+    auto* b = command->add_option("B", options->b, "Reference");
+    auto* halves = command->add_option("--reference-halves", options->halves,
+                                       "Two independent halves instead of B: their mean is the reference, their "
+                                       "difference its noise");
+    halves->expected(2)->type_name("B1 B2")->excludes(b);
+    command->add_flag("--json", options->json, "Print JSON");
+    command
+        ->add_option("--diff", options->diff,
+                     "Write the relative difference of luminance: red where A is brighter, blue where darker")
+        ->type_name("PNG");
+    command->add_option("--z-map", options->z_map, "Write |z| of each 8x8 block: red is beyond 3")->type_name("PNG");
+    command
+        ->add_option("--clip", options->compare.clip,
+                     "Share of the brightest texels that is clipped in both alike (0.001 against fireflies)")
+        ->check(CLI::Range(0.f, 1.f));
+    command->add_option("--exposure", options->compare.exposure, "Stops, before FLIP looks at the pictures");
+    command->callback([options, b, halves, &context] {
+        if (b->count() + halves->count() == 0) throw CLI::RequiredError("B or --reference-halves");
+        context.choose([options, &context] { return run(*options, context.log); });
+    });
+}
+
+} // namespace restage::app
