@@ -15,7 +15,7 @@ static const RestageParam params[] = {
 
 static const RestageMaterial1 material = {
     .size = sizeof(RestageMaterial1),
-    .flags = RESTAGE_MATERIAL_TRANSMISSIVE | RESTAGE_MATERIAL_ADDITIVE,
+    .flags = RESTAGE_MATERIAL_TRANSMISSIVE | RESTAGE_MATERIAL_ADDITIVE | RESTAGE_MATERIAL_NONRECIPROCAL,
     .type = "translucent",
     .label = "Translucent (v3)",
     .prefix = "translucent",

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// BsdfLab: runs a material's real GLSL, composed as the renderer composes it, on lists of directions, and returns what
+// eval, pdf, sample and albedo said. What to make of it is the tests' affair.
+#pragma once
+
+#include "gpu/compiler.hpp"
+#include "gpu/device.hpp"
+#include "gpu/pipeline.hpp"
+#include "plugin/registry.hpp"
+#include "scene/params.hpp"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace restage::test {
+
+using Vec3 = std::array<float, 3>;
+
+struct BsdfJob {
+    Vec3 wo{0, 0, 1}, wi{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
+    std::uint32_t config = 0; // which parameter set
+    std::uint32_t seed = 0;   // of the Rng that stochastic materials get
+};
+
+struct BsdfAnswer {
+    Vec3 eval;         // (wo, wi), mean of the repeats
+    float eval_sq;     // mean square of its luminance
+    Vec3 eval_sampled; // (wo, sample.wi)
+    Vec3 eval_reverse; // (sample.wi, wo)
+    float pdf;         // (wo, wi)
+    float pdf_sampled; // (wo, sample.wi)
+    Vec3 wi, weight;   // the sample
+    float sample_pdf;
+    std::uint32_t flags;
+    float eta;
+    Vec3 albedo;
+};
+
+inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4;
+
+// Everything the tests of this folder share: device, compiler, and the plugins of this build.
+class Bench {
+public:
+    static Bench& get(); // made at first use; throws what is missing as a sentence
+    gpu::Device& device() { return *device_; }
+    gpu::ShaderCompiler& compiler() { return *compiler_; }
+    const std::vector<plugin::MaterialEntry>& materials() const { return registry_.materials(); }
+    const plugin::MaterialEntry& material(const char* type) const;
+
+private:
+    Bench();
+    Log log_;
+    plugin::Registry registry_;
+    std::unique_ptr<gpu::Device> device_;
+    std::unique_ptr<gpu::ShaderCompiler> compiler_;
+};
+
+class BsdfLab {
+public:
+    BsdfLab(Bench& bench, const plugin::MaterialEntry& material); // throws std::runtime_error
+
+    // `repeats` > 1 averages eval over that many random streams (stochastic materials).
+    std::vector<BsdfAnswer> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
+                                std::uint32_t repeats = 1);
+    const RestageMaterial1& table() const { return *material_.table; }
+    bool is(std::uint32_t flag) const { return (table().flags & flag) != 0; }
+
+private:
+    Bench& bench_;
+    plugin::MaterialEntry material_;
+    gpu::ComputePipeline pipeline_;
+};
+
+} // namespace restage::test
