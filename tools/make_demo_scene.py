@@ -1,20 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scenes/demo (pbrt-v4): a breakfast corner at late morning. Needs numpy; the same files every time."""
+"""Writes scenes/demo (pbrt-v4), a breakfast corner at late morning, and the sky of scenes/spheres. Needs numpy."""
+
 import pathlib
 import sys
 
 import numpy as np
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from demo_scene import furniture, images, room, sky, tableware, textures  # noqa: E402
-from demo_scene.mesh import rotate, scale, translate  # noqa: E402
-from demo_scene.writer import Scene, numbers  # noqa: E402
+from demo_scene import furniture, images, room, sky, tableware, textures
+from demo_scene.mesh import rotate, scale, translate
+from demo_scene.writer import Scene, numbers
 
 EYE, TARGET, FOV = (3.72, -4.50, 1.48), (1.56, -0.90, 0.93), 36.0
 SUN_ELEVATION, SUN_HEADING = 31.0, 5.0  # light travels along +x, turned by the heading about z [degrees]
-SUN_IRRADIANCE = np.array([1.0, 0.84, 0.64]) * 18.0
-SKY_SCALE = 2.6
+SUN_IRRADIANCE = np.array([1.0, 0.86, 0.69]) * 21.0
+SKY_SCALE = 3.4
 TABLE = (1.95, -1.62)
 
 
@@ -26,7 +25,6 @@ def sun_from():
 def head():
     return f"""
 # A breakfast corner at late morning. Metres; z is up. See scenes/README.md.
-Option "string rendercoordsys" "world"
 Scale -1 1 1
 LookAt {numbers(EYE)}  {numbers(TARGET)}  0 0 1
 Camera "perspective"
@@ -78,14 +76,32 @@ def furnish(scene):
     furniture.books(scene)
     room.picture(scene, 2.28, 1.52)
     room.mirror(scene, 3.02, 1.50)
+    scene.place("Picture, rear", "Picture", translate(1.98, 0.002 - room.DEPTH, 1.52) @ rotate((0, 0, 1), 180))
     lay_table(scene)
     tableware.vase(scene)
-    scene.place("Vase", "Vase", translate(1.92, -0.21, top))
-    furniture.stack_books(scene, (2.42, -0.21, top), ("ink", "ochre", "cream"), 1,
-                          ((0.21, 0.28, 0.034), (0.19, 0.26, 0.026), (0.16, 0.22, 0.03)), (88, 97, 84))
-    furniture.upright_books(scene, (2.70, -0.31, top), ("green", "red", "cream", "ink", "ochre", "red"), 4,
-                            ((0.16, 0.235, 0.030), (0.15, 0.215, 0.024), (0.17, 0.245, 0.036), (0.15, 0.205, 0.020),
-                             (0.16, 0.228, 0.028), (0.15, 0.20, 0.022)), (0, 0, 0, 0, 0, 0))
+    scene.place("Vase", "Vase", translate(1.90, -0.21, top) @ scale(1.12))
+    furniture.stack_books(
+        scene,
+        (2.42, -0.21, top),
+        ("ink", "ochre", "cream"),
+        1,
+        ((0.21, 0.28, 0.034), (0.19, 0.26, 0.026), (0.16, 0.22, 0.03)),
+        (88, 97, 84),
+    )
+    furniture.upright_books(
+        scene,
+        (2.70, -0.31, top),
+        ("green", "red", "cream", "ink", "ochre", "red"),
+        4,
+        (
+            (0.16, 0.235, 0.030),
+            (0.15, 0.215, 0.024),
+            (0.17, 0.245, 0.036),
+            (0.15, 0.205, 0.020),
+            (0.16, 0.228, 0.028),
+            (0.15, 0.20, 0.022),
+        ),
+    )
     tableware.plant(scene, (0.47, -0.40))
 
 
@@ -100,27 +116,43 @@ def lay_table(scene):
     tableware.bowl(scene)
     bx, by = x - 0.21, y - 0.10
     scene.place("Bowl", "Bowl", translate(bx, by, z))
-    fruit = (("Orange", 0.052, 0.014, 0.063, 20, 40), ("Orange", -0.050, 0.030, 0.062, 70, 10), ("Orange", 0.000, -0.056, 0.061, 130, 70),
-             ("Orange", 0.004, 0.004, 0.118, 35, 190), ("Lemon", 0.036, 0.078, 0.078, 85, 30), ("Lemon", -0.062, -0.042, 0.072, 80, 120))
+    fruit = (
+        ("Orange", 0.052, 0.014, 0.063, 20, 40),
+        ("Orange", -0.050, 0.030, 0.062, 70, 10),
+        ("Orange", 0.000, -0.056, 0.061, 130, 70),
+        ("Orange", 0.004, 0.004, 0.118, 35, 190),
+        ("Lemon", 0.036, 0.078, 0.078, 85, 30),
+        ("Lemon", -0.062, -0.042, 0.072, 80, 120),
+    )
     count = {}
     for name, dx, dy, dz, tilt, turn in fruit:
         count[name] = count.get(name, 0) + 1
-        scene.place(f"{name} {count[name]}", name, translate(bx + dx, by + dy, z + dz) @ rotate((0, 0, 1), turn) @ rotate((1, 0, 0), tilt))
+        scene.place(
+            f"{name} {count[name]}",
+            name,
+            translate(bx + dx, by + dy, z + dz) @ rotate((0, 0, 1), turn) @ rotate((1, 0, 0), tilt),
+        )
     scene.place("Pear 1", "Pear", translate(bx + 0.20, by - 0.09, z + 0.0435) @ rotate((0, 0, 1), 30) @ scale(1))
-    scene.place("Pear 2", "Pear", translate(bx + 0.275, by - 0.045, z + 0.0365) @ rotate((0, 0, 1), 160) @ rotate((1, 0, 0), 96))
+    scene.place(
+        "Pear 2", "Pear", translate(bx + 0.275, by - 0.045, z + 0.0365) @ rotate((0, 0, 1), 160) @ rotate((1, 0, 0), 96)
+    )
 
 
-def main():
-    folder = pathlib.Path(__file__).resolve().parent.parent / "scenes" / "demo"
+def main(scenes):
+    folder = scenes / "demo"
     scene = Scene(folder)
     textures.write_all(folder / "textures")
-    images.write_pfm(folder / "textures" / "sky.pfm", sky.sky_image(192, sun_from()))
+    images.write_pfm(folder / "textures" / "sky.pfm", sky.sky_image(160, sun_from()))
+    (scenes / "spheres").mkdir(exist_ok=True)
+    images.write_pfm(scenes / "spheres" / "sky.pfm", sky.sky_image(64, sun_from()))
     furnish(scene)
     scene.write("demo.pbrt", head(), lights())
     size = sum(p.stat().st_size for p in folder.rglob("*") if p.is_file())
-    print(f"{folder}: {scene.triangles} triangles in {len(list((folder / 'geometry').iterdir()))} meshes, "
-          f"{len(scene.placings)} placed, {size / 1e6:.2f} MB")
+    print(
+        f"{folder}: {scene.triangles} triangles in {len(list((folder / 'geometry').iterdir()))} meshes, "
+        f"{len(scene.placings)} placed, {size / 1e6:.2f} MB"
+    )
 
 
 if __name__ == "__main__":
-    main()
+    main(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "scenes")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tileable noise, and PNG and PFM writers on the standard library: what the textures of the bundled scenes need."""
+
 import struct
 import zlib
 
@@ -7,12 +8,12 @@ import numpy as np
 
 
 def noise(shape, seed, beta=1.0, stretch=(1.0, 1.0), low=1.0):
-    """Tileable 1/f^beta noise of unit variance; stretch > 1 elongates an axis (rows, columns); low cuts below cycles."""
+    """Tileable 1/f^beta noise, unit variance; stretch > 1 elongates (rows, columns); nothing below `low` cycles."""
     white = np.random.default_rng(seed).standard_normal(shape)
     fy = np.fft.fftfreq(shape[0])[:, None] * shape[0] * stretch[0]
     fx = np.fft.rfftfreq(shape[1])[None, :] * shape[1] * stretch[1]
     f = np.hypot(fy, fx)
-    gain = np.where(f >= low, 1 / np.maximum(f, 1e-9)**beta, 0.0)
+    gain = np.where(f >= low, 1 / np.maximum(f, 1e-9) ** beta, 0.0)
     out = np.fft.irfft2(np.fft.rfft2(white) * gain, shape)
     return (out - out.mean()) / out.std()
 
@@ -33,17 +34,17 @@ def mix(a, b, t):
 
 def srgb(linear):
     x = np.clip(linear, 0, 1)
-    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9)**(1 / 2.4) - 0.055)
+    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
 
 
 def linear(encoded):
     x = np.asarray(encoded, float)
-    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055)**2.4)
+    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
 
 
 def colour(hexadecimal):
     """'#a0703c' as sRGB-encoded floats (textures are painted in sRGB)."""
-    return np.array([int(hexadecimal[k:k + 2], 16) for k in (1, 3, 5)]) / 255
+    return np.array([int(hexadecimal[k : k + 2], 16) for k in (1, 3, 5)]) / 255
 
 
 def _filtered(rows):

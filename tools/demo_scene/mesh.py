@@ -3,6 +3,7 @@
 
 Lengths in metres, z up, right-handed; normals point out of the solid, and triangles wind counter-clockwise about them.
 """
+
 import numpy as np
 
 
@@ -34,8 +35,12 @@ class Mesh:
 
 def merge(*meshes):
     base = np.cumsum([0] + [len(m.v) for m in meshes])
-    return Mesh(np.concatenate([m.v for m in meshes]), np.concatenate([m.n for m in meshes]),
-                np.concatenate([m.uv for m in meshes]), np.concatenate([m.f + b for m, b in zip(meshes, base)]))
+    return Mesh(
+        np.concatenate([m.v for m in meshes]),
+        np.concatenate([m.n for m in meshes]),
+        np.concatenate([m.uv for m in meshes]),
+        np.concatenate([m.f + b for m, b in zip(meshes, base)]),
+    )
 
 
 def translate(x, y, z):
@@ -128,9 +133,27 @@ def smooth_curve(points, steps=6):
     out = []
     for k in range(1, len(q) - 2):
         for t in np.arange(steps) / steps:
-            a, b, c, d = q[k - 1:k + 3]
+            a, b, c, d = q[k - 1 : k + 3]
             out.append(0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2 + (3 * (b - c) + d - a) * t**3))
     return np.array(out + [p[-1]])
+
+
+def essential(points, tolerance):
+    """Which points of a polyline carry its shape (Douglas and Peucker 1973)."""
+    keep = np.zeros(len(points), bool)
+    keep[[0, -1]] = True
+    todo = [(0, len(points) - 1)]
+    while todo:
+        a, b = todo.pop()
+        d = points[b] - points[a]
+        rel = points[a + 1 : b] - points[a]
+        length = np.linalg.norm(d)
+        away = np.abs(d[0] * rel[:, 1] - d[1] * rel[:, 0]) / length if length > 1e-9 else np.linalg.norm(rel, axis=1)
+        if len(away) and away.max() > tolerance:
+            m = a + 1 + int(np.argmax(away))
+            keep[m] = True
+            todo += [(a, m), (m, b)]
+    return keep
 
 
 def lathe(profile, segments=64, uv_scale=(1.0, 1.0)):
@@ -147,11 +170,13 @@ def lathe(profile, segments=64, uv_scale=(1.0, 1.0)):
         if p[k, 0] < 1e-9:  # on the axis the surface is flat
             n[k] = 0, np.sign(n[k, 1]) or 1
     n = _normalised(n)
+    along = np.concatenate([[0], np.cumsum(length)])
+    keep = essential(p, 0.00008)
+    p, n, along = p[keep], n[keep], along[keep]
     t = np.linspace(0, 2 * np.pi, segments + 1)
     c, s = np.cos(t), np.sin(t)
     v = np.stack([p[:, :1] * c, p[:, :1] * s, np.repeat(p[:, 1:], len(t), 1)], -1)
     normals = np.stack([n[:, :1] * c, n[:, :1] * s, np.repeat(n[:, 1:], len(t), 1)], -1)
-    along = np.concatenate([[0], np.cumsum(length)])
     uv = np.stack(np.broadcast_arrays((t / (2 * np.pi))[None, :] * uv_scale[0], along[:, None] * uv_scale[1]), -1)
     f = grid_faces(len(p), len(t))[:, ::-1]
     return without_slivers(Mesh(v, normals, uv, f))
@@ -180,7 +205,9 @@ def rounded_box(size, radius, steps=3, grain=None):
     for axis in range(3):
         a, b = (axis + 1) % 3, (axis + 2) % 3
         for sign in (1, -1):
-            ticks = [np.concatenate([-h[k] + r + r * np.tan(angle), h[k] - r - r * np.tan(angle[::-1])]) for k in (a, b)]
+            ticks = [
+                np.concatenate([-h[k] + r + r * np.tan(angle), h[k] - r - r * np.tan(angle[::-1])]) for k in (a, b)
+            ]
             q = np.zeros((len(ticks[0]), len(ticks[1]), 3))
             q[..., a], q[..., b], q[..., axis] = ticks[0][:, None], ticks[1][None, :], sign * h[axis]
             inner = np.clip(q, -(h - r), h - r)
@@ -201,7 +228,9 @@ def superellipse(width, depth, power=4.0, count=64):
     """A closed outline between an ellipse (power 2) and a rectangle."""
     t = np.linspace(0, 2 * np.pi, count, endpoint=False)
     c, s = np.cos(t), np.sin(t)
-    return np.stack([width / 2 * np.sign(c) * np.abs(c)**(2 / power), depth / 2 * np.sign(s) * np.abs(s)**(2 / power)], 1)
+    return np.stack(
+        [width / 2 * np.sign(c) * np.abs(c) ** (2 / power), depth / 2 * np.sign(s) * np.abs(s) ** (2 / power)], 1
+    )
 
 
 def slab(outline, z0, z1, bevel, steps=4, crown=0.0, crown_rings=0):
@@ -218,7 +247,7 @@ def slab(outline, z0, z1, bevel, steps=4, crown=0.0, crown_rings=0):
     edge = rings[-1][0]
     for k in range(1, crown_rings + 1):
         t = k / (crown_rings + 1)
-        rings.append((edge + (centre - edge) * t, z1 + crown * (1 - (1 - t)**2), 0, 1))
+        rings.append((edge + (centre - edge) * t, z1 + crown * (1 - (1 - t) ** 2), 0, 1))
     n_out = len(o)
     v, n = [], []
     for ring, z, horizontal, up in rings:
@@ -241,8 +270,9 @@ def slab(outline, z0, z1, bevel, steps=4, crown=0.0, crown_rings=0):
     return merge(body, *caps)
 
 
-def sweep(path, outline, up=(0, 0, 1.0), scales=None):
-    """Carry a closed counter-clockwise 2D outline (side, up) along a path; flat end caps. v runs along the path [m]."""
+def sweep(path, outline, up=(0, 0, 1.0), scales=None, caps=True):
+    """Carry a closed counter-clockwise 2D outline (side, up) along a path; flat end caps, fans about
+    the outline's centre (leave them off where it is concave). v runs along the path [m]."""
     path, o = np.asarray(path, float), np.asarray(outline, float)
     t = _normalised(np.gradient(path, axis=0))
     side = _normalised(np.cross(t, np.asarray(up, float)))
@@ -262,12 +292,16 @@ def sweep(path, outline, up=(0, 0, 1.0), scales=None):
     uv = np.stack(np.broadcast_arrays(girth[None, :], along[:, None]), -1)
     # `side` x `over` = -t, so the outline runs clockwise seen along the path.
     body = Mesh(v, place(on), uv, grid_faces(len(path), len(closed)))
-    if np.einsum("ij,ij->i", np.cross(*(body.v[body.f[:, k]] - body.v[body.f[:, 0]] for k in (1, 2))),
-                 body.n[body.f[:, 0]]).sum() < 0:
+    if (
+        np.einsum(
+            "ij,ij->i", np.cross(*(body.v[body.f[:, k]] - body.v[body.f[:, 0]] for k in (1, 2))), body.n[body.f[:, 0]]
+        ).sum()
+        < 0
+    ):
         body.f = body.f[:, ::-1]
     parts = [body]
-    for end, sign in ((0, -1.0), (-1, 1.0)):
-        p = np.concatenate([v[end][:-1], path[end:][:1]])
+    for end, sign in ((0, -1.0), (-1, 1.0)) if caps else ():
+        p = np.concatenate([v[end][:-1], v[end][:-1].mean(0, keepdims=True)])
         k = np.arange(len(o))
         f = np.stack([k, (k + 1) % len(o), np.full(len(o), len(o))], 1)
         cap = Mesh(p, np.tile(sign * t[end], (len(p), 1)), np.concatenate([o, [[0, 0]]]), f)
@@ -303,6 +337,8 @@ def write_ply(path, mesh):
     faces = np.zeros(len(mesh.f), dtype=[("count", "u1"), ("index", "<i4", 3)])
     faces["count"], faces["index"] = 3, mesh.f
     names = "".join(f"property float {k}\n" for k in ("x", "y", "z", "nx", "ny", "nz", "u", "v"))
-    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n{names}"
-            f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    head = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n{names}"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
     path.write_bytes(head.encode() + vertices.tobytes() + faces.tobytes())

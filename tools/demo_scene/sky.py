@@ -3,6 +3,7 @@
 
 The mapping: Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", JGT 13(3), 2008; z is up.
 """
+
 import numpy as np
 
 from .images import mix, noise, smoothstep
@@ -25,7 +26,7 @@ def sky_radiance(d, sun_from):
     """Linear RGB radiance for directions d (..., 3): zenith gradient, glow about the sun, thin cloud, ground."""
     z = d[..., 2]
     height = np.clip(z, 0, 1)
-    blue = mix([0.98, 1.10, 1.24], [0.30, 0.52, 0.98], (height**0.45).reshape(z.shape))
+    blue = mix([0.92, 1.08, 1.30], [0.27, 0.50, 1.05], (height**0.45).reshape(z.shape))
     cosine = np.clip(d @ (np.asarray(sun_from) / np.linalg.norm(sun_from)), -1, 1)
     glow = 0.9 * np.exp((cosine - 1) * 9) + 0.35 * np.exp((cosine - 1) * 1.6)
     sky = blue + glow[..., None] * np.array([1.0, 0.86, 0.66])
@@ -37,12 +38,15 @@ def sky_radiance(d, sun_from):
     sky = mix(sky, np.array([1.55, 1.55, 1.52]), cover)
     # The horizon: far hills, then a garden; both are bounce light, seen small and over-exposed.
     azimuth = np.arctan2(d[..., 1], d[..., 0])
-    hills = 0.055 + 0.022 * np.sin(3 * azimuth + 0.7) + 0.012 * np.sin(7 * azimuth + 2.1) + 0.006 * np.sin(19 * azimuth)
-    hedge = -0.035 + 0.028 * np.sin(11 * azimuth + 1.3) + 0.020 * np.sin(29 * azimuth) + 0.012 * np.sin(53 * azimuth + 0.4)
-    ground = mix([0.40, 0.46, 0.20], [0.52, 0.50, 0.36], smoothstep(-0.2, -0.9, z))
-    out = mix(sky, np.array([0.62, 0.76, 0.78]), smoothstep(0.012, -0.012, z - hills))
-    out = mix(out, np.array([0.17, 0.27, 0.10]), smoothstep(0.012, -0.012, z - hedge))
-    return mix(out, ground, smoothstep(-0.10, -0.16, z - 0.5 * hedge))
+    hills = 0.060 + 0.022 * np.sin(3 * azimuth + 0.7) + 0.012 * np.sin(7 * azimuth + 2.1) + 0.006 * np.sin(19 * azimuth)
+    trees = (
+        0.030 + 0.060 * np.sin(5 * azimuth + 1.3) + 0.045 * np.sin(13 * azimuth) + 0.020 * np.sin(31 * azimuth + 0.4)
+    )
+    lawn = mix([0.40, 0.46, 0.25], [0.50, 0.50, 0.42], smoothstep(-0.2, -0.9, z))
+    crown = mix([0.15, 0.23, 0.11], [0.32, 0.42, 0.22], smoothstep(-0.10, 0.10, z + 0.05 * np.sin(23 * azimuth)))
+    out = mix(sky, np.array([0.66, 0.78, 0.80]), smoothstep(0.02, -0.02, z - hills))
+    out = mix(out, crown, smoothstep(0.035, -0.035, z - trees))
+    return mix(out, lawn, smoothstep(-0.08, -0.13, z))
 
 
 def sky_image(resolution, sun_from, samples=3):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The painted images of the bundled demo scene: wood, rug, cloth, plaster, paper and one picture. Values are sRGB."""
+
 import numpy as np
 
 from .images import colour, mix, noise, smoothstep, write_png
@@ -39,10 +40,13 @@ def floor_planks(size, rows=14):
             shift = rng.integers(0, size, 2)
             v = base[np.ix_((where + shift[0]) % size, (np.arange(a, b) + shift[1]) % size)]
             tone = np.clip(rng.normal(0, 1), -1.6, 1.4)
-            c = mix(mix(colour("#d8b283"), colour("#c0925f"), smoothstep(0, 0.55, v)), colour("#93683f"),
-                    smoothstep(0.45, 1.0, v))
+            c = mix(
+                mix(colour("#d8b283"), colour("#c0925f"), smoothstep(0, 0.55, v)),
+                colour("#93683f"),
+                smoothstep(0.45, 1.0, v),
+            )
             image[np.ix_(where, np.arange(a, b))] = c * (1 + 0.075 * tone) + np.array([0.01, 0, -0.012]) * rng.normal()
-            height[np.ix_(where[:max(1, int(gap))], np.arange(a, b))] = 0
+            height[np.ix_(where[: max(1, int(gap))], np.arange(a, b))] = 0
     x = np.arange(size)
     to_edge = np.min(np.abs(x[None, :] - edges[:, None]), axis=0)
     seam = smoothstep(0.2, gap + 0.8, to_edge)[None, :] * np.ones((size, 1))
@@ -55,8 +59,9 @@ def weave(size, threads):
     t = (np.arange(size) + 0.5) / size * threads
     round_ = np.sin(np.pi * (t - np.floor(t)))
     over = (np.floor(t)[:, None] + np.floor(t)[None, :]) % 2
-    return np.where(over == 0, round_[None, :] * (0.6 + 0.4 * round_[:, None]),
-                    round_[:, None] * (0.6 + 0.4 * round_[None, :]))
+    return np.where(
+        over == 0, round_[None, :] * (0.6 + 0.4 * round_[:, None]), round_[:, None] * (0.6 + 0.4 * round_[None, :])
+    )
 
 
 def rug(width, height):
@@ -77,7 +82,13 @@ def rug(width, height):
     for low, high, c in ((0.0, 0.10, ink), (0.10, 0.20, sand), (0.28, 0.36, clay), (0.46, 0.54, moss)):
         image[(d >= low) & (d < high)] = c
     teeth = np.abs(sx / 0.075 - np.rint(sx / 0.075)) + np.abs(sy / 0.075 - np.rint(sy / 0.075))
-    for low, high, c in ((0.125, 0.135, ink), (0.11, 0.125, cream), (0.045, 0.11, clay), (0.03, 0.045, cream), (0, 0.03, ink)):
+    for low, high, c in (
+        (0.125, 0.135, ink),
+        (0.11, 0.125, cream),
+        (0.045, 0.11, clay),
+        (0.03, 0.045, cream),
+        (0, 0.03, ink),
+    ):
         image[(border >= low) & (border < high)] = c
     band = (border >= 0.045) & (border < 0.11) & (teeth < 0.3)
     image[band] = sand
@@ -94,14 +105,22 @@ def picture(width, height):
     image = paper
     disc = np.hypot(px + 0.06, y - 0.36)
     image = mix(image, colour("#d9643a"), smoothstep(0.172, 0.168, disc))
-    layers = ((0.46, 0.050, 3.1, 0.4, "#d8a070"), (0.545, 0.045, 4.3, 2.2, "#b5694e"), (0.63, 0.050, 3.7, 4.0, "#5d6b70"),
-              (0.73, 0.040, 5.2, 1.0, "#2d4556"))
+    layers = (
+        (0.46, 0.050, 3.1, 0.4, "#d8a070"),
+        (0.545, 0.045, 4.3, 2.2, "#b5694e"),
+        (0.63, 0.050, 3.7, 4.0, "#5d6b70"),
+        (0.73, 0.040, 5.2, 1.0, "#2d4556"),
+    )
     for level, swing, frequency, phase, c in layers:
-        line = level + swing * np.sin(frequency * px * 2 + phase) + 0.4 * swing * np.sin(2.7 * frequency * px + 2 * phase)
+        line = (
+            level + swing * np.sin(frequency * px * 2 + phase) + 0.4 * swing * np.sin(2.7 * frequency * px + 2 * phase)
+        )
         image = mix(image, colour(c), smoothstep(-0.002, 0.002, y - line))
     water = smoothstep(-0.002, 0.002, y - 0.83)
     image = mix(image, colour("#9db4b0"), water)
-    stripe = (np.sin(y * 260 + 1.5 * np.sin(px * 9)) > 0.45) & (np.abs(px + 0.06) < 0.17 - 0.4 * (y - 0.83)) & (y > 0.835)
+    stripe = (
+        (np.sin(y * 260 + 1.5 * np.sin(px * 9)) > 0.45) & (np.abs(px + 0.06) < 0.17 - 0.4 * (y - 0.83)) & (y > 0.835)
+    )
     image = mix(image, colour("#e28a58"), stripe * 0.85)
     grain = noise((height, width), 41, 0.45)
     return np.clip(image * (1 + 0.02 * grain[..., None]), 0, 1)
@@ -136,13 +155,21 @@ GRAINY = {"floor-planks", "walnut", "oak", "rug", "picture"}
 
 
 def write_all(folder):
-    planks, gaps = floor_planks(1024)
-    table = wood((896, 448), 101, "#b98452", "#9a6538", "#5f3a1e", rings=7.0, warp=1.1)
+    planks, gaps = floor_planks(896)
+    table = wood((768, 384), 101, "#b98452", "#9a6538", "#5f3a1e", rings=7.0, warp=1.1)
     oak = wood((512, 256), 111, "#d2ab78", "#b98c58", "#8b6238", rings=8.0, warp=0.8)
     files = {
-        "floor-planks": planks, "floor-height": gaps[::2, ::2], "walnut": table, "oak": oak, "rug": rug(616, 420),
-        "weave-height": weave(128, 16), "picture": picture(384, 512), "orange-height": orange_peel(256),
-        "plaster-height": plaster(256), "page-edges": page_edges(64), "leaf": leaf(64, 128),
+        "floor-planks": planks,
+        "floor-height": gaps[::2, ::2],
+        "walnut": table,
+        "oak": oak,
+        "rug": rug(616, 420),
+        "weave-height": weave(128, 16),
+        "picture": picture(384, 512),
+        "orange-height": orange_peel(256),
+        "plaster-height": plaster(256),
+        "page-edges": page_edges(64),
+        "leaf": leaf(64, 128),
     }
     for name, image in files.items():
-        write_png(folder / f"{name}.png", image, 64 if name in GRAINY else 256)
+        write_png(folder / f"{name}.png", image, 52 if name in GRAINY else 256)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a scene as pbrt-v4 text: named textures and materials, objects (ObjectBegin) and their named placings."""
+
 import shutil
 
 import numpy as np
@@ -30,7 +31,9 @@ class Scene:
         """kind is spectrum or float; params become \"string x\" or \"float x\"."""
         lines = [f'Texture "{name}" "{kind}" "imagemap"', f'    "string filename" [ "textures/{filename}" ]']
         for key, value in params.items():
-            lines.append(f'    "string {key}" [ "{value}" ]' if isinstance(value, str) else f'    "float {key}" [ {value} ]')
+            lines.append(
+                f'    "string {key}" [ "{value}" ]' if isinstance(value, str) else f'    "float {key}" [ {value} ]'
+            )
         self.materials.append("\n".join(lines))
 
     def material(self, name, kind, **params):
@@ -66,9 +69,17 @@ class Scene:
         self.placings.append("\n".join(lines + [f'    ObjectInstance "{name}"', "AttributeEnd"]))
 
     def write(self, filename, head, lights):
-        note = "# SPDX-License-Identifier: CC0-1.0\n# Written by tools/make_demo_scene.py: edit that, or this; not both.\n"
+        note = (
+            "# SPDX-License-Identifier: CC0-1.0\n# Written by tools/make_demo_scene.py: edit that, or this; not both.\n"
+        )
         (self.folder / "materials.pbrt").write_text(note + "\n".join(self.materials) + "\n")
         (self.folder / "objects.pbrt").write_text(note + "\n".join(self.objects) + "\n")
         (self.folder / filename).write_text(
-            note + head + "\nWorldBegin\n" + lights + '\nInclude "materials.pbrt"\nInclude "objects.pbrt"\n' +
-            "\n".join(self.placings) + "\n")
+            note
+            + head
+            + "\nWorldBegin\n"
+            + lights
+            + '\nInclude "materials.pbrt"\nInclude "objects.pbrt"\n'
+            + "\n".join(self.placings)
+            + "\n"
+        )
