@@ -40,7 +40,7 @@ struct Spirv {
 struct ShaderCompilerOptions {
     std::vector<std::filesystem::path> include_dirs;
     std::filesystem::path cache_dir; // empty: no cache. Usually restage::cache_dir() / "spirv"; it is created
-    bool optimize = true;            // spirv-opt's performance passes
+    bool optimize = true;            // a few cheap passes, mostly to drop what no function uses
     bool debug_info = false;         // names and lines for debuggers and validation
 };
 

@@ -6,6 +6,7 @@
 
 #include <cassert>
 #include <cstring>
+#include <deque>
 #include <utility>
 
 namespace restage::gpu {
@@ -141,7 +142,9 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     const Specialization specialization(constants);
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
     std::vector<std::pair<const Spirv*, std::uint32_t>> known; // a shader that several groups share is compiled once
-    const auto stage_of = [&](const Spirv* shader, VkShaderStageFlagBits stage) -> Result<std::uint32_t> {
+    std::deque<Specialization> own; // of callables
+    const auto stage_of = [&](const Spirv* shader, VkShaderStageFlagBits stage,
+                              const VkSpecializationInfo* own_constants = nullptr) -> Result<std::uint32_t> {
         if (!shader) return VK_SHADER_UNUSED_KHR;
         for (const auto& [other, index] : known)
             if (other == shader) return index;
@@ -150,13 +153,14 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                                .stage = stage,
                                .module = module,
                                .pName = "main",
-                               .pSpecializationInfo = specialization.info()});
+                               .pSpecializationInfo = own_constants ? own_constants : specialization.info()});
         known.emplace_back(shader, static_cast<std::uint32_t>(stage_infos.size() - 1));
         return known.back().second;
     };
     std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups;
-    const auto add_general = [&](const Spirv* shader, VkShaderStageFlagBits stage) -> Result<void> {
-        RESTAGE_TRY(const std::uint32_t index, stage_of(shader, stage));
+    const auto add_general = [&](const Spirv* shader, VkShaderStageFlagBits stage,
+                                 const VkSpecializationInfo* own_constants = nullptr) -> Result<void> {
+        RESTAGE_TRY(const std::uint32_t index, stage_of(shader, stage, own_constants));
         groups.push_back({.sType = VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR,
                           .type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR,
                           .generalShader = index,
@@ -178,8 +182,12 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                           .anyHitShader = any,
                           .intersectionShader = VK_SHADER_UNUSED_KHR});
     }
-    for (const Spirv* shader : shaders.callables)
-        RESTAGE_CHECK(add_general(shader, VK_SHADER_STAGE_CALLABLE_BIT_KHR));
+    assert(shaders.callable_constants.empty() || shaders.callable_constants.size() == shaders.callables.size());
+    for (std::size_t i = 0; i < shaders.callables.size(); ++i) {
+        if (!shaders.callable_constants.empty()) own.emplace_back(shaders.callable_constants[i]);
+        RESTAGE_CHECK(add_general(shaders.callables[i], VK_SHADER_STAGE_CALLABLE_BIT_KHR,
+                                  own.empty() ? nullptr : own.back().info()));
+    }
 
     const VkRayTracingPipelineCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR,
                                                  .stageCount = static_cast<std::uint32_t>(stage_infos.size()),

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace restage::gpu {
 
@@ -54,6 +55,8 @@ struct RayTracingShaders {
     std::span<const Spirv* const> misses;    // index = missIndex of traceRayEXT
     std::span<const HitGroup> hit_groups;    // index = sbtRecordOffset of traceRayEXT + the instance's hit_group
     std::span<const Spirv* const> callables; // index = sbtRecordIndex of executeCallableEXT
+    // Empty, or for each callable the constants it gets instead of the pipeline's.
+    std::span<const std::vector<SpecConstant>> callable_constants;
 };
 
 // Recursion depth is 1: only raygen traces. Geometry contributes nothing to the hit group index (sbtRecordStride 0).

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/pipeline_builder.hpp"
+
+#include "base/file.hpp"
+#include "gpu/device.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace restage::gpu {
+
+namespace {
+
+// What a driver's code depends on, as far as we decide it.
+std::uint64_t identity(const std::vector<Spirv>& shaders, const std::vector<SpecConstant>& constants,
+                       const DeviceInfo& info) {
+    std::uint64_t hash = hash64(info.uuid.data(), info.uuid.size());
+    for (const Spirv& shader : shaders)
+        hash = hash64(shader.key, hash);
+    for (const SpecConstant& c : constants)
+        hash = hash64(&c, sizeof c, hash);
+    return hash;
+}
+
+// Which pipelines the driver's disk cache should hold: an empty file each, in a folder inside that cache, so that who
+// deletes the one deletes the other. A mark that is wrong costs the stall that this is all about, once.
+class Marks {
+  public:
+    Marks() {
+        if (const char* cache = std::getenv("MESA_SHADER_CACHE_DIR"))
+            folder_ = std::filesystem::path(cache) / "restage-built";
+    }
+    bool has(std::uint64_t id) const {
+        std::error_code failed;
+        return !folder_.empty() && std::filesystem::exists(folder_ / std::to_string(id), failed);
+    }
+    void add(std::uint64_t id) const {
+        if (folder_.empty()) return;
+        std::error_code failed;
+        std::filesystem::create_directories(folder_, failed);
+        (void)write_file_atomic(folder_ / std::to_string(id), "");
+    }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+Result<void> run_nothing(Device& device, const ComputePipeline& pipeline) {
+    const std::vector<std::byte> zero(pipeline.push_constant_bytes());
+    RESTAGE_TRY(CommandList list, device.begin());
+    list.dispatch(pipeline, zero, 0);
+    return device.submit_and_wait(list);
+}
+
+Result<void> run_nothing(Device& device, const RayTracingPipeline& pipeline) {
+    const std::vector<std::byte> zero(pipeline.push_constant_bytes());
+    RESTAGE_TRY(CommandList list, device.begin());
+    list.trace(pipeline, zero, 0, 0);
+    return device.submit_and_wait(list);
+}
+
+Result<ComputePipeline> create(Device& device, const ComputeRequest& request, const std::vector<Spirv>& shaders) {
+    return ComputePipeline::create(device, shaders.front(), request.push_constant_bytes, request.constants,
+                                   request.name.c_str());
+}
+
+Result<RayTracingPipeline> create(Device& device, const RayTracingRequest& request, const std::vector<Spirv>& shaders) {
+    const auto at = [&](std::size_t i) { return i == RayTracingRequest::none ? nullptr : &shaders[i]; };
+    std::vector<const Spirv*> misses, callables;
+    std::vector<HitGroup> groups;
+    for (std::size_t i : request.misses)
+        misses.push_back(at(i));
+    for (std::size_t i : request.callables)
+        callables.push_back(at(i));
+    for (const auto& group : request.hit_groups)
+        groups.push_back({at(group.closest_hit), at(group.any_hit)});
+    return RayTracingPipeline::create(
+        device, {.raygen = at(request.raygen), .misses = misses, .hit_groups = groups, .callables = callables},
+        request.push_constant_bytes, request.constants, request.name.c_str());
+}
+
+std::vector<const ShaderSource*> sources_of(const ComputeRequest& request) {
+    return {&request.shader};
+}
+std::vector<const ShaderSource*> sources_of(const RayTracingRequest& request) {
+    std::vector<const ShaderSource*> sources;
+    for (const ShaderSource& source : request.shaders)
+        sources.push_back(&source);
+    return sources;
+}
+
+} // namespace
+
+struct PipelineBuilder::Impl {
+    Device& device;
+    const ShaderCompiler& compiler;
+    const Marks marks;
+    std::mutex mutex;
+    std::condition_variable wake;
+    // A job is given a worker's own device, empty until one is needed; stop = true: only answer.
+    using Job = std::function<void(std::unique_ptr<Device>& own, bool stop)>;
+    std::deque<Job> jobs;
+    bool stopping = false;
+    std::vector<std::thread> threads;
+
+    Impl(Device& d, const ShaderCompiler& c) : device(d), compiler(c) {}
+
+    void work() {
+        std::unique_ptr<Device> own;
+        for (;;) {
+            Job job;
+            {
+                std::unique_lock lock(mutex);
+                wake.wait(lock, [&] { return stopping || !jobs.empty(); });
+                if (stopping) return;
+                job = std::move(jobs.front());
+                jobs.pop_front();
+            }
+            job(own, false);
+        }
+    }
+
+    // On a CPU: once in a device of the worker's own, so that the driver's cache has it.
+    template <class Request>
+    void warm(std::unique_ptr<Device>& own, const Request& request, const std::vector<Spirv>& shaders) {
+        if (!own) {
+            auto created = Device::create({.select = std::to_string(device.info().index)}, device.log());
+            if (!created) return device.log().debug("pipelines are not built ahead: " + created.error().message);
+            own = std::move(*created);
+        }
+        const auto pipeline = create(*own, request, shaders);
+        if (pipeline) (void)run_nothing(*own, *pipeline); // what fails here fails, and is reported, on the main device
+    }
+
+    template <class Pipeline, class Request>
+    Result<Pipeline> make(std::unique_ptr<Device>& own, const Request& request) {
+        std::vector<Spirv> shaders;
+        for (const ShaderSource* source : sources_of(request)) {
+            RESTAGE_TRY(Spirv spirv, compiler.compile(*source));
+            shaders.push_back(std::move(spirv));
+        }
+        const bool cpu = device.info().type == DeviceType::cpu;
+        const std::uint64_t id = identity(shaders, request.constants, device.info());
+        if (cpu && !marks.has(id)) warm(own, request, shaders);
+        RESTAGE_TRY(Pipeline pipeline, create(device, request, shaders));
+        if (cpu) {
+            RESTAGE_CHECK(run_nothing(device, pipeline));
+            marks.add(id);
+        }
+        return pipeline;
+    }
+
+    template <class Pipeline, class Request>
+    std::future<Result<Pipeline>> enqueue(Request request) {
+        // Shared, because std::function copies what it holds.
+        auto promise = std::make_shared<std::promise<Result<Pipeline>>>();
+        auto kept = std::make_shared<Request>(std::move(request));
+        std::future<Result<Pipeline>> future = promise->get_future();
+        {
+            std::lock_guard lock(mutex);
+            jobs.push_back([this, promise, kept](std::unique_ptr<Device>& own, bool stop) {
+                promise->set_value(stop ? Result<Pipeline>(fail("building pipeline " + kept->name + " was cancelled"))
+                                        : make<Pipeline>(own, *kept));
+            });
+        }
+        wake.notify_one();
+        return future;
+    }
+};
+
+PipelineBuilder::PipelineBuilder(Device& device, const ShaderCompiler& compiler, unsigned threads)
+    : impl_(std::make_unique<Impl>(device, compiler)) {
+    for (unsigned i = 0; i < std::max(threads, 1u); ++i)
+        impl_->threads.emplace_back([this] { impl_->work(); });
+}
+
+PipelineBuilder::~PipelineBuilder() {
+    {
+        std::lock_guard lock(impl_->mutex);
+        impl_->stopping = true;
+    }
+    impl_->wake.notify_all();
+    for (std::thread& thread : impl_->threads)
+        thread.join();
+    std::unique_ptr<Device> none;
+    for (auto& job : impl_->jobs)
+        job(none, true);
+}
+
+std::future<Result<ComputePipeline>> PipelineBuilder::build(ComputeRequest request) {
+    return impl_->enqueue<ComputePipeline>(std::move(request));
+}
+std::future<Result<RayTracingPipeline>> PipelineBuilder::build(RayTracingRequest request) {
+    return impl_->enqueue<RayTracingPipeline>(std::move(request));
+}
+
+} // namespace restage::gpu

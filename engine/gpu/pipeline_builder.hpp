@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds pipelines on worker threads, from GLSL to one whose first dispatch does not stall, while other work runs.
+// A CPU driver (lavapipe) compiles at the first dispatch, on the queue where everything else waits. There a worker
+// first creates the pipeline on a Vulkan device of its own and dispatches nothing with it: the code lands in the
+// driver's disk cache, and the main device only fetches it.
+#pragma once
+
+#include "base/result.hpp"
+#include "gpu/compiler.hpp"
+#include "gpu/pipeline.hpp"
+
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace restage::gpu {
+
+struct ComputeRequest {
+    ShaderSource shader;
+    std::uint32_t push_constant_bytes = 0;
+    std::vector<SpecConstant> constants;
+    std::string name;
+};
+
+struct RayTracingRequest {
+    static constexpr std::size_t none = ~std::size_t{0};
+    struct Group {
+        std::size_t closest_hit = none, any_hit = none; // indices into shaders
+    };
+    std::vector<ShaderSource> shaders; // each is compiled once, however many groups use it
+    std::size_t raygen = 0;
+    std::vector<std::size_t> misses;
+    std::vector<Group> hit_groups;
+    std::vector<std::size_t> callables;
+    std::uint32_t push_constant_bytes = 0;
+    std::vector<SpecConstant> constants;
+    std::string name;
+};
+
+// [any] thread. The device and the compiler outlive it. Requests are begun in the order in which they came.
+class PipelineBuilder {
+  public:
+    PipelineBuilder(Device& device, const ShaderCompiler& compiler, unsigned threads = 2);
+    ~PipelineBuilder(); // finishes what is begun; what is not begun ends in an error
+    PipelineBuilder(const PipelineBuilder&) = delete;
+    PipelineBuilder& operator=(const PipelineBuilder&) = delete;
+
+    std::future<Result<ComputePipeline>> build(ComputeRequest request);
+    std::future<Result<RayTracingPipeline>> build(RayTracingRequest request);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace restage::gpu
