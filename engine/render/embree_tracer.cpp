@@ -37,7 +37,7 @@ public:
         RESTAGE_TRY(paths_, c_.device.create_buffer(wave_paths * sizeof(shared::PathState), host, "paths"));
         RESTAGE_TRY(guides_, c_.device.create_buffer(wave_paths * sizeof(shared::GuideSample), host, "guide samples"));
         RESTAGE_TRY(queue_, c_.device.create_buffer(wave_paths * sizeof(std::uint32_t), host, "queue"));
-        RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_MAX_TYPES * sizeof(std::uint32_t), host, "counters"));
+        RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), host, "counters"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
         std::memset(counters_.mapped(), 0, counters_.size());
         types_.resize(wave_paths);

@@ -75,6 +75,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             return;
         if (type.mix()) {
             record.type = index;
+            record.flags = MATERIAL_MIX;
             const auto child = [&](const char* param) {
                 const auto* v = m.params.find(param);
                 return v && scene.materials.find(v->material) ? v->material.value : 0u;

@@ -5,6 +5,15 @@
 #define RESTAGE_SHARED_PATH_DATA_H
 #include "shared/types.h"
 
+RESTAGE_CONSTANTS_BEGIN
+RESTAGE_UINT(PATH_SPECULAR, 0x10000u); // the last bounce was a delta lobe (or the camera)
+RESTAGE_UINT(PATH_DEPTH_MASK, 0xffffu);
+RESTAGE_UINT(COUNTER_MAX_TYPES, 64u);
+RESTAGE_UINT(COUNTER_RAYS, 64u);
+RESTAGE_UINT(COUNTER_SHADOW_RAYS, 65u);
+RESTAGE_UINT(COUNTER_COUNT, 66u);
+RESTAGE_CONSTANTS_END
+
 RESTAGE_SHARED_BEGIN
 
 struct RayHit { // 80 bytes
@@ -36,8 +45,6 @@ struct ShadowRay { // 64 bytes
     uint pad0;
 };
 
-#define PATH_SPECULAR 0x10000u // the last bounce was a delta lobe (or the camera)
-#define PATH_DEPTH_MASK 0xffffu
 struct PathState { // 48 bytes
     vec3 throughput;
     float pdf; // of the last BSDF sample, solid angle
@@ -74,8 +81,7 @@ struct GuidePixel {
     uint instance_id, material_id; // of the first sample
 };
 
-// What kernels count when something is wrong: index = material type.
-#define COUNTER_MAX_TYPES 64
+// What kernels count: samples that were not finite, by material type; and rays, where the device traces them.
 
 struct FrameData { // behind the push constant
     address scene;     // SceneData
@@ -86,7 +92,7 @@ struct FrameData { // behind the push constant
     address queue;     // uint[]: path indices, all types one after the other
     address film;      // FilmPixel[]
     address film_guides; // GuidePixel[]
-    address counters;  // uint[COUNTER_MAX_TYPES]: samples that were not finite
+    address counters;  // uint[COUNTER_COUNT]
     uint first_pixel, pixel_count; // this wave: pixels of the crop window, row by row
     uint samples;      // a pixel in this wave: path index = sample * pixel_count + pixel
     uint first_sample;
@@ -97,6 +103,14 @@ struct FrameData { // behind the push constant
 struct WavePush {
     address frame;
     uint queue_first, queue_count;
+};
+
+struct TracePush { // of the ray-tracing pipeline: one sample a pixel of a rectangle of the film
+    address frame;
+    address tlas;
+    uint x, y;         // the rectangle's first pixel, in the crop window
+    uint sample_index; // after FrameData.first_sample
+    uint pad0;
 };
 
 RESTAGE_SHARED_END

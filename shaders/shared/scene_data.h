@@ -5,18 +5,42 @@
 #define RESTAGE_SHARED_SCENE_DATA_H
 #include "shared/types.h"
 
+RESTAGE_CONSTANTS_BEGIN
+RESTAGE_UINT(NONE, 0xffffffffu);
+// InstanceData::flags
+RESTAGE_UINT(INSTANCE_FLIP_NORMAL, 1u); // reverse_orientation
+RESTAGE_UINT(INSTANCE_EMITS, 2u);
+RESTAGE_UINT(INSTANCE_TWO_SIDED, 4u);
+RESTAGE_UINT(INSTANCE_HAS_NORMALS, 8u);
+RESTAGE_UINT(INSTANCE_HAS_UVS, 16u);
+RESTAGE_UINT(INSTANCE_HAS_ALPHA, 32u);
+RESTAGE_UINT(INSTANCE_HAS_MEDIA, 64u);
+RESTAGE_UINT(MATERIAL_MIX, 1u);
+RESTAGE_UINT(OP_CONSTANT, 0u);
+RESTAGE_UINT(OP_IMAGE, 1u);
+RESTAGE_UINT(OP_MULTIPLY, 2u); // a b -> a*b
+RESTAGE_UINT(OP_MIX, 3u); // a b t -> lerp
+RESTAGE_UINT(OP_CHECKER, 4u); // a b -> a where floor(s)+floor(t) is even, else b
+RESTAGE_UINT(WRAP_REPEAT, 0u);
+RESTAGE_UINT(WRAP_BLACK, 1u);
+RESTAGE_UINT(WRAP_CLAMP, 2u);
+RESTAGE_UINT(TEXEL_HALF4, 0u);
+RESTAGE_UINT(TEXEL_FLOAT4, 1u);
+RESTAGE_UINT(LIGHT_TRIANGLE, 0u); // a = p0, b = p1-p0, c = p2-p0
+RESTAGE_UINT(LIGHT_POINT, 1u); // a = position
+RESTAGE_UINT(LIGHT_SPOT, 2u); // a = position, b = axis, c = (cos total, cos falloff start, 0)
+RESTAGE_UINT(LIGHT_DISTANT, 3u); // b = direction towards the light
+RESTAGE_UINT(LIGHT_ENVIRONMENT, 4u);
+RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
+RESTAGE_UINT(ENV_CONSTANT, 0u);
+RESTAGE_UINT(ENV_EQUIRECT, 1u);
+RESTAGE_UINT(ENV_OCTAHEDRAL, 2u);
+RESTAGE_UINT(FILTER_BOX, 0u);
+RESTAGE_UINT(FILTER_TRIANGLE, 1u);
+RESTAGE_UINT(FILTER_TABLE, 2u);
+RESTAGE_CONSTANTS_END
+
 RESTAGE_SHARED_BEGIN
-
-#define NONE 0xffffffffu
-
-// InstanceData.flags
-#define INSTANCE_FLIP_NORMAL 1u // reverse_orientation
-#define INSTANCE_EMITS 2u
-#define INSTANCE_TWO_SIDED 4u
-#define INSTANCE_HAS_NORMALS 8u
-#define INSTANCE_HAS_UVS 16u
-#define INSTANCE_HAS_ALPHA 32u
-#define INSTANCE_HAS_MEDIA 64u
 
 struct InstanceData { // 168 bytes
     mat4x3 object_to_world;
@@ -43,18 +67,10 @@ struct MaterialData { // 32 bytes
     uint normal_map;     // texture or 0
     uint id;             // Id<Material>
     uint mix_first, mix_second; // MaterialData indices when the type is a mix; its first parameter is `amount`
-    uint pad0;
+    uint flags;
 };
 
 // A texture is a short postfix program over uv.
-#define OP_CONSTANT 0u
-#define OP_IMAGE 1u
-#define OP_MULTIPLY 2u // a b -> a*b
-#define OP_MIX 3u      // a b t -> lerp
-#define OP_CHECKER 4u  // a b -> a where floor(s)+floor(t) is even, else b
-#define WRAP_REPEAT 0u
-#define WRAP_BLACK 1u
-#define WRAP_CLAMP 2u
 struct TextureOp { // 48 bytes
     uint kind;
     uint image;
@@ -67,8 +83,6 @@ struct TextureProgram { // index = texture; 0 is none
     uint first, count;
 };
 
-#define TEXEL_HALF4 0u
-#define TEXEL_FLOAT4 1u
 struct ImageData { // 24 bytes
     address texels; // uvec2[] (4 halves) or vec4[], row 0 on top
     uint width, height;
@@ -76,11 +90,6 @@ struct ImageData { // 24 bytes
     uint pad0;
 };
 
-#define LIGHT_TRIANGLE 0u // a = p0, b = p1-p0, c = p2-p0
-#define LIGHT_POINT 1u    // a = position
-#define LIGHT_SPOT 2u     // a = position, b = axis, c = (cos total, cos falloff start, 0)
-#define LIGHT_DISTANT 3u  // b = direction towards the light
-#define LIGHT_ENVIRONMENT 4u
 struct LightData { // 64 bytes
     vec3 a;
     uint kind; // LIGHT_* | two-sided << 8
@@ -91,7 +100,6 @@ struct LightData { // 64 bytes
     vec3 value; // radiance, intensity or irradiance
     uint pad0;
 };
-#define LIGHT_TWO_SIDED 256u
 
 struct AliasEntry { // Vose 1991
     float q;        // keep when u < q
@@ -99,9 +107,6 @@ struct AliasEntry { // Vose 1991
     float pmf;
 };
 
-#define ENV_CONSTANT 0u
-#define ENV_EQUIRECT 1u
-#define ENV_OCTAHEDRAL 2u
 struct EnvironmentData {
     mat3 env_from_world;
     mat3 world_from_env;
@@ -121,9 +126,6 @@ struct CameraData {
     uint width, height; // of the whole film
 };
 
-#define FILTER_BOX 0u
-#define FILTER_TRIANGLE 1u
-#define FILTER_TABLE 2u
 struct FilterData {
     vec2 radius;
     uint kind;

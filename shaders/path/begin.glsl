@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a path begins: the camera ray of one sample of one pixel, and the state that goes with it.
+#ifndef RESTAGE_PATH_BEGIN
+#define RESTAGE_PATH_BEGIN
+#include "lib/camera.glsl"
+#include "lib/sampler.glsl"
+#include "shared/path_data.h"
+
+// pixel: of the crop window, row by row. The path's throughput is the weight of the pixel filter.
+PathState path_begin(SceneRef scene, FrameData frame, uint pixel, uint sample_index, out vec3 origin, out vec3 direction) {
+    uvec2 xy = uvec2(frame.crop_x + pixel % frame.crop_width, frame.crop_y + pixel / frame.crop_width);
+    uint seed = pixel_seed(xy.y * scene.scene.camera.width + xy.x, frame.seed);
+    float weight;
+    vec2 offset = filter_sample(scene.scene.filter_, sample_pair(seed, sample_index, PAIR_FILTER), weight);
+    vec2 u_lens = HAS_LENS ? sample_pair(seed, sample_index, PAIR_LENS) : vec2(0.5);
+    camera_ray(scene.scene.camera, vec2(xy) + 0.5 + offset, u_lens, origin, direction);
+    return PathState(vec3(weight), 0.0, vec3(0), PATH_SPECULAR, 1.0, scene.scene.camera_medium, seed, sample_index);
+}
+
+#endif

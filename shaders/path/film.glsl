@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a frame's addresses lead, and how samples enter the film: sums and sums of squares, so that every image knows
+// its own error.
+#ifndef RESTAGE_PATH_FILM
+#define RESTAGE_PATH_FILM
+#include "lib/bsdf.glsl"
+#include "lib/scene.glsl"
+#include "shared/path_data.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FrameRef { FrameData frame; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FilmArray { FilmPixel at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GuidePixelArray { GuidePixel at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer CounterArray { uint at[]; };
+
+const float INFINITE = 1e30;
+
+void film_add(inout FilmPixel f, vec3 c) {
+    if (any(isnan(c)) || any(isinf(c))) return; // counted where it arose; nothing unnatural reaches the film
+    f.sum += c;
+    f.sum_sq += c * c;
+    f.sum_sq_luminance += sqr(luminance(c));
+    f.count += 1.0;
+}
+
+void guide_add(inout GuidePixel g, GuideSample a) {
+    if (g.count == 0.0) {
+        g.instance_id = a.instance_id;
+        g.material_id = a.material_id;
+    }
+    g.albedo += a.albedo;
+    g.normal += a.normal;
+    g.depth += a.depth;
+    g.count += 1.0;
+}
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the stages of the ray-tracing pipeline share: the push constant and the two payloads.
+// raygen loops over the path; the closest hit reports where; the callable of the hit's material type does the path step.
+#ifndef RESTAGE_TRACE_COMMON
+#define RESTAGE_TRACE_COMMON
+#include "path/film.glsl"
+
+layout(push_constant, scalar) uniform Push { TracePush push; };
+
+uint launch_pixel(FrameData frame) { // of the crop window, row by row
+    return (push.y + gl_LaunchIDEXT.y) * frame.crop_width + push.x + gl_LaunchIDEXT.x;
+}
+
+// Of traceRayEXT, location 0. 20 bytes.
+struct HitPayload {
+    float t; // in: >= 0; out: the hit's distance, or < 0 when the ray left the scene
+    uint instance;
+    uint prim;
+    vec2 bary;
+};
+
+// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 144 bytes.
+struct StepPayload {
+    PathState path;    // in, out
+    uint instance;     // in
+    uint material;     // in: MaterialData index, mixes resolved
+    uint prim;         // in
+    float t;           // in: the hit's distance; out: > 0 when there is a next ray
+    vec2 bary;         // in
+    vec3 origin;       // out: of the next ray
+    vec3 direction;    // in: of the ray that hit; out: of the next one
+    vec3 shadow_origin;
+    vec3 shadow_direction;
+    float shadow_tmax; // out: > 0 when there is a shadow ray
+    vec3 shadow_contribution; // to the path's radiance, if the light is seen
+};
+
+// What the shading of a hit takes as uv: the mesh's, or barycentrics where it has none.
+vec2 hit_uv(InstanceData inst, uint prim, vec2 bary) {
+    if ((inst.flags & INSTANCE_HAS_UVS) == 0u) return bary;
+    uvec3 tri = Uvec3Array(inst.indices).at[prim];
+    Vec2Array uvs = Vec2Array(inst.uvs);
+    return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
+}
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ray-tracing pipeline: one path step at a hit of one material type, as a callable. Composed: the material stands
+// before this file.
+#include "trace_common.glsl"
+#include "path/step.glsl"
+
+layout(location = 1) callableDataInEXT StepPayload io;
+
+void main() {
+    FrameData frame = FrameRef(push.frame).frame;
+    SceneData scene = SceneRef(frame.scene).scene;
+    InstanceData inst = InstanceArray(scene.instances).at[io.instance];
+    MaterialData material = MaterialArray(scene.materials).at[io.material];
+    StepRay shadow, next;
+    vec3 contribution;
+    GuideSample guide;
+    PathState path = io.path;
+    bool first = (path.flags & PATH_DEPTH_MASK) == 0u;
+    bool ok = path_step(scene, inst, material, io.prim, io.bary, io.t, io.direction, path, shadow, contribution, next, guide);
+    if (!ok) {
+        path.radiance = vec3(0);
+        path.throughput = vec3(0);
+        next.tmax = -1.0;
+        atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
+    }
+    if (HAS_GUIDES && first) { // here, so that albedo and normal need not travel
+        uint pixel = launch_pixel(frame);
+        GuidePixel g = GuidePixelArray(frame.film_guides).at[pixel];
+        guide_add(g, guide);
+        GuidePixelArray(frame.film_guides).at[pixel] = g;
+    }
+    io.path = path;
+    io.t = next.tmax;
+    io.origin = next.origin;
+    io.direction = next.direction;
+    io.shadow_origin = shadow.origin;
+    io.shadow_direction = shadow.direction;
+    io.shadow_tmax = shadow.tmax;
+    io.shadow_contribution = contribution;
+}
