@@ -7,8 +7,12 @@
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
+// Constants stand before the structs and are found in namespace restage itself.
+#define RESTAGE_CONSTANTS_BEGIN namespace restage {
+#define RESTAGE_CONSTANTS_END }
 #define RESTAGE_SHARED_BEGIN namespace restage::shared {
 #define RESTAGE_SHARED_END }
+#define RESTAGE_UINT(name, value) inline constexpr std::uint32_t name = value
 namespace restage::shared {
 using uint = std::uint32_t;
 using address = std::uint64_t;
@@ -19,8 +23,11 @@ using glm::vec3;
 using glm::vec4;
 } // namespace restage::shared
 #else
+#define RESTAGE_CONSTANTS_BEGIN
+#define RESTAGE_CONSTANTS_END
 #define RESTAGE_SHARED_BEGIN
 #define RESTAGE_SHARED_END
+#define RESTAGE_UINT(name, value) const uint name = value
 #define address uint64_t
 #endif
 
