@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace restage::pbrt {
 
@@ -20,8 +21,13 @@ void Builder::camera(const Directive& d) {
     if (d.name == "perspective") {
         if (!(fov > 0 && fov < 180)) throw ImportError{d.at, what + ": fov is " + shortest(fov) + "; it must be in (0, 180) degrees"};
     } else if (d.name == "orthographic") {
-        fov = 2 * std::atan(1 / std::max(1e-6, 10.0)) * 180 / 3.14159265358979323846; // far away, nearly parallel
-        import_.approximated(d.at, what, "a perspective camera of a narrow angle at the same place stands for it");
+        // Nearly parallel from farther back; the frame is that of the original at its own place. What stands between
+        // hides it: the original sees nothing behind itself.
+        constexpr double back = 20;
+        fov = 2 * std::atan(1 / back) * 180 / std::numbers::pi;
+        const Matrix moved = *to_world * translation({0, 0, -back});
+        std::memcpy(out.camera_to_world, moved.m.data(), sizeof out.camera_to_world);
+        import_.approximated(d.at, what, "a perspective camera of a narrow angle from farther back stands for it");
     } else if (d.name == "realistic") {
         fov = 45;
         import_.approximated(d.at, what, "a pinhole camera with fov 45 stands for it; its lenses are not simulated");

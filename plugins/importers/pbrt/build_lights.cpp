@@ -92,7 +92,7 @@ void Builder::infinite_light(const Directive& d) {
     RestageHandle pixels = 0;
     if (!file.empty()) {
         // v3 reads environment images as they are (infinite.cpp: ReadImage); v4 decodes 8-bit ones as sRGB.
-        pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1);
+        pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, false);
         if (illuminance > 0) import_.approximated(d.at, what, "\"illuminance\" of a picture is not reached; the picture's own values are used");
     } else if (illuminance > 0) {
         scale *= illuminance / std::numbers::pi;

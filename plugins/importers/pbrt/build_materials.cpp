@@ -25,6 +25,7 @@ void Builder::put_index(Values& values, const char* id, const Directive& d, cons
         if (std::abs(low - high) > 1e-4)
             import_.approximated(d.at, d.word, "dispersion of \"" + std::string(name) + "\" is left out: its luminance-weighted mean is used");
         values.number(id, luminance_mean(*spectrum));
+        keep_exact(id, d, name);
         return;
     }
     put_float(values, id, d, name, otherwise);
@@ -44,7 +45,7 @@ void Builder::put_common(Values& values, const Directive& d) {
         if (const RestageHandle bump = find_texture(d, name, true)) values.texture("bump", RESTAGE_TEXTURE, bump);
     const std::string file = d.params.string("normalmap", "");
     if (file.empty()) return;
-    if (const RestageHandle pixels = image(d, file, RESTAGE_LINEAR, 1)) {
+    if (const RestageHandle pixels = image(d, file, RESTAGE_LINEAR, 1, true)) {
         const RestageTexture texture{.text = import_.text("", ""), .type = "imagemap", .is_float = 0, .image = pixels};
         if (const RestageHandle handle = import_.out.texture(import_.out.ctx, &texture)) values.texture("normalmap", RESTAGE_TEXTURE, handle);
     }
@@ -64,6 +65,8 @@ void Builder::put_metal(Values& values, const Directive& d, const char* eta, con
             const ComplexIndex index = rgb_of_metal(*n, *absorption);
             values.color(eta_id, index.eta);
             values.color(k_id, index.k);
+            keep_exact(eta_id, d, eta);
+            keep_exact(k_id, d, k);
             return;
         }
     }
@@ -88,6 +91,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     const std::string what = anonymous ? "Material " + quote(type) : "material " + quote(name);
     Values values;
     std::string plugin, verbatim;
+    exact_.clear();
     d.params.find("type");
     if (type.empty() || type == "none" || type == "interface") {
         plugin = "interface";
@@ -101,8 +105,12 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
             if (param.name != "type") (verbatim += to_text(param)) += '\n';
         d.params.mark_all_used();
     }
-    if (plugin != "interface") put_common(values, d);
-    verbatim += import_.keep_unused(d.params, what);
+    if (plugin == "interface")
+        exact_.clear();
+    else
+        put_common(values, d);
+    verbatim += exact_ + import_.keep_unused(d.params, what);
+    exact_.clear();
     std::string label = name;
     if (label.empty()) label = type + " " + std::to_string(d.at.line);
     const RestageMaterialDesc desc{.text = import_.text(label, verbatim), .type = plugin.c_str(), .values = values.data(), .value_count = values.size()};

@@ -65,18 +65,28 @@ void Builder::put_float(Values& values, const char* id, const Directive& d, cons
 
 void Builder::put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise) {
     const Argument argument = color_argument(d, name, role, otherwise);
+    keep_exact(id, d, name);
     if (argument.texture)
         values.texture(id, RESTAGE_COLOR, argument.texture);
     else
         values.color(id, argument.value);
 }
 
-RestageHandle Builder::image(const Directive& d, const std::string& file, RestageEncoding encoding, float gamma) {
+// A spectrum, a temperature or a colour of another space is written back as it came, unless its value is edited.
+void Builder::keep_exact(const char* id, const Directive& d, const char* name) {
+    if (!d.params.has(name)) return;
+    const Param& param = *d.params.find(name);
+    const bool is_rgb = (param.type == "rgb" || param.type == "color") && param.color_space == ColorSpace::srgb;
+    if (is_rgb || param.type == "texture" || param.type == "float") return;
+    exact_ += std::string("=") + id + " " + to_text(param) + "\n";
+}
+
+RestageHandle Builder::image(const Directive& d, const std::string& file, RestageEncoding encoding, float gamma, bool keep_missing) {
     const std::string path = import_.resolve(file, d.at).string();
     std::error_code code;
     if (!std::filesystem::is_regular_file(path, code)) {
         import_.dropped(d.at, "image " + quote(file), "there is no such file: " + path);
-        return 0;
+        if (!keep_missing) return 0;
     }
     RestageHandle& handle = images_[path + '\n' + std::to_string(encoding) + '\n' + std::to_string(gamma)];
     if (handle) return handle;
@@ -111,7 +121,7 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
             import_.approximated(d.at, std::string(what) + " " + quote(d.name), "encoding " + quote(asked) + " is unknown; sRGB is taken");
         }
     }
-    return image(d, file, encoding, gamma);
+    return image(d, file, encoding, gamma, true);
 }
 
 // Shapes of pbrt's texture classes in the host's terms; what has none keeps its text and shades as an average.
@@ -221,12 +231,15 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
 }
 
 RestageHandle Builder::scaled_texture(RestageHandle texture, double scale, bool is_float) {
+    RestageHandle& handle = scaled_textures_[{texture, scale}];
+    if (handle) return handle;
     Values values;
     values.texture("tex", RESTAGE_COLOR, texture);
     values.color("scale", {scale, scale, scale});
     RestageTexture out{.text = import_.text("", ""), .type = "scale", .is_float = is_float ? 1u : 0u,
                        .values = values.data(), .value_count = values.size()};
-    return import_.out.texture(import_.out.ctx, &out);
+    handle = import_.out.texture(import_.out.ctx, &out);
+    return handle;
 }
 
 } // namespace restage::pbrt

@@ -53,13 +53,15 @@ class Builder {
 
     // build_textures.cpp
     void texture(const Directive& directive);
-    RestageHandle image(const Directive& directive, const std::string& file, RestageEncoding encoding, float gamma);
+    // A file that is missing is reported; `keep_missing`: its name is kept, so that it can be found later.
+    RestageHandle image(const Directive& directive, const std::string& file, RestageEncoding encoding, float gamma, bool keep_missing);
     RestageHandle image_texture(const Directive& directive, const char* what);
     RestageHandle simple_texture(const Directive& d, bool is_float);
     Argument float_argument(const Directive& directive, const char* name, double otherwise);
     Argument color_argument(const Directive& directive, const char* name, Role role, Rgb otherwise);
     void put_float(Values& values, const char* id, const Directive& d, const char* name, double otherwise);
     void put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise);
+    void keep_exact(const char* id, const Directive& d, const char* name);
     RestageHandle find_texture(const Directive& directive, const char* name, bool is_float);
     RestageHandle scaled_texture(RestageHandle texture, double scale, bool is_float);
 
@@ -120,9 +122,10 @@ class Builder {
     std::map<std::string, Object> objects_;
     std::string open_object_;
     std::map<std::string, RestageHandle> mesh_cache_; // by what they are made from
-    std::map<std::string, double> mesh_area_cache_;
     std::map<std::string, Mesh> emitter_meshes_;
     std::map<std::string, RestageHandle> images_, materials_by_content_;
+    std::map<std::pair<RestageHandle, double>, RestageHandle> scaled_textures_;
+    std::string exact_; // "=id parameter" lines: what a value was before it became RGB
     RestageHandle default_material_ = 0;
 
     struct PendingEnvironment {

@@ -134,7 +134,9 @@ std::optional<Spectrum> Import::spectrum(const Param& param) {
 std::optional<Spectrum> Import::spectrum(const ParamList& params, std::string_view name) {
     const Param* param = params.has(name) ? params.find(name) : nullptr;
     if (!param || param->type != "spectrum") return std::nullopt;
-    return spectrum(*param);
+    const auto sampled = spectrum(*param);
+    if (sampled) approximated(param->at, "spectra", "the renderer works in RGB: they are reduced to linear sRGB");
+    return sampled;
 }
 
 Rgb Import::limited(Rgb color, const Param& param, Role role) {
@@ -175,6 +177,7 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
     if (param->type == "spectrum") {
         const auto sampled = spectrum(*param);
         if (!sampled) return std::nullopt;
+        approximated(param->at, "spectra", "the renderer works in RGB: they are reduced to linear sRGB");
         if (v3()) return limited(rgb_equal_energy(*sampled), *param, role == Role::albedo ? Role::unbounded : role);
         return limited(role == Role::light ? rgb_of_light(*sampled) : rgb_of_reflectance(*sampled), *param, role);
     }
