@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of the program, one file each: add_<name> declares a subcommand with its options, whose callback hands
+// the work to Context::choose. To add one: a file here, a line here, a line in the list below.
+#pragma once
+
+#include "context.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace restage::app {
+
+void add_demo(CLI::App& program, Context& context);
+void add_render(CLI::App& program, Context& context);
+void add_info(CLI::App& program, Context& context);
+void add_convert(CLI::App& program, Context& context);
+void add_compare(CLI::App& program, Context& context);
+void add_plugins(CLI::App& program, Context& context);
+
+// In the order `restage --help` shows them.
+inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
+    add_demo, add_render, add_info, add_convert, add_compare, add_plugins,
+};
+
+} // namespace restage::app

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage convert IN OUT: a scene from one format, or version, to another.
+#include "commands.hpp"
+#include "io/export.hpp"
+#include "rendering.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace restage::app {
+namespace {
+
+struct Options {
+    std::string input, output, format;
+    std::vector<std::string> assignments;
+};
+
+Result<int> run(Context& context, const Options& o) {
+    RESTAGE_TRY(const auto* exporter, io::find_exporter(o.output, o.format, context.registry()));
+    io::ExportOptions options{.format = o.format};
+    for (const auto& assignment : o.assignments)
+        RESTAGE_CHECK(io::set_option(*exporter, assignment, options.values));
+    RESTAGE_TRY(const auto imported, open_scene(context, o.input));
+    RESTAGE_TRY(const auto report, io::export_scene(imported.scene, o.output, context.registry(), options));
+    for (const auto& entry : report.entries)
+        if (entry.fate != RESTAGE_KEPT)
+            context.log.warning(io::to_string(entry));
+    context.log.info(fmt::format("{}: written", o.output));
+    return int(exit_ok);
+}
+
+} // namespace
+
+void add_convert(CLI::App& program, Context& context) {
+    auto o = std::make_shared<Options>();
+    auto* command = program.add_subcommand("convert", "Read a scene and write it in another format or version");
+    command->add_option("IN", o->input, "Scene file to read")->required();
+    command->add_option("OUT", o->output, "Scene file to write")->required();
+    command->add_option("--format", o->format, "Format to write (default: by the extension)");
+    command->add_option("--set", o->assignments, "Option of the exporter, for example --set version=v3 (may be repeated)");
+    command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
+}
+
+} // namespace restage::app

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage plugins: what is loaded, from where, and what is not and why.
+#include "commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace restage::app {
+namespace {
+
+Result<int> run(Context& context, bool json) {
+    auto& registry = context.registry();
+    const auto provides = [&](const plugin::Entry* entry) {
+        std::vector<std::string> names;
+        for (const auto& m : registry.materials())
+            if (m.plugin == entry)
+                names.push_back(std::string("material ") + m.table->type);
+        for (const auto& m : registry.importers())
+            if (m.plugin == entry)
+                names.push_back(std::string("importer ") + m.table->format);
+        for (const auto& m : registry.exporters())
+            if (m.plugin == entry)
+                names.push_back(std::string("exporter ") + m.table->format);
+        for (const auto& m : registry.denoisers())
+            if (m.plugin == entry) {
+                const char* reason = "";
+                const bool usable = m.table->available(&reason);
+                names.push_back(std::string("denoiser ") + m.table->type + (usable ? "" : std::string(" (not available: ") + reason + ")"));
+            }
+        return names;
+    };
+    nlohmann::json list = nlohmann::json::array();
+    std::size_t refused = 0;
+    for (const auto* entry : registry.entries()) {
+        const bool loaded = entry->state == plugin::State::loaded;
+        refused += !loaded;
+        const auto names = provides(entry);
+        if (json) {
+            list.push_back({{"id", entry->manifest.id}, {"version", entry->manifest.version}, {"loaded", loaded},
+                            {"folder", entry->folder.string()}, {"provides", names}, {"reason", entry->reason}});
+            continue;
+        }
+        std::printf("%s  %-40s %-8s %s\n", loaded ? "loaded " : "REFUSED", entry->name().c_str(), entry->manifest.version.c_str(),
+                    entry->folder.string().c_str());
+        for (const auto& name : names)
+            std::printf("         %s\n", name.c_str());
+        if (!loaded)
+            std::printf("         %s\n", entry->reason.c_str());
+    }
+    if (json)
+        std::printf("%s\n", list.dump(2).c_str());
+    else if (registry.entries().empty())
+        std::printf("no plugins found; they are looked for in:\n");
+    if (!json && registry.entries().empty())
+        for (const auto& path : plugin::Registry::default_paths())
+            std::printf("  %s\n", path.folder.string().c_str());
+    return int(exit_ok);
+}
+
+} // namespace
+
+void add_plugins(CLI::App& program, Context& context) {
+    auto json = std::make_shared<bool>(false);
+    auto* command = program.add_subcommand("plugins", "List plugins: what is loaded, from where, and why not");
+    command->add_flag("--json", *json, "As JSON");
+    command->callback([&context, json] { context.choose([&context, json] { return run(context, *json); }); });
+}
+
+} // namespace restage::app

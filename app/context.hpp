@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Context: what every command of the program shares: the log, the plugins (looked for at first use), and the work that
+// the chosen command leaves to be done once the command line is understood.
+#pragma once
+
+#include "base/log.hpp"
+#include "base/result.hpp"
+#include "plugin/registry.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace restage::app {
+
+// Data goes to stdout, everything else to stderr.
+enum ExitCode : int {
+    exit_ok = 0,
+    exit_failed = 1, // understood, but it could not be done
+    exit_usage = 2   // not understood: unknown option, missing argument
+};
+
+class Context {
+  public:
+    using Run = std::function<Result<int>()>; // an ExitCode; an error is logged and becomes exit_failed
+
+    Log log;
+    bool quiet = false;
+
+    // The plugins, looked for at first use.
+    plugin::Registry& registry() {
+        if (!registry_) {
+            registry_ = std::make_unique<plugin::Registry>(log);
+            registry_->scan(plugin::Registry::default_paths());
+        }
+        return *registry_;
+    }
+
+    // For a command's CLI11 callback: parsing only chooses, main() runs it afterwards.
+    void choose(Run run) { run_ = std::move(run); }
+    bool chosen() const { return static_cast<bool>(run_); }
+    int run() {
+        auto code = run_();
+        if (code) return *code;
+        log.error(code.error().message);
+        return exit_failed;
+    }
+
+  private:
+    std::unique_ptr<plugin::Registry> registry_;
+    Run run_;
+};
+
+} // namespace restage::app

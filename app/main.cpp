@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program `restage`: understands the command line, runs one command, returns its exit code (see ExitCode).
+
+#include "commands/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+int run(int argc, char** argv) {
+    using namespace restage::app;
+    Context context;
+    CLI::App program{"Restage: edit, path-trace, denoise and convert 3D scenes."};
+    program.name("restage");
+    program.set_version_flag("-V,--version", "restage " RESTAGE_VERSION);
+    program.set_help_flag("-h,--help", "Show this help and exit");
+    program.require_subcommand(0, 1);
+    program.fallthrough(); // options of the program are understood after the command as well
+    program.failure_message([](const CLI::App* app, const CLI::Error& error) {
+        return "restage: " + std::string(error.what()) + "\nTry '" + app->get_name() + " --help'.\n";
+    });
+    program.footer(
+        "Exit codes: 0 done, 1 failed, 2 command line not understood. Data goes to stdout, the log to stderr.");
+    program.add_flag_callback("-v,--verbose", [&] { context.log.set_threshold(restage::LogLevel::debug); }, "Log more");
+    program.add_flag_callback(
+        "-q,--quiet", [&] {
+        context.log.set_threshold(restage::LogLevel::error);
+        context.quiet = true;
+    }, "Log errors only");
+    for (auto* add : all_commands)
+        add(program, context);
+
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return program.exit(error) == 0 ? exit_ok : exit_usage; // --help and --version come this way too
+    }
+    if (!context.chosen()) {
+        std::fputs(program.help().c_str(), stderr);
+        return exit_usage;
+    }
+    return context.run();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) { // a bug of ours, or no memory
+        std::fprintf(stderr, "restage: internal error: %s\n", error.what());
+        return restage::app::exit_failed;
+    }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "progress.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+#ifdef _WIN32
+#include <io.h>
+#define isatty _isatty
+#define fileno _fileno
+#else
+#include <unistd.h>
+#endif
+
+namespace restage::app {
+namespace {
+
+volatile std::sig_atomic_t interrupts = 0;
+void on_interrupt(int) {
+    interrupts = interrupts + 1;
+    if (interrupts > 1)
+        std::_Exit(130);
+    std::signal(SIGINT, on_interrupt); // some systems reset it
+}
+
+std::string clock_text(double seconds) {
+    const int s = int(seconds + 0.5);
+    return s < 60 ? fmt::format("{} s", s) : fmt::format("{}:{:02} min", s / 60, s % 60);
+}
+
+} // namespace
+
+ProgressBar::ProgressBar(bool quiet)
+    : terminal_(isatty(fileno(stderr)) != 0), quiet_(quiet), start_(std::chrono::steady_clock::now()), last_(start_) {}
+
+ProgressBar::~ProgressBar() { finish(); }
+
+void ProgressBar::show(double done, const std::string& note) {
+    if (quiet_)
+        return;
+    const auto now = std::chrono::steady_clock::now();
+    const double since = std::chrono::duration<double>(now - last_).count();
+    if (last_done_ >= 0 && since < (terminal_ ? 0.1 : 10.0) && done < 1)
+        return;
+    if (!terminal_ && done >= 1 && last_done_ < 0)
+        return; // too quick to be worth a line
+    last_ = now;
+    last_done_ = done;
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const std::string left = done > 0.01 && done < 1 ? ", " + clock_text(elapsed / done - elapsed) + " left" : "";
+    if (terminal_) {
+        std::string bar(32, '.');
+        bar.replace(0, std::size_t(32 * done), std::size_t(32 * done), '#');
+        std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s%s", bar.c_str(), 100 * done, note.c_str(), left.c_str());
+        std::fflush(stderr);
+        open_ = true;
+    } else if (done > 0) {
+        std::fprintf(stderr, "%3.0f %%  %s%s\n", 100 * done, note.c_str(), left.c_str());
+    }
+}
+
+void ProgressBar::finish() {
+    if (open_)
+        std::fputs("\r\033[K", stderr);
+    open_ = false;
+}
+
+void catch_interrupts() { std::signal(SIGINT, on_interrupt); }
+bool interrupted() { return interrupts > 0; }
+
+} // namespace restage::app

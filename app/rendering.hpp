@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the commands that render share: options of the renderer, opening a scene with progress, rendering until a target
+// is met, and writing the picture.
+#pragma once
+
+#include "context.hpp"
+#include "io/import.hpp"
+#include "render/denoise.hpp"
+#include "render/renderer.hpp"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace restage::app {
+
+struct RenderOptions {
+    render::RendererOptions renderer;
+    std::uint32_t spp = 0;     // 0 = what the scene says
+    double seconds = 0;        // > 0: stop then
+    double error = 0;          // > 0: stop at this relative error
+    std::string size;          // WxH
+    std::string denoise;       // "", fast, balanced, high
+    std::string strategy = "mis";
+    int max_depth = -1;
+    std::string roulette;      // "", on, off
+};
+
+// Adds the options of the renderer and the targets to a command.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+render::MaterialLookup material_lookup(plugin::Registry& registry);
+
+// With a progress bar; notes the report's counts in the log.
+Result<io::ImportedScene> open_scene(Context& context, const std::string& path);
+
+// Puts size, depth and roulette of the options into the scene.
+Result<void> apply_options(const RenderOptions& options, scene::Scene& scene);
+
+// Renders until the target is met or Ctrl-C. `label` stands before the progress.
+Result<void> render_to_target(Context& context, const RenderOptions& options, const scene::Scene& scene,
+                              render::Renderer& renderer, const std::string& label = "");
+
+struct Picture {
+    render::FilmImage film;
+    std::optional<std::vector<glm::vec3>> denoised;
+    float exposure = 1; // of the scene's film
+};
+// Reads the film; denoises when asked to (a missing denoiser is an error that says so).
+Result<Picture> take_picture(Context& context, const RenderOptions& options, const scene::Scene& scene,
+                             const render::Renderer& renderer);
+
+struct PictureOptions {
+    std::string aovs = "all";  // comma-separated: stderr albedo normal depth id | all | none
+    float exposure_stops = 0;  // PNG only
+    std::map<std::string, std::string> metadata;
+};
+// .exr: the picture, what --aov names and metadata. .png: exposure and sRGB. .pfm, .hdr: the picture.
+Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& options);
+
+} // namespace restage::app
