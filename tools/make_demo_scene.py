@@ -12,8 +12,8 @@ from demo_scene.writer import Scene, numbers
 
 EYE, TARGET, FOV = (3.72, -4.50, 1.48), (1.56, -0.90, 0.93), 36.0
 SUN_ELEVATION, SUN_HEADING = 31.0, 5.0  # light travels along +x, turned by the heading about z [degrees]
-SUN_IRRADIANCE = np.array([1.0, 0.86, 0.69]) * 21.0
-SKY_SCALE = 3.4
+SUN_IRRADIANCE = np.array([1.0, 0.86, 0.69]) * 20.0
+SKY_SCALE = 4.0
 TABLE = (1.95, -1.62)
 
 

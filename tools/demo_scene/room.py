@@ -52,7 +52,7 @@ def shell(scene):
     scene.texture("floor height", "float", "floor-height.png", encoding="linear", scale=0.0012, uscale=0.5, vscale=0.5)
     scene.material("Plaster", "diffuse", reflectance=(0.80, 0.775, 0.73), displacement=("texture", "plaster height"))
     scene.material(
-        "Plaster, sage", "diffuse", reflectance=(0.50, 0.565, 0.50), displacement=("texture", "plaster height")
+        "Plaster, sage", "diffuse", reflectance=(0.55, 0.61, 0.55), displacement=("texture", "plaster height")
     )
     scene.material("Ceiling paint", "diffuse", reflectance=(0.82, 0.81, 0.78))
     scene.material(

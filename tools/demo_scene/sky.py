@@ -42,8 +42,8 @@ def sky_radiance(d, sun_from):
     trees = (
         0.030 + 0.060 * np.sin(5 * azimuth + 1.3) + 0.045 * np.sin(13 * azimuth) + 0.020 * np.sin(31 * azimuth + 0.4)
     )
-    lawn = mix([0.40, 0.46, 0.25], [0.50, 0.50, 0.42], smoothstep(-0.2, -0.9, z))
-    crown = mix([0.15, 0.23, 0.11], [0.32, 0.42, 0.22], smoothstep(-0.10, 0.10, z + 0.05 * np.sin(23 * azimuth)))
+    lawn = mix([0.33, 0.39, 0.21], [0.46, 0.46, 0.40], smoothstep(-0.2, -0.9, z))
+    crown = mix([0.10, 0.17, 0.08], [0.24, 0.33, 0.17], smoothstep(-0.10, 0.10, z + 0.05 * np.sin(23 * azimuth)))
     out = mix(sky, np.array([0.66, 0.78, 0.80]), smoothstep(0.02, -0.02, z - hills))
     out = mix(out, crown, smoothstep(0.035, -0.035, z - trees))
     return mix(out, lawn, smoothstep(-0.08, -0.13, z))
