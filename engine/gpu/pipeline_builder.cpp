@@ -85,9 +85,7 @@ Result<RayTracingPipeline> create(Device& device, const RayTracingRequest& reque
         request.push_constant_bytes, request.constants, request.name.c_str());
 }
 
-std::vector<const ShaderSource*> sources_of(const ComputeRequest& request) {
-    return {&request.shader};
-}
+std::vector<const ShaderSource*> sources_of(const ComputeRequest& request) { return {&request.shader}; }
 std::vector<const ShaderSource*> sources_of(const RayTracingRequest& request) {
     std::vector<const ShaderSource*> sources;
     for (const ShaderSource& source : request.shaders)
@@ -103,8 +101,7 @@ struct PipelineBuilder::Impl {
     const Marks marks;
     std::mutex mutex;
     std::condition_variable wake;
-    // A job is given a worker's own device, empty until one is needed; stop = true: only answer.
-    using Job = std::function<void(std::unique_ptr<Device>& own, bool stop)>;
+    using Job = std::function<void(bool stop)>; // stop: only answer
     std::deque<Job> jobs;
     bool stopping = false;
     std::vector<std::thread> threads;
@@ -112,7 +109,6 @@ struct PipelineBuilder::Impl {
     Impl(Device& d, const ShaderCompiler& c) : device(d), compiler(c) {}
 
     void work() {
-        std::unique_ptr<Device> own;
         for (;;) {
             Job job;
             {
@@ -122,24 +118,23 @@ struct PipelineBuilder::Impl {
                 job = std::move(jobs.front());
                 jobs.pop_front();
             }
-            job(own, false);
+            job(false);
         }
     }
 
-    // On a CPU: once in a device of the worker's own, so that the driver's cache has it.
+    // On a CPU: once in a device that lives as long as this function. The driver writes its cache in the background
+    // and waits for that only when the device (with its instance) goes; else the main device might look too early, and
+    // compile on its own queue what is already compiled.
     template <class Request>
-    void warm(std::unique_ptr<Device>& own, const Request& request, const std::vector<Spirv>& shaders) {
-        if (!own) {
-            auto created = Device::create({.select = std::to_string(device.info().index)}, device.log());
-            if (!created) return device.log().debug("pipelines are not built ahead: " + created.error().message);
-            own = std::move(*created);
-        }
-        const auto pipeline = create(*own, request, shaders);
-        if (pipeline) (void)run_nothing(*own, *pipeline); // what fails here fails, and is reported, on the main device
+    void warm(const Request& request, const std::vector<Spirv>& shaders) {
+        auto own = Device::create({.select = std::to_string(device.info().index)}, device.log());
+        if (!own) return device.log().debug("pipelines are not built ahead: " + own.error().message);
+        const auto pipeline = create(**own, request, shaders);
+        if (pipeline) (void)run_nothing(**own, *pipeline); // what fails here fails, and is reported, on the main device
     }
 
     template <class Pipeline, class Request>
-    Result<Pipeline> make(std::unique_ptr<Device>& own, const Request& request) {
+    Result<Pipeline> make(const Request& request) {
         std::vector<Spirv> shaders;
         for (const ShaderSource* source : sources_of(request)) {
             RESTAGE_TRY(Spirv spirv, compiler.compile(*source));
@@ -147,7 +142,7 @@ struct PipelineBuilder::Impl {
         }
         const bool cpu = device.info().type == DeviceType::cpu;
         const std::uint64_t id = identity(shaders, request.constants, device.info());
-        if (cpu && !marks.has(id)) warm(own, request, shaders);
+        if (cpu && !marks.has(id)) warm(request, shaders);
         RESTAGE_TRY(Pipeline pipeline, create(device, request, shaders));
         if (cpu) {
             RESTAGE_CHECK(run_nothing(device, pipeline));
@@ -164,9 +159,9 @@ struct PipelineBuilder::Impl {
         std::future<Result<Pipeline>> future = promise->get_future();
         {
             std::lock_guard lock(mutex);
-            jobs.push_back([this, promise, kept](std::unique_ptr<Device>& own, bool stop) {
+            jobs.push_back([this, promise, kept](bool stop) {
                 promise->set_value(stop ? Result<Pipeline>(fail("building pipeline " + kept->name + " was cancelled"))
-                                        : make<Pipeline>(own, *kept));
+                                        : make<Pipeline>(*kept));
             });
         }
         wake.notify_one();
@@ -188,9 +183,8 @@ PipelineBuilder::~PipelineBuilder() {
     impl_->wake.notify_all();
     for (std::thread& thread : impl_->threads)
         thread.join();
-    std::unique_ptr<Device> none;
     for (auto& job : impl_->jobs)
-        job(none, true);
+        job(true);
 }
 
 std::future<Result<ComputePipeline>> PipelineBuilder::build(ComputeRequest request) {
