@@ -146,7 +146,8 @@ Result<int> run(const Options& options, Log& log) {
     RESTAGE_TRY(const scene::PixelData a, load(options.a, log));
     RESTAGE_TRY(const std::optional<io::Estimate> estimate_a, load_estimate(options.a, a));
     RESTAGE_TRY(const Reference b, load_reference(options, log));
-    RESTAGE_TRY(const io::Comparison comparison, io::compare_images(a, b.image, options.compare));
+    const auto comparison = io::compare_images(a, b.image, options.compare);
+    if (!comparison) return fail(options.a + ", " + (options.halves.empty() ? options.b : options.halves[0]), comparison.error());
     std::optional<io::ZTest> z;
     if (estimate_a && b.estimate) {
         RESTAGE_TRY(z, io::z_test(*estimate_a, *b.estimate));
@@ -156,7 +157,7 @@ Result<int> run(const Options& options, Log& log) {
         if (!z) return fail("--z-map: no z-test without standard errors in both pictures (a layer 'stderr')");
         RESTAGE_CHECK(io::write_png(options.z_map, z_picture(*z)));
     }
-    const std::string out = options.json ? to_json(options, comparison, z).dump(2) + "\n" : to_text(comparison, z);
+    const std::string out = options.json ? to_json(options, *comparison, z).dump(2) + "\n" : to_text(*comparison, z);
     std::fputs(out.c_str(), stdout);
     return exit_ok;
 }
