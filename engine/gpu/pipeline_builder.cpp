@@ -98,6 +98,7 @@ std::vector<const ShaderSource*> sources_of(const RayTracingRequest& request) {
 struct PipelineBuilder::Impl {
     Device& device;
     const ShaderCompiler& compiler;
+    const Stalls stalls;
     const Marks marks;
     std::mutex mutex;
     std::condition_variable wake;
@@ -106,7 +107,7 @@ struct PipelineBuilder::Impl {
     bool stopping = false;
     std::vector<std::thread> threads;
 
-    Impl(Device& d, const ShaderCompiler& c) : device(d), compiler(c) {}
+    Impl(Device& d, const ShaderCompiler& c, Stalls s) : device(d), compiler(c), stalls(s) {}
 
     void work() {
         for (;;) {
@@ -142,7 +143,7 @@ struct PipelineBuilder::Impl {
         }
         const bool cpu = device.info().type == DeviceType::cpu;
         const std::uint64_t id = identity(shaders, request.constants, device.info());
-        if (cpu && !marks.has(id)) warm(request, shaders);
+        if (cpu && stalls == Stalls::avoid && !marks.has(id)) warm(request, shaders);
         RESTAGE_TRY(Pipeline pipeline, create(device, request, shaders));
         if (cpu) {
             RESTAGE_CHECK(run_nothing(device, pipeline));
@@ -169,8 +170,8 @@ struct PipelineBuilder::Impl {
     }
 };
 
-PipelineBuilder::PipelineBuilder(Device& device, const ShaderCompiler& compiler, unsigned threads)
-    : impl_(std::make_unique<Impl>(device, compiler)) {
+PipelineBuilder::PipelineBuilder(Device& device, const ShaderCompiler& compiler, unsigned threads, Stalls stalls)
+    : impl_(std::make_unique<Impl>(device, compiler, stalls)) {
     for (unsigned i = 0; i < std::max(threads, 1u); ++i)
         impl_->threads.emplace_back([this] { impl_->work(); });
 }

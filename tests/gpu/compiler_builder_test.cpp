@@ -42,7 +42,8 @@ TEST_CASE("pipelines come out of the builder ready, each its own, while the devi
     const ShaderCompiler compiler({});
     const Buffer out = value(device->create_buffer(4, BufferKind::readback, "out"));
     const auto busy = value(ComputePipeline::create(*device, compile(adder(0).shader.text), sizeof(Push), {}, "busy"));
-    PipelineBuilder builder(*device, compiler, 2);
+    const auto stalls = GENERATE(PipelineBuilder::Stalls::avoid, PipelineBuilder::Stalls::allow);
+    PipelineBuilder builder(*device, compiler, 2, stalls);
     std::vector<std::future<Result<ComputePipeline>>> futures;
     for (int n = 0; n < 6; ++n)
         futures.push_back(builder.build(adder(n)));
