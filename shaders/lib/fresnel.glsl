@@ -60,11 +60,13 @@ vec3 fresnel_schlick(vec3 r0, float cos_i) {
 }
 
 // Hemispherical (cosine-weighted) reflectance of a dielectric seen from the thin side, eta > 1: Walsh 1926 in the form
-// of Duntley 1942; near 1, where that cancels, the fit of Kulla and Conty 2017.
+// of Duntley 1942; near 1, where that cancels, a fit of the same integral (relative error below 3e-4 from 1.002 to 1.15).
 // From the dense side it is 1 - (1 - result) / eta^2.
 float fresnel_dielectric_average(float eta) {
-    if (eta < 1.1)
-        return (eta - 1.0) / (4.08567 + 1.00071 * eta);
+    if (eta < 1.08) {
+        float x = max(eta - 1.0, 1e-9);
+        return x * (0.333149 + x * (0.367212 + 0.479722 * log(x) - 0.782705 * x));
+    }
     float n2 = eta * eta;
     float n4 = n2 * n2;
     float a = (eta - 1.0) * (3.0 * eta + 1.0) / (6.0 * sqr(eta + 1.0));

@@ -37,10 +37,12 @@ float coateddiffuse_x2_e1(float x) {
 // K = int_0^1 2 mu F(mu) exp(-2 t / mu) dmu. Beyond the critical angle F = 1, which gives mu_c^2 2 E_3(2 t / mu_c),
 // with E_3(x) = (exp(-x) (1 - x) + x^2 E_1(x)) / 2; the rest is F_avg / eta^2 at a mean slope (its share is below 7 %).
 float coateddiffuse_returned(float eta, float thickness) {
-    float mu_c = sqrt(max(0.0, 1.0 - 1.0 / (eta * eta)));
+    float mu_c2 = max(0.0, 1.0 - 1.0 / (eta * eta));
+    float mu_c = sqrt(mu_c2);
+    float slope = mix(mu_c, 1.0, 0.045 + mu_c2 * (0.33 + 0.155 * mu_c2)); // fitted to the integral, eta 1.05 to 3
     float x = 2.0 * thickness / max(mu_c, 1e-4);
-    float beyond = mu_c * mu_c * max(0.0, exp(-x) * (1.0 - x) + coateddiffuse_x2_e1(max(x, 1e-6)));
-    return beyond + fresnel_dielectric_average(eta) / (eta * eta) * exp(-2.0 * thickness / (0.5 * mu_c + 0.45));
+    float beyond = mu_c2 * max(0.0, exp(-x) * (1.0 - x) + coateddiffuse_x2_e1(max(x, 1e-6)));
+    return beyond + fresnel_dielectric_average(eta) / (eta * eta) * exp(-2.0 * thickness / slope);
 }
 
 // T(wo) T(wi) R / (pi eta^2) sum_k (R K)^k with as many terms as the walk has bounces on the base.
