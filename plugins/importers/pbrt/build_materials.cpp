@@ -80,6 +80,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     std::string key;
     if (anonymous) {
         key = type + '\n' + to_text(d.params, "\n");
+        for (const Param& param : d.params.params) key += '\n' + std::to_string(static_cast<int>(param.color_space));
         for (const Param& param : d.params.params)
             if (param.type == "texture" && !param.strings.empty()) { // the same name may mean another texture by now
                 const auto& names = *state_.names;
@@ -99,10 +100,10 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
             import_.approximated(d.at, what, "it has no \"string type\"; taken as interface");
     } else if (!material_v4(d, type, values, plugin) && !material_v3(d, type, values, plugin)) {
         approximated_material(d, type, values, plugin);
-        // The whole of it goes back out as it came.
-        verbatim = "\"string type\" [ " + quote(type) + " ]\n";
+        // The whole of it goes back out as it came, unless it is edited ("=*": instead of all that would be written).
+        exact_ = "=* \"string type\" [ " + quote(type) + " ]\n";
         for (const Param& param : d.params.params)
-            if (param.name != "type") (verbatim += to_text(param)) += '\n';
+            if (param.name != "type") exact_ += "=* " + to_text(param) + "\n";
         d.params.mark_all_used();
     }
     if (plugin == "interface")

@@ -112,25 +112,29 @@ Mesh cylinder(const Directive& shape, double phi_max) {
     return mesh;
 }
 
-// A profile (radius and height over v) turned about z. The area is that of a mesh 16 times as fine.
+// A curve turned about z. Its exact area is the sum of many frusta, pi (r0 + r1) s each (of a full turn).
 template <class Profile>
 Mesh revolve(double phi_max, const Profile& profile) {
-    const auto make = [&](int columns, int rows) {
-        return grid(columns, rows, [&](double u, double v) {
-            const double phi = u == 1 && phi_max == 2 * pi ? 0 : u * phi_max, h = 1e-5;
-            const auto turn = [&](double at, double angle) {
-                const Vec3 p = profile(at);
-                return Vec3{p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
-            };
-            const double v0 = std::max(v - h, 0.0), v1 = std::min(v + h, 1.0);
-            // Where the radius is 0 the circle direction still is the limit of dp/du.
-            const Vec3 p = turn(v, phi), dv = turn(v1, phi) - turn(v0, phi);
-            const Vec3 around = turn(v < 0.5 ? v + 1e-3 : v - 1e-3, phi);
-            return Sample{p, cross({-around.y, around.x, 0}, dv)};
-        });
-    };
-    Mesh mesh = make(segments(phi_max, 128), 64);
-    match_area(mesh, area(make(4 * segments(phi_max, 128), 256), Matrix{}), false);
+    Mesh mesh = grid(segments(phi_max, 128), 64, [&](double u, double v) {
+        const double phi = u == 1 && phi_max == 2 * pi ? 0 : u * phi_max, h = 1e-5;
+        const auto turn = [&](double at, double angle) {
+            const Vec3 p = profile(at);
+            return Vec3{p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
+        };
+        const double v0 = std::max(v - h, 0.0), v1 = std::min(v + h, 1.0);
+        const Vec3 dv = turn(v1, phi) - turn(v0, phi);
+        // Where the radius is 0, the direction around the axis is the limit of dp/du.
+        const Vec3 around = turn(v < 0.5 ? v + 1e-3 : v - 1e-3, phi);
+        return Sample{turn(v, phi), cross({-around.y, around.x, 0}, dv)};
+    });
+    double exact = 0;
+    constexpr int frusta = 20000;
+    for (int i = 0; i < frusta; ++i) {
+        const Vec3 a = profile(double(i) / frusta), b = profile(double(i + 1) / frusta);
+        const double r0 = std::hypot(a.x, a.y), r1 = std::hypot(b.x, b.y);
+        exact += phi_max * (r0 + r1) / 2 * std::hypot(r1 - r0, b.z - a.z);
+    }
+    match_area(mesh, exact, false);
     return mesh;
 }
 
