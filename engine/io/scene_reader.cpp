@@ -2,7 +2,6 @@
 #include "io/scene_reader.hpp"
 
 #include <cstring>
-#include <filesystem>
 
 namespace restage::io {
 
@@ -109,8 +108,7 @@ struct SceneReader::Calls {
                 .height = 0,
                 .channels = 0,
                 .pixels = nullptr};
-        std::error_code code;
-        if (i->data && (i->path.empty() || !std::filesystem::exists(i->path, code))) {
+        if (i->data) { // also where the file exists: an exporter may have to convert it
             out->width = i->data->width;
             out->height = i->data->height;
             out->channels = i->data->channels;

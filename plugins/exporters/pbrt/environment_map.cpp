@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// An environment picture in the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
+// P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008, as in pbrt-v4.
+#include "exporter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace restage::pbrt_out {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Direction {
+    double x, y, z;
+};
+
+// pbrt-v4 EqualAreaSquareToSphere: (u, v) in [0,1]^2.
+Direction from_octahedral(double px, double py) {
+    const double u = 2 * px - 1, v = 2 * py - 1;
+    const double up = std::abs(u), vp = std::abs(v);
+    const double signed_distance = 1 - (up + vp), d = std::abs(signed_distance), r = 1 - d;
+    const double phi = (r == 0 ? 1 : (vp - up) / r + 1) * pi / 4;
+    const double z = std::copysign(1 - r * r, signed_distance);
+    const double s = r * std::sqrt(std::max(0.0, 2 - r * r));
+    return {std::copysign(std::cos(phi), u) * s, std::copysign(std::sin(phi), v) * s, z};
+}
+
+// pbrt-v4 EqualAreaSphereToSquare, with the exact arc tangent.
+std::array<double, 2> to_octahedral(Direction w) {
+    const double x = std::abs(w.x), y = std::abs(w.y), z = std::abs(w.z);
+    const double r = std::sqrt(std::max(0.0, 1 - z));
+    const double phi = x == 0 && y == 0 ? 0 : std::atan2(std::min(x, y), std::max(x, y)) * 2 / pi;
+    double v = (x < y ? 1 - phi : phi) * r, u = r - v;
+    if (w.z < 0) {
+        std::swap(u, v);
+        u = 1 - u;
+        v = 1 - v;
+    }
+    return {(std::copysign(u, w.x) + 1) / 2, (std::copysign(v, w.y) + 1) / 2};
+}
+
+// pbrt-v3: u = phi / 2 pi, v = theta / pi, z up.
+Direction from_equirect(double u, double v) {
+    const double phi = 2 * pi * u, theta = pi * v, s = std::sin(theta);
+    return {s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
+}
+std::array<double, 2> to_equirect(Direction w) {
+    const double phi = std::atan2(w.y, w.x);
+    return {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi), std::acos(std::clamp(w.z, -1.0, 1.0)) / pi};
+}
+
+class Picture {
+public:
+    explicit Picture(const RestageImage& image, bool wraps) : i_(image), wraps_(wraps) {}
+    void add_bilinear(double u, double v, double weight, float out[3]) const {
+        const double x = u * i_.width - 0.5, y = v * i_.height - 0.5;
+        const auto x0 = static_cast<long>(std::floor(x)), y0 = static_cast<long>(std::floor(y));
+        const double fx = x - static_cast<double>(x0), fy = y - static_cast<double>(y0);
+        for (long dy = 0; dy < 2; ++dy)
+            for (long dx = 0; dx < 2; ++dx) {
+                const double w = weight * (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy);
+                const float* pixel = at(x0 + dx, y0 + dy);
+                for (int c = 0; c < 3; ++c)
+                    out[c] += static_cast<float>(w * static_cast<double>(i_.channels == 1 ? pixel[0] : pixel[c]));
+            }
+    }
+
+private:
+    const float* at(long x, long y) const {
+        const auto width = static_cast<long>(i_.width), height = static_cast<long>(i_.height);
+        x = wraps_ ? (x % width + width) % width : std::clamp(x, 0l, width - 1);
+        y = std::clamp(y, 0l, height - 1);
+        return i_.pixels + static_cast<std::size_t>(y * width + x) * i_.channels;
+    }
+    const RestageImage& i_;
+    bool wraps_;
+};
+
+} // namespace
+
+std::string Exporter::environment_file(const RestageEnvironment& e) {
+    RestageImage image{};
+    if (!in_.image(in_.ctx, e.image, &image) || !image.pixels || image.width == 0)
+        return "";
+    const bool to_oct = !v3();
+    // About as many pixels as before; four samples a side of each, so that narrow lights keep their energy.
+    const auto side = std::max(2u, static_cast<std::uint32_t>(std::lround(std::sqrt(double(image.width) * image.height))));
+    const std::uint32_t width = to_oct ? side : std::max(2u, static_cast<std::uint32_t>(std::lround(double(side) * std::sqrt(2.0))));
+    const std::uint32_t height = to_oct ? side : std::max(1u, width / 2);
+    const Picture from(image, to_oct);
+    constexpr int samples = 4;
+    std::vector<float> pixels(std::size_t{width} * height * 3);
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x)
+            for (int s = 0; s < samples * samples; ++s) {
+                const double u = (x + (s % samples + 0.5) / samples) / width, v = (y + (s / samples + 0.5) / samples) / height;
+                const auto at = to_oct ? to_equirect(from_octahedral(u, v)) : to_octahedral(from_equirect(u, v));
+                from.add_bilinear(at[0], at[1], 1.0 / (samples * samples), &pixels[(std::size_t{y} * width + x) * 3]);
+            }
+    std::string bytes = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1\n";
+    for (std::uint32_t row = height; row-- > 0;)
+        bytes.append(reinterpret_cast<const char*>(&pixels[std::size_t{row} * width * 3]), std::size_t{width} * 3 * sizeof(float));
+    const std::string file = out_.unique_file("textures", plain_name(e.text.name) + (to_oct ? "_octahedral" : "_equirect"), ".pfm");
+    out_.write(file, bytes);
+    approximated(std::string("environment \"") + e.text.name + "\"",
+                 std::string("its picture was resampled to ") + (to_oct ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");
+    return file;
+}
+
+} // namespace restage::pbrt_out

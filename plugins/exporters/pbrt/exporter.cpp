@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exporter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace restage::pbrt_out {
+
+const RestageValue* Values::find(std::string_view id) const {
+    for (std::uint32_t i = 0; i < count_; ++i)
+        if (values_[i].id == id)
+            return &values_[i];
+    return nullptr;
+}
+
+float Values::number(std::string_view id, float otherwise) const {
+    const RestageValue* v = find(id);
+    return v ? v->v[0] : otherwise;
+}
+
+std::string Values::choice(std::string_view id, const char* otherwise) const {
+    const RestageValue* v = find(id);
+    return v && v->text ? v->text : otherwise;
+}
+
+std::array<float, 3> Values::color(std::string_view id, std::array<float, 3> otherwise) const {
+    const RestageValue* v = find(id);
+    if (!v)
+        return otherwise;
+    if (v->type == RESTAGE_FLOAT)
+        return {v->v[0], v->v[0], v->v[0]};
+    return {v->v[0], v->v[1], v->v[2]};
+}
+
+RestageHandle Values::ref(std::string_view id) const {
+    const RestageValue* v = find(id);
+    return v ? v->ref : 0;
+}
+
+void Exporter::report(RestageFate fate, const std::string& what, const std::string& note) {
+    if (reported_.insert(std::to_string(fate) + what + '\n' + note).second)
+        in_.report(in_.ctx, fate, what.c_str(), note.c_str());
+}
+
+Kept Exporter::kept(const RestageText& text, const std::string& what) {
+    Kept out;
+    const bool ours = std::string_view(text.verbatim_format) == format();
+    for (const std::string& line : lines(text.verbatim)) {
+        if (line[0] == '=') { // "=eta ...": only where it is understood; elsewhere the value itself is written
+            const std::size_t space = std::min(line.find(' '), line.size());
+            const std::string id = line.substr(1, space - 1), rest = line.substr(std::min(space + 1, line.size()));
+            if (ours && id == "*")
+                out.whole.push_back(rest);
+            else if (ours)
+                out.for_values[id] = rest;
+            continue;
+        }
+        (ours ? out.lines : out.foreign).push_back(line);
+    }
+    if (!out.foreign.empty())
+        dropped(what, std::string("what was kept of ") + text.verbatim_format + " has no meaning in " + format() +
+                          "; it is written as comments");
+    return out;
+}
+
+void Exporter::comment(const std::vector<std::string>& comment_lines, const char* indent) {
+    for (const std::string& line : comment_lines)
+        text_ += indent + ("# " + line) + "\n";
+}
+
+std::string Exporter::unique_name(const char* kind, const char* name) {
+    std::string base = plain_name(name);
+    if (base.empty())
+        base = kind;
+    std::string result = base;
+    for (unsigned i = 2; !names_[kind].insert(result).second; ++i)
+        result = base + " " + std::to_string(i);
+    return result;
+}
+
+void Exporter::flag(Params& params, const char* name, bool value) const {
+    const char* word = value ? "true" : "false";
+    params.add("bool", name, v3() ? quote(word) : word);
+}
+
+bool Exporter::run(const std::string& scene_name) {
+    const auto go_on = [&](float done, const char* what) { return in_.progress(in_.ctx, done, what) != 0; };
+    text_ = std::string("# ") + (v3() ? "pbrt-v3" : "pbrt-v4") + " scene, written by Restage\n";
+    if (!go_on(0, "settings"))
+        return false;
+    head();
+    text_ += "WorldBegin\n";
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_MEDIUM); ++h)
+        medium(h);
+    environment();
+    lights();
+    if (!go_on(0.1f, "materials"))
+        return false;
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_TEXTURE); ++h)
+        texture(h);
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_MATERIAL); ++h)
+        material(h);
+    if (!go_on(0.3f, "shapes"))
+        return false;
+    shapes();
+    if (v3())
+        text_ += "\nWorldEnd\n";
+    if (!go_on(0.9f, "writing"))
+        return false;
+    out_.write(scene_name, text_);
+    return true;
+}
+
+bool is_identity(const double m[16]) {
+    for (int i = 0; i < 16; ++i)
+        if (m[i] != (i % 5 == 0 ? 1.0 : 0.0))
+            return false;
+    return true;
+}
+
+std::array<double, 16> multiply(const double a[16], const double b[16]) {
+    std::array<double, 16> out{};
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row)
+            for (std::size_t k = 0; k < 4; ++k)
+                out[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+    return out;
+}
+
+// Of an affine matrix, through the adjugate of its linear part.
+std::optional<std::array<double, 16>> inverse(const double m[16]) {
+    const auto at = [&](int row, int column) { return m[4 * column + row]; };
+    const auto cofactor = [&](int r, int c) {
+        const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+        return at(r1, c1) * at(r2, c2) - at(r1, c2) * at(r2, c1);
+    };
+    const double determinant = at(0, 0) * cofactor(0, 0) + at(0, 1) * cofactor(0, 1) + at(0, 2) * cofactor(0, 2);
+    if (determinant == 0 || !std::isfinite(1 / determinant))
+        return std::nullopt;
+    std::array<double, 16> out{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            out[static_cast<std::size_t>(4 * column + row)] = cofactor(column, row) / determinant;
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t k = 0; k < 3; ++k)
+            out[12 + row] -= out[4 * k + row] * m[12 + k];
+    out[15] = 1;
+    return out;
+}
+
+} // namespace restage::pbrt_out

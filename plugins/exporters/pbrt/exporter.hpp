@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// One export: the host's reader, the options, and what has been written so far. Each kind of thing has a file of its
+// own (write_*.cpp). Same scene, same bytes: nothing here depends on addresses, time or the order of hash tables.
+#pragma once
+
+#include "output.hpp"
+#include "text.hpp"
+
+#include <map>
+#include <optional>
+#include <restage/scene_io.h>
+#include <set>
+#include <string>
+
+namespace restage::pbrt_out {
+
+enum class Version { v3, v4 };
+enum class Files { copy, relative, absolute };
+
+struct Options {
+    Version version = Version::v4;
+    Files textures = Files::copy;
+    bool write_meshes = true; // false: refer to the PLY a mesh came from, where it still exists
+};
+
+// The values of a material or texture, by id, with the defaults of the plugins' tables where nothing is set.
+class Values {
+public:
+    Values(const RestageValue* values, std::uint32_t count) : values_(values), count_(count) {}
+    const RestageValue* find(std::string_view id) const;
+    float number(std::string_view id, float otherwise) const;
+    bool boolean(std::string_view id, bool otherwise) const { return number(id, otherwise ? 1.f : 0.f) != 0; }
+    std::string choice(std::string_view id, const char* otherwise) const;
+    std::array<float, 3> color(std::string_view id, std::array<float, 3> otherwise) const;
+    RestageHandle ref(std::string_view id) const;
+
+private:
+    const RestageValue* values_;
+    std::uint32_t count_;
+};
+
+// What was kept of an imported thing, sorted out. Lines of another version are not usable.
+struct Kept {
+    std::vector<std::string> lines;                // written back as they are
+    std::map<std::string, std::string> for_values; // "=eta ..." : instead of what would be written for that value
+    std::vector<std::string> whole;                // "=* ..." : instead of everything
+    std::vector<std::string> foreign;              // of another format: comments
+};
+
+class Exporter {
+public:
+    Exporter(const RestageSceneReader1& reader, Options options, Output& output)
+        : in_(reader), options_(options), out_(output) {}
+    bool run(const std::string& scene_name); // false = stopped by the user
+
+private:
+    bool v3() const { return options_.version == Version::v3; }
+    const char* format() const { return v3() ? "pbrt-v3" : "pbrt-v4"; }
+    std::string point(const char* name) const { return (v3() ? "point " : "point3 ") + std::string(name); }
+
+    void report(RestageFate fate, const std::string& what, const std::string& note);
+    void approximated(const std::string& what, const std::string& note) { report(RESTAGE_APPROXIMATED, what, note); }
+    void dropped(const std::string& what, const std::string& note) { report(RESTAGE_DROPPED, what, note); }
+    Kept kept(const RestageText& text, const std::string& what);
+    void comment(const std::vector<std::string>& lines, const char* indent = "");
+    std::string unique_name(const char* kind, const char* name);
+    void flag(Params& params, const char* name, bool value) const; // v3 writes "true", v4 true
+
+    // write_head.cpp: camera, film, filter, sampler, integrator, options
+    void head();
+    void camera(const Kept& settings);
+    void film(const Kept& settings, double shutter_time);
+    void filter(const Kept& settings);
+    void sampler_and_integrator(const Kept& settings);
+    double shutter_time() const;
+
+    // write_textures.cpp
+    std::string image_file(RestageHandle image);
+    std::string texture(RestageHandle); // writes it and what it needs first; its name, "" = cannot be
+    void put_argument(Params&, const Values&, const char* id, const char* name, bool is_float, float otherwise);
+    void put_image_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
+    void put_scale_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
+    std::array<float, 3> average(RestageHandle texture, int depth = 0); // of a texture, for approximations
+
+    // write_materials*.cpp
+    std::string material(RestageHandle);
+    void put_float(Params&, const Values&, const char* id, const char* name, float otherwise);
+    void put_color(Params&, const Values&, const char* id, const char* name, std::array<float, 3> otherwise, bool albedo = true);
+    void put_roughness(Params&, const Values&, const std::string& what, const char* u_id, const char* v_id, const char* u_name,
+                       const char* v_name, bool zero_is_smooth, float otherwise = 0);
+    void put_common(Params&, const Values&, const std::string& what);
+    std::string material_v4(Params&, const RestageMaterialDesc&, const Values&, const std::string& what); // pbrt's type
+    std::string material_v3(Params&, const RestageMaterialDesc&, const Values&, const std::string& what);
+
+    // write_world.cpp
+    std::string medium(RestageHandle);
+    void lights();
+    void environment();
+    std::string environment_file(const RestageEnvironment&); // its picture in the other mapping, "" = there are no pixels
+
+    // write_shapes.cpp
+    struct Placement { // one Shape in the file, or one ObjectInstance
+        RestageHandle instance = 0;
+        std::string object;
+    };
+    void shapes();
+    void plan_objects();
+    void write_object(const std::string& name, const std::vector<RestageHandle>& members);
+    void write_instance(RestageHandle, const char* indent, const double* relative_to);
+    std::string shape_line(RestageHandle mesh, const RestageInstance&, const Kept&);
+    std::string ply_file(RestageHandle mesh, const RestageMesh&);
+    void transform(const double m[16], const char* indent);
+
+    const RestageSceneReader1& in_;
+    const Options options_;
+    Output& out_;
+    std::string text_;
+    std::set<std::string> reported_;
+    std::map<std::string, std::set<std::string>> names_; // by kind
+    std::map<RestageHandle, std::string> textures_, materials_, media_, meshes_, images_;
+    std::map<RestageHandle, unsigned> mesh_uses_;       // Shape lines that will name it
+    std::map<RestageHandle, std::string> object_of_;    // by group: the object it is an instance of
+    std::map<std::string, std::vector<RestageHandle>> objects_; // members, of the first group
+    std::map<RestageHandle, std::string> object_of_instance_;   // ungrouped instances that share everything
+};
+
+bool is_identity(const double m[16]);
+std::optional<std::array<double, 16>> inverse(const double m[16]);
+std::array<double, 16> multiply(const double a[16], const double b[16]);
+std::string ply_bytes(const RestageMesh&);
+
+} // namespace restage::pbrt_out

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace restage::pbrt_out {
+
+namespace {
+
+template <class T>
+std::string shortest(T value) {
+    char text[64];
+    const auto [end, code] = std::to_chars(text, text + sizeof text, value);
+    return std::string(text, end);
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+std::size_t skip_space(std::string_view s, std::size_t i) {
+    while (i < s.size() && is_space(s[i]))
+        ++i;
+    return i;
+}
+
+// The index behind the quoted string that starts at i.
+std::size_t skip_string(std::string_view s, std::size_t i) {
+    for (++i; i < s.size() && s[i] != '"'; ++i)
+        if (s[i] == '\\')
+            ++i;
+    return std::min(i + 1, s.size());
+}
+
+} // namespace
+
+std::string number(float value) { return shortest(value); }
+std::string number(double value) { return shortest(value); }
+
+std::string quote(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text)
+        switch (c) {
+        case '"':
+        case '\\':
+            out += '\\';
+            out += c;
+            break;
+        case '\n':
+            out += "\\n";
+            break;
+        case '\t':
+            out += "\\t";
+            break;
+        case '\r':
+            out += "\\r";
+            break;
+        default:
+            out += c;
+        }
+    return out + '"';
+}
+
+std::string plain_name(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (static_cast<unsigned char>(c) < 32 || c == '"' || c == '/' || c == '\\' || c == ':' || c == '*' || c == '?' ||
+            c == '<' || c == '>' || c == '|')
+            c = '_';
+    return out;
+}
+
+std::vector<std::string> lines(std::string_view text) {
+    std::vector<std::string> out;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        if (end > 0)
+            out.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out;
+}
+
+Params& Params::add(std::string_view type, std::string_view name, std::string_view value) {
+    entries_.push_back({std::string(type), std::string(name), std::string(value)});
+    return *this;
+}
+
+Params& Params::add_rgb(std::string_view name, const std::array<float, 3>& c) {
+    return add("rgb", name, number(c[0]) + " " + number(c[1]) + " " + number(c[2]));
+}
+
+Params& Params::add_raw(std::string_view s) {
+    std::size_t i = skip_space(s, 0);
+    while (i < s.size() && s[i] == '"') {
+        const std::size_t declared = skip_string(s, i);
+        std::string_view declaration = s.substr(i + 1, declared - i - 2);
+        i = skip_space(s, declared);
+        std::string value;
+        if (i < s.size() && s[i] == '[') {
+            std::size_t end = i + 1;
+            while (end < s.size() && s[end] != ']')
+                end = s[end] == '"' ? skip_string(s, end) : end + 1;
+            value = s.substr(i + 1, end - i - 1);
+            i = std::min(end + 1, s.size());
+        } else {
+            std::size_t end = i;
+            if (end < s.size() && s[end] == '"')
+                end = skip_string(s, end);
+            else
+                while (end < s.size() && !is_space(s[end]))
+                    ++end;
+            value = s.substr(i, end - i);
+            i = end;
+        }
+        i = skip_space(s, i);
+        const std::size_t trim = std::min(skip_space(value, 0), value.size());
+        value.erase(0, trim);
+        while (!value.empty() && is_space(value.back()))
+            value.pop_back();
+        declaration.remove_prefix(std::min(skip_space(declaration, 0), declaration.size()));
+        const std::size_t space = declaration.find_first_of(" \t");
+        if (space == std::string_view::npos)
+            return *this; // no parameter: the rest is not understood either
+        const std::string_view name = declaration.substr(std::min(skip_space(declaration, space), declaration.size()));
+        if (!has(name))
+            add(declaration.substr(0, space), name, value);
+    }
+    return *this;
+}
+
+void Params::remove(std::string_view name) {
+    std::erase_if(entries_, [&](const Entry& e) { return e.name == name; });
+}
+
+void Params::remove_all_of(const Params& others) {
+    for (const Entry& e : others.entries_)
+        remove(e.name);
+}
+
+void Params::retype(bool for_v3) {
+    for (Entry& e : entries_)
+        if (e.type == "point" || e.type == "point3")
+            e.type = for_v3 ? "point" : "point3";
+        else if (e.type == "vector" || e.type == "vector3")
+            e.type = for_v3 ? "vector" : "vector3";
+}
+
+bool Params::has(std::string_view name) const {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
+}
+
+std::string Params::value(std::string_view name) const {
+    for (const Entry& e : entries_)
+        if (e.name == name)
+            return e.value;
+    return "";
+}
+
+std::string Params::text(std::string_view separator) const {
+    std::string out;
+    for (const Entry& e : entries_) {
+        if (!out.empty())
+            out += separator;
+        out += "\"" + e.type + " " + e.name + "\" [ " + e.value + " ]";
+    }
+    return out;
+}
+
+KeptLine split_directive(std::string_view line) {
+    KeptLine out;
+    std::size_t i = skip_space(line, 0), begin = i;
+    while (i < line.size() && !is_space(line[i]) && line[i] != '"')
+        ++i;
+    out.word = line.substr(begin, i - begin);
+    i = skip_space(line, i);
+    if (i < line.size() && line[i] == '"') {
+        const std::size_t end = skip_string(line, i);
+        const std::string_view first = line.substr(i + 1, end - i - 2);
+        // `Film "float iso" [..]`: the first string declares a parameter already.
+        const std::size_t next = skip_space(line, end);
+        const bool declares = first.find(' ') != std::string_view::npos && next < line.size() &&
+                              (line[next] == '[' || line[next] != '"');
+        if (!declares) {
+            out.name = first;
+            i = next;
+        }
+    }
+    out.rest = line.substr(std::min(i, line.size()));
+    return out;
+}
+
+} // namespace restage::pbrt_out

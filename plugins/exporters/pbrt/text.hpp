@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// pbrt's text: numbers in the shortest form that reads back the same, quoted strings, parameters, and the parameters of
+// lines that were kept verbatim.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace restage::pbrt_out {
+
+std::string number(float);
+std::string number(double);
+std::string quote(std::string_view);       // with pbrt's escapes
+std::string plain_name(std::string_view);   // fit for a comment and a file: no quotes, slashes or control characters
+std::vector<std::string> lines(std::string_view text); // without empty ones
+
+// A list of parameters as text: `"float radius" [ 1 ]` each.
+class Params {
+public:
+    Params& add(std::string_view type, std::string_view name, std::string_view value); // value as it stands in brackets
+    Params& add_float(std::string_view name, double value) { return add("float", name, number(value)); }
+    Params& add_float(std::string_view name, float value) { return add("float", name, number(value)); }
+    Params& add_int(std::string_view name, long long value) { return add("integer", name, std::to_string(value)); }
+    Params& add_rgb(std::string_view name, const std::array<float, 3>& rgb);
+    Params& add_string(std::string_view name, std::string_view value) { return add("string", name, quote(value)); }
+    Params& add_raw(std::string_view parameters); // one or more, as kept verbatim; names that are there already win
+    void remove(std::string_view name);
+    void remove_all_of(const Params& others); // by name
+    void retype(bool for_v3);                 // point and vector for v3, point3 and vector3 for v4
+    bool has(std::string_view name) const;
+    std::string value(std::string_view name) const; // "" = absent
+    bool empty() const { return entries_.empty(); }
+    std::string text(std::string_view separator = " ") const;
+
+private:
+    struct Entry {
+        std::string type, name, value;
+    };
+    std::vector<Entry> entries_;
+};
+
+// `Film "rgb" "float iso" [ 100 ]` -> word Film, name rgb, rest the parameters.
+struct KeptLine {
+    std::string word, name, rest;
+};
+KeptLine split_directive(std::string_view line);
+
+} // namespace restage::pbrt_out

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands before WorldBegin: options, camera, film, pixel filter, sampler, integrator.
+// https://pbrt.org/fileformat-v4, https://pbrt.org/fileformat-v3.
+#include "exporter.hpp"
+
+#include <cmath>
+
+namespace restage::pbrt_out {
+
+namespace {
+
+// The kept line of a directive ("Integrator", with v3's "SurfaceIntegrator"), if there is one.
+std::optional<KeptLine> find_line(const Kept& kept, std::string_view word, std::string_view other = "") {
+    for (const std::string& line : kept.lines)
+        if (const KeptLine l = split_directive(line); (l.word == word || (!other.empty() && l.word == other)) && !l.name.empty())
+            return l;
+    return std::nullopt;
+}
+
+void add_kept_params(Params& params, const Kept& kept, std::string_view word) { // `Film "float whitebalance" [ 5000 ]`
+    for (const std::string& line : kept.lines)
+        if (const KeptLine l = split_directive(line); l.word == word && l.name.empty())
+            params.add_raw(l.rest);
+}
+
+} // namespace
+
+void Exporter::head() {
+    RestageSettings settings{};
+    in_.settings(in_.ctx, &settings);
+    const Kept kept_settings = kept(settings.text, "settings");
+    comment(kept_settings.foreign);
+    for (const std::string& line : kept_settings.lines) {
+        const std::string word = split_directive(line).word;
+        if (word != "Film" && word != "PixelFilter" && word != "Integrator" && word != "SurfaceIntegrator" && word != "Sampler")
+            text_ += line + "\n"; // Option, Accelerator, TransformTimes
+    }
+    camera(kept_settings);
+    film(kept_settings, shutter_time());
+    filter(kept_settings);
+    sampler_and_integrator(kept_settings);
+    text_ += "\n";
+}
+
+double Exporter::shutter_time() const {
+    RestageCamera camera{};
+    const RestageHandle active = in_.active_camera(in_.ctx);
+    if (v3() || !active || !in_.camera(in_.ctx, active, &camera) || std::string_view(camera.text.verbatim_format) != format())
+        return 1;
+    Params params;
+    for (const std::string& line : lines(camera.text.verbatim))
+        params.add_raw(line[0] == '"' ? line : split_directive(line).rest);
+    const double open = params.has("shutteropen") ? std::strtod(params.value("shutteropen").c_str(), nullptr) : 0;
+    const double close = params.has("shutterclose") ? std::strtod(params.value("shutterclose").c_str(), nullptr) : 1;
+    return close > open ? close - open : 1;
+}
+
+void Exporter::camera(const Kept&) {
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_CAMERA); ++h)
+        if (RestageCamera other{}; h != in_.active_camera(in_.ctx) && in_.camera(in_.ctx, h, &other))
+            dropped(std::string("camera \"") + other.text.name + "\"", "pbrt has one camera: the active one is written");
+    RestageCamera camera{};
+    if (!in_.camera(in_.ctx, in_.active_camera(in_.ctx), &camera))
+        return;
+    const std::string what = std::string("camera \"") + camera.text.name + "\"";
+    const Kept k = kept(camera.text, what);
+    comment(k.foreign);
+    const auto to_camera = inverse(camera.camera_to_world);
+    if (!to_camera)
+        throw ExportError("", what + " has a transform that cannot be inverted");
+    if (const RestageHandle around = in_.camera_medium(in_.ctx)) {
+        const std::string name = medium(around);
+        text_ += "MediumInterface \"\" " + quote(name) + "\n";
+    }
+    transform(to_camera->data(), "");
+    Params params;
+    std::string type = "perspective";
+    params.add_float("fov", camera.fov);
+    if (camera.lens_radius > 0) {
+        params.add_float("lensradius", camera.lens_radius);
+        params.add_float("focaldistance", camera.focal_distance);
+    } else if (camera.focal_distance != 1e6f) {
+        params.add_float("focaldistance", camera.focal_distance);
+    }
+    if (camera.frame_aspect > 0)
+        params.add_float("frameaspectratio", camera.frame_aspect);
+    const float* w = camera.screen_window;
+    if (w[0] != 0 || w[1] != 0 || w[2] != 0 || w[3] != 0)
+        params.add("float", "screenwindow", number(w[0]) + " " + number(w[1]) + " " + number(w[2]) + " " + number(w[3]));
+    for (const std::string& line : k.lines) {
+        const KeptLine l = split_directive(line);
+        if (l.word == "Camera" && !l.name.empty()) { // another kind of camera: only its place is ours
+            type = l.name;
+            params = Params().add_raw(l.rest);
+        } else {
+            params.add_raw(line);
+        }
+    }
+    text_ += "Camera " + quote(type) + " " + params.text() + "\n";
+    if (in_.camera_medium(in_.ctx))
+        text_ += "MediumInterface \"\" \"\"\n"; // else every shape would inherit the camera's
+}
+
+void Exporter::film(const Kept& k, double time) {
+    RestageFilm film{};
+    in_.film(in_.ctx, &film);
+    Params params;
+    params.add_int("xresolution", film.width).add_int("yresolution", film.height);
+    params.add_string("filename", *film.filename ? film.filename : "restage.exr");
+    const float* c = film.crop;
+    if (c[0] != 0 || c[1] != 1 || c[2] != 0 || c[3] != 1)
+        params.add("float", "cropwindow", number(c[0]) + " " + number(c[1]) + " " + number(c[2]) + " " + number(c[3]));
+    if (v3() && film.exposure != 1)
+        params.add_float("scale", film.exposure);
+    if (!v3() && (film.exposure != 1 || time != 1)) // imaging ratio = exposure time * ISO / 100
+        params.add_float("iso", static_cast<double>(film.exposure) * 100 / time);
+    add_kept_params(params, k, "Film");
+    std::string type = v3() ? "image" : "rgb";
+    if (const auto line = find_line(k, "Film"))
+        type = line->name;
+    text_ += "Film " + quote(type) + " " + params.text() + "\n";
+}
+
+void Exporter::filter(const Kept& k) {
+    RestageFilm film{};
+    in_.film(in_.ctx, &film);
+    const std::string name = film.filter;
+    Params params;
+    params.add_float(v3() ? "xwidth" : "xradius", film.filter_radius[0]);
+    params.add_float(v3() ? "ywidth" : "yradius", film.filter_radius[1]);
+    const float a = film.filter_params[0];
+    if (name == "gaussian" && v3()) // exp(-alpha x^2) = exp(-x^2 / (2 sigma^2))
+        params.add_float("alpha", 1 / (2 * static_cast<double>(a) * static_cast<double>(a)));
+    else if (name == "gaussian")
+        params.add_float("sigma", a);
+    else if (name == "mitchell")
+        params.add_float("B", a).add_float("C", film.filter_params[1]);
+    else if (name == "sinc")
+        params.add_float("tau", a);
+    add_kept_params(params, k, "PixelFilter");
+    text_ += "PixelFilter " + quote(name) + " " + params.text() + "\n";
+}
+
+void Exporter::sampler_and_integrator(const Kept& k) {
+    RestageSettings settings{};
+    in_.settings(in_.ctx, &settings);
+    Params sampler, integrator;
+    KeptLine s{"Sampler", v3() ? "sobol" : "zsobol", ""}, i{"Integrator", v3() ? "path" : "volpath", ""};
+    if (const auto line = find_line(k, "Sampler"))
+        s = *line;
+    if (const auto line = find_line(k, "Integrator", "SurfaceIntegrator"))
+        i = *line;
+    sampler.add_raw(s.rest);
+    const std::uint32_t samples = settings.samples ? settings.samples : 16;
+    if (s.name == "stratified") {
+        const auto kept_number = [&](const char* name) {
+            return sampler.has(name) ? std::strtoul(sampler.value(name).c_str(), nullptr, 10) : 4ul;
+        };
+        if (kept_number("xsamples") * kept_number("ysamples") != samples) { // edited: as near to a square as it goes
+            auto x = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
+            while (samples % x != 0)
+                --x;
+            sampler.remove("xsamples");
+            sampler.remove("ysamples");
+            sampler.add_int("xsamples", x).add_int("ysamples", samples / x);
+        }
+    } else {
+        sampler.remove("pixelsamples");
+        sampler.add_int("pixelsamples", samples);
+    }
+    integrator.add_raw(i.rest);
+    integrator.remove("maxdepth");
+    integrator.add_int("maxdepth", settings.max_depth);
+    text_ += "Sampler " + quote(s.name) + " " + sampler.text() + "\n";
+    text_ += (i.word == "SurfaceIntegrator" ? "SurfaceIntegrator " : "Integrator ") + quote(i.name) + " " + integrator.text() + "\n";
+}
+
+} // namespace restage::pbrt_out

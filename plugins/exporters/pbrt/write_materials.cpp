@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials: what both versions share. Each becomes a named material; those that a mix refers to come before it.
+#include "exporter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace restage::pbrt_out {
+
+namespace {
+
+// pbrt-v4 TrowbridgeReitzDistribution::RoughnessToAlpha.
+double alpha_v4(double roughness) { return std::sqrt(roughness); }
+
+// pbrt-v3 TrowbridgeReitzDistribution::RoughnessToAlpha.
+double alpha_v3(double roughness) {
+    const double x = std::log(std::max(roughness, 1e-3));
+    return 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x;
+}
+
+} // namespace
+
+void Exporter::put_float(Params& params, const Values& values, const char* id, const char* name, float otherwise) {
+    put_argument(params, values, id, name, true, otherwise);
+}
+
+// pbrt-v4 stops at reflectances above 1, v3 clamps them: so does this.
+void Exporter::put_color(Params& params, const Values& values, const char* id, const char* name,
+                         std::array<float, 3> otherwise, bool albedo) {
+    if (values.ref(id)) {
+        put_argument(params, values, id, name, false, 0);
+        return;
+    }
+    auto c = values.color(id, otherwise);
+    for (float& x : c)
+        x = std::clamp(x, 0.f, albedo ? 1.f : 1e30f);
+    params.add_rgb(name, c);
+}
+
+// Both versions map roughness to the microfacets' alpha, each in its own way. What was meant for the other version is
+// written as alpha itself, which both take with remaproughness false. Smooth dielectrics (0) stay smooth.
+void Exporter::put_roughness(Params& params, const Values& values, const std::string& what, const char* u_id,
+                             const char* v_id, const char* u_name, const char* v_name, bool zero_is_smooth,
+                             float otherwise) {
+    const std::string remap = values.choice("remap", v3() ? "v3" : "v4"), own = v3() ? "v3" : "v4";
+    const bool convert = remap != "none" && remap != own;
+    const auto put = [&](const char* id, const char* name) {
+        if (!convert || values.ref(id)) {
+            put_float(params, values, id, name, otherwise);
+            if (convert)
+                approximated(what, std::string("its textured roughness is mapped as ") + remap + " does; " + format() +
+                                       " maps it in its own way");
+            return;
+        }
+        const double roughness = values.number(id, otherwise);
+        const double alpha = zero_is_smooth && roughness == 0 ? 0 : remap == "v3" ? alpha_v3(roughness) : alpha_v4(roughness);
+        params.add_float(name, static_cast<float>(alpha));
+    };
+    put(u_id, u_name);
+    if (v_id)
+        put(v_id, v_name);
+    const bool textured = values.ref(u_id) || (v_id && values.ref(v_id));
+    if ((remap == "none" || (convert && !textured)) && !params.has("remaproughness"))
+        flag(params, "remaproughness", false);
+}
+
+void Exporter::put_common(Params& params, const Values& values, const std::string& what) {
+    if (const RestageHandle bump = values.ref("bump")) {
+        RestageTexture t{};
+        if (in_.texture(in_.ctx, bump, &t) && t.is_float)
+            params.add("texture", v3() ? "bumpmap" : "displacement", quote(texture(bump)));
+        else
+            dropped(what, "its bump map is no scalar texture");
+    }
+    if (const RestageHandle normal_map = values.ref("normalmap")) {
+        RestageTexture t{};
+        const bool image = in_.texture(in_.ctx, normal_map, &t) && t.image && std::string_view(t.type) == "imagemap";
+        if (v3())
+            dropped(what, "pbrt-v3 has no normal maps");
+        else if (!image)
+            dropped(what, "pbrt-v4 reads normal maps from image files only");
+        else
+            params.add_string("normalmap", image_file(t.image));
+    }
+}
+
+std::string Exporter::material(RestageHandle handle) {
+    if (const auto it = materials_.find(handle); it != materials_.end())
+        return it->second;
+    RestageMaterialDesc m{};
+    if (!in_.material(in_.ctx, handle, &m))
+        return "";
+    materials_[handle] = ""; // a circle finds nothing
+    const std::string what = std::string("material \"") + m.text.name + "\"";
+    const Kept k = kept(m.text, what);
+    const Values values(m.values, m.value_count);
+    Params params;
+    if (!k.whole.empty()) { // a material of pbrt's that is only approximated here, and was not edited
+        for (const std::string& line : k.whole)
+            params.add_raw(line);
+    } else {
+        Params own;
+        const std::string type = v3() ? material_v3(own, m, values, what) : material_v4(own, m, values, what);
+        params.add_string("type", type);
+        for ([[maybe_unused]] const auto& [id, line] : k.for_values) { // the original spectrum of a value that was not edited
+            Params original;
+            original.add_raw(line);
+            own.remove_all_of(original);
+            params.add_raw(line);
+        }
+        if (type != "interface" && type != "none")
+            put_common(own, values, what);
+        params.add_raw(own.text());
+    }
+    for (const std::string& line : k.lines)
+        params.add_raw(line);
+    comment(k.foreign);
+    const std::string name = unique_name("material", m.text.name);
+    text_ += "MakeNamedMaterial " + quote(name) + " " + params.text() + "\n";
+    return materials_[handle] = name;
+}
+
+} // namespace restage::pbrt_out

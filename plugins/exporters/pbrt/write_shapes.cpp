@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// Instances. What several of them share is written once: groups of the same make become instances of one object, and so
+// do single instances of one mesh and material. Emitters are written one by one: pbrt does not instance them.
+#include "exporter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace restage::pbrt_out {
+
+namespace {
+
+constexpr std::uint32_t most_inline_triangles = 100;
+
+// Everything but the place; equal = may share an object.
+std::string signature(const RestageInstance& i) {
+    std::string key = std::to_string(i.mesh) + " " + std::to_string(i.material) + " " + std::to_string(i.alpha_texture) + " " +
+                      number(i.alpha) + " " + std::to_string(i.flags);
+    if (i.has_medium_interface)
+        key += " " + std::to_string(i.interior) + "|" + std::to_string(i.exterior);
+    return key + " " + i.text.verbatim_format + i.text.verbatim;
+}
+
+bool shareable(const RestageInstance& i) { return !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_HIDDEN)); }
+
+bool close(const std::array<double, 16>& a, const std::array<double, 16>& b) {
+    double size = 0, difference = 0;
+    for (std::size_t i = 0; i < 16; ++i) {
+        size = std::max(size, std::abs(a[i]));
+        difference = std::max(difference, std::abs(a[i] - b[i]));
+    }
+    return difference <= 1e-12 * std::max(size, 1.0);
+}
+
+} // namespace
+
+void Exporter::transform(const double m[16], const char* indent) {
+    if (is_identity(m))
+        return;
+    std::string line = std::string(indent) + "Transform [";
+    for (int i = 0; i < 16; ++i)
+        line += " " + number(m[i]);
+    text_ += line + " ]\n";
+}
+
+void Exporter::plan_objects() {
+    std::map<RestageHandle, std::vector<RestageHandle>> members; // by group
+    std::set<RestageHandle> unfit;
+    const std::uint32_t instances = in_.count(in_.ctx, RESTAGE_KIND_INSTANCE), groups = in_.count(in_.ctx, RESTAGE_KIND_GROUP);
+    RestageInstance i{};
+    for (RestageHandle h = 1; h <= instances; ++h)
+        if (in_.instance(in_.ctx, h, &i) && i.group) {
+            members[i.group].push_back(h);
+            if (!shareable(i))
+                unfit.insert(i.group);
+        }
+    bool nested = false;
+    for (RestageHandle g = 1; g <= groups; ++g)
+        if (RestageGroup group{}; in_.group(in_.ctx, g, &group) && group.parent) {
+            unfit.insert(g);
+            unfit.insert(group.parent);
+            nested = true;
+        }
+    if (nested || std::any_of(unfit.begin(), unfit.end(), [&](RestageHandle g) { return members.count(g) > 0; }))
+        approximated("groups", "pbrt has none but objects without emitters in one level; the others are written as comments");
+
+    // Groups: the same things at the same places relative to the first.
+    struct Made {
+        std::string name;
+        std::vector<std::array<double, 16>> relative;
+    };
+    std::map<std::string, std::vector<Made>> made; // by what is in them
+    for (const auto& [group, handles] : members) {
+        if (unfit.count(group))
+            continue;
+        std::string key;
+        std::vector<std::array<double, 16>> relative;
+        RestageInstance first{};
+        in_.instance(in_.ctx, handles[0], &first);
+        const auto from_first = inverse(first.object_to_world);
+        if (!from_first)
+            continue;
+        for (const RestageHandle h : handles) {
+            in_.instance(in_.ctx, h, &i);
+            key += signature(i) + "\n";
+            relative.push_back(multiply(from_first->data(), i.object_to_world));
+        }
+        auto& alike = made[key];
+        const auto same = std::find_if(alike.begin(), alike.end(), [&](const Made& m) {
+            return std::equal(m.relative.begin(), m.relative.end(), relative.begin(), relative.end(), close);
+        });
+        if (same != alike.end()) {
+            object_of_[group] = same->name;
+            continue;
+        }
+        RestageGroup g{};
+        in_.group(in_.ctx, group, &g);
+        const std::string name = unique_name("object", g.text.name);
+        alike.push_back({name, std::move(relative)});
+        objects_[name] = handles;
+        object_of_[group] = name;
+    }
+
+    // Single instances that differ in their place only.
+    std::map<std::string, std::vector<RestageHandle>> alone;
+    for (RestageHandle h = 1; h <= instances; ++h)
+        if (in_.instance(in_.ctx, h, &i) && shareable(i) && !object_of_.count(i.group))
+            if (RestageMesh mesh{}; in_.mesh(in_.ctx, i.mesh, &mesh) && !*mesh.primitive && inverse(i.object_to_world))
+                alone[signature(i)].push_back(h);
+    std::map<RestageHandle, const std::vector<RestageHandle>*> in_order; // of the first of each
+    for (const auto& [key, handles] : alone)
+        if (handles.size() > 1)
+            in_order[handles[0]] = &handles;
+    for (const auto& [first, handles] : in_order) {
+        in_.instance(in_.ctx, first, &i);
+        const std::string name = unique_name("object", i.text.name);
+        objects_[name] = {first};
+        for (const RestageHandle h : *handles)
+            object_of_instance_[h] = name;
+    }
+}
+
+void Exporter::shapes() {
+    plan_objects();
+    const std::uint32_t instances = in_.count(in_.ctx, RESTAGE_KIND_INSTANCE);
+    RestageInstance i{};
+    std::map<RestageHandle, std::string> first_of; // instance -> object to be written before it
+    for (const auto& [name, handles] : objects_) {
+        first_of[handles[0]] = name;
+        for (const RestageHandle h : handles)
+            if (in_.instance(in_.ctx, h, &i))
+                ++mesh_uses_[i.mesh];
+    }
+    for (RestageHandle h = 1; h <= instances; ++h)
+        if (in_.instance(in_.ctx, h, &i) && !object_of_.count(i.group) && !object_of_instance_.count(h))
+            ++mesh_uses_[i.mesh];
+
+    std::set<RestageHandle> placed_groups;
+    for (RestageHandle h = 1; h <= instances; ++h) {
+        if (!in_.instance(in_.ctx, h, &i))
+            continue;
+        if (h % 64 == 0 && !in_.progress(in_.ctx, 0.3f + 0.6f * static_cast<float>(h) / static_cast<float>(instances), "shapes"))
+            return;
+        if (i.flags & RESTAGE_INSTANCE_HIDDEN) {
+            dropped(std::string("instance \"") + i.text.name + "\"", "it is hidden: pbrt would show it, so it is left out");
+            continue;
+        }
+        const auto grouped = object_of_.find(i.group);
+        const auto shared = object_of_instance_.find(h);
+        if (grouped == object_of_.end() && shared == object_of_instance_.end()) {
+            text_ += "\n";
+            write_instance(h, "", nullptr);
+            continue;
+        }
+        if (const auto first = first_of.find(h); first != first_of.end())
+            write_object(first->second, objects_[first->second]);
+        const bool by_group = grouped != object_of_.end();
+        if (by_group && !placed_groups.insert(i.group).second)
+            continue; // the group was placed with its first member
+        const std::string& object = by_group ? grouped->second : shared->second;
+        text_ += "\nAttributeBegin\n";
+        comment({plain_name(i.text.name)}, "    ");
+        transform(i.object_to_world, "    ");
+        text_ += "    ObjectInstance " + quote(object) + "\nAttributeEnd\n";
+    }
+}
+
+void Exporter::write_object(const std::string& name, const std::vector<RestageHandle>& members) {
+    RestageInstance first{};
+    in_.instance(in_.ctx, members[0], &first);
+    text_ += "\nObjectBegin " + quote(name) + "\n";
+    for (const RestageHandle h : members)
+        write_instance(h, "    ", first.object_to_world);
+    text_ += "ObjectEnd\n";
+}
+
+// `relative_to`: the place that belongs to the object's instances instead; null = none.
+void Exporter::write_instance(RestageHandle handle, const char* indent, const double* relative_to) {
+    RestageInstance i{};
+    in_.instance(in_.ctx, handle, &i);
+    const std::string what = std::string("instance \"") + i.text.name + "\"", deep = std::string(indent) + "    ";
+    const Kept k = kept(i.text, what);
+    const std::string line = shape_line(i.mesh, i, k); // may write files and textures first
+    text_ += std::string(indent) + "AttributeBegin\n";
+    RestageGroup group{};
+    if (i.group && !relative_to && in_.group(in_.ctx, i.group, &group))
+        comment({plain_name(group.text.name) + " / " + plain_name(i.text.name)}, deep.c_str());
+    else
+        comment({plain_name(i.text.name)}, deep.c_str());
+    comment(k.foreign, deep.c_str());
+    if (i.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION)
+        text_ += deep + "ReverseOrientation\n";
+    if (!relative_to) {
+        transform(i.object_to_world, deep.c_str());
+    } else if (!std::equal(relative_to, relative_to + 16, i.object_to_world)) {
+        transform(multiply(inverse(relative_to)->data(), i.object_to_world).data(), deep.c_str());
+    }
+    if (i.has_medium_interface)
+        text_ += deep + "MediumInterface " + quote(medium(i.interior)) + " " + quote(medium(i.exterior)) + "\n";
+    if (i.flags & RESTAGE_INSTANCE_EMITS) {
+        Params light;
+        light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
+        if (i.flags & RESTAGE_INSTANCE_TWO_SIDED)
+            flag(light, "twosided", true);
+        text_ += deep + "AreaLightSource \"diffuse\" " + light.text() + "\n";
+    }
+    text_ += deep + "NamedMaterial " + quote(material(i.material)) + "\n";
+    text_ += deep + line + "\n" + indent + "AttributeEnd\n";
+}
+
+std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
+    if (const auto it = meshes_.find(handle); it != meshes_.end())
+        return it->second;
+    std::string& file = meshes_[handle];
+    std::error_code code;
+    const std::filesystem::path source = mesh.source_file;
+    const std::string ending = source.filename().string();
+    const bool is_ply = ending.ends_with(".ply") || ending.ends_with(".ply.gz");
+    if (is_ply && std::filesystem::exists(source, code)) {
+        if (const std::string inside = out_.inside(source); !inside.empty())
+            return file = inside; // beside the scene already
+        if (!options_.write_meshes) {
+            file = options_.textures == Files::absolute ? "" : source.lexically_relative(out_.folder()).generic_string();
+            return file = file.empty() ? source.generic_string() : file;
+        }
+    }
+    file = out_.unique_file("models", plain_name(mesh.text.name), ".ply");
+    out_.write(file, ply_bytes(mesh));
+    return file;
+}
+
+std::string Exporter::shape_line(RestageHandle handle, const RestageInstance& i, const Kept& k) {
+    RestageMesh mesh{};
+    if (!in_.mesh(in_.ctx, handle, &mesh))
+        throw ExportError("", std::string("instance \"") + i.text.name + "\" has no mesh");
+    Params params;
+    std::string type;
+    if (*mesh.primitive) {
+        const std::string primitive = mesh.primitive;
+        const std::size_t space = std::min(primitive.find(' '), primitive.size());
+        type = primitive.substr(0, space);
+        const std::set<std::string> only_v3{"cone", "paraboloid", "hyperboloid", "heightfield", "heightfield2"};
+        const bool foreign = v3() ? type == "bilinearmesh" : only_v3.count(type) > 0;
+        if (foreign)
+            type.clear(); // as triangles
+        else
+            params.add_raw(primitive.substr(space));
+        params.retype(v3());
+    }
+    if (type.empty() && mesh.triangle_count <= most_inline_triangles && mesh_uses_[handle] <= 1) {
+        type = "trianglemesh";
+        const auto list = [](const auto* values, std::size_t count) {
+            std::string out;
+            for (std::size_t n = 0; n < count; ++n) {
+                if (n > 0)
+                    out += ' ';
+                if constexpr (std::is_same_v<decltype(*values), const float&>)
+                    out += number(values[n]);
+                else
+                    out += std::to_string(values[n]);
+            }
+            return out;
+        };
+        const std::size_t vertices = mesh.vertex_count;
+        params.add("integer", "indices", list(mesh.indices, std::size_t{mesh.triangle_count} * 3));
+        params.add(v3() ? "point" : "point3", "P", list(mesh.positions, 3 * vertices));
+        if (mesh.normals)
+            params.add("normal", "N", list(mesh.normals, 3 * vertices));
+        if (mesh.uvs)
+            params.add(v3() ? "float" : "point2", "uv", list(mesh.uvs, 2 * vertices));
+    } else if (type.empty()) {
+        type = "plymesh";
+        params.add_string("filename", ply_file(handle, mesh));
+    }
+    if (i.alpha_texture)
+        params.add("texture", "alpha", quote(texture(i.alpha_texture)));
+    else if (i.alpha != 1)
+        params.add_float("alpha", i.alpha);
+    for (const std::string& line : k.lines)
+        params.add_raw(line);
+    return "Shape " + quote(type) + " " + params.text();
+}
+
+} // namespace restage::pbrt_out

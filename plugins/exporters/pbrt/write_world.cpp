@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media, the environment and lights without a surface. The textures' and materials' files are others.
+#include "exporter.hpp"
+
+namespace restage::pbrt_out {
+
+std::string Exporter::medium(RestageHandle handle) {
+    if (const auto it = media_.find(handle); it != media_.end())
+        return it->second;
+    RestageMedium m{};
+    if (!in_.medium(in_.ctx, handle, &m))
+        return "";
+    const std::string what = std::string("medium \"") + m.text.name + "\"";
+    const Kept k = kept(m.text, what);
+    Params params;
+    params.add_string("type", "homogeneous");
+    params.add_rgb("sigma_a", {m.sigma_a[0], m.sigma_a[1], m.sigma_a[2]});
+    params.add_rgb("sigma_s", {m.sigma_s[0], m.sigma_s[1], m.sigma_s[2]});
+    if (m.g != 0)
+        params.add_float("g", m.g);
+    for (const std::string& line : k.lines) {
+        Params one;
+        one.add_raw(line);
+        if (!one.has("preset")) // its numbers are written; pbrt takes one of both
+            params.add_raw(line);
+    }
+    comment(k.foreign);
+    const std::string name = media_[handle] = unique_name("medium", m.text.name);
+    text_ += "MakeNamedMedium " + quote(name) + " " + params.text() + "\n";
+    return name;
+}
+
+void Exporter::environment() {
+    RestageEnvironment e{};
+    if (!in_.environment(in_.ctx, &e))
+        return;
+    const std::string what = std::string("environment \"") + e.text.name + "\"";
+    const Kept k = kept(e.text, what);
+    std::array<float, 3> scale{e.scale[0], e.scale[1], e.scale[2]};
+    Params params;
+    std::string file;
+    if (e.image && e.mapping == (v3() ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL)) {
+        file = image_file(e.image);
+    } else if (e.image) {
+        file = environment_file(e);
+        if (file.empty())
+            dropped(what, v3() ? "pbrt-v3 reads equirectangular pictures, this one is octahedral; a constant stands for it"
+                               : "pbrt-v4 reads octahedral pictures, this one is equirectangular; a constant stands for it");
+    }
+    if (file.empty()) {
+        params.add_rgb("L", scale);
+    } else {
+        params.add_string(v3() ? "mapname" : "filename", file);
+        const bool grey = scale[0] == scale[1] && scale[1] == scale[2];
+        if (!grey && !v3()) {
+            const float y = 0.212639f * scale[0] + 0.715169f * scale[1] + 0.072192f * scale[2];
+            approximated(what, "pbrt-v4 scales a picture by one number: the luminance of its coloured scale is written");
+            scale = {y, y, y};
+        }
+        if (v3() && (!grey || scale[0] != 1))
+            params.add_rgb("L", scale);
+        else if (!v3() && scale[0] != 1)
+            params.add_float("scale", scale[0]);
+    }
+    for (const std::string& line : k.lines)
+        params.add_raw(line);
+    text_ += "\nAttributeBegin\n";
+    comment({plain_name(e.text.name)}, "    ");
+    comment(k.foreign, "    ");
+    transform(e.light_to_world, "    ");
+    text_ += "    LightSource \"infinite\" " + params.text() + "\nAttributeEnd\n";
+}
+
+void Exporter::lights() {
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_LIGHT); ++h) {
+        RestageLight light{};
+        if (!in_.light(in_.ctx, h, &light))
+            continue;
+        const std::string what = std::string("light \"") + light.text.name + "\"";
+        const Kept k = kept(light.text, what);
+        const std::array<float, 3> value{light.value[0], light.value[1], light.value[2]};
+        const char* point_type = v3() ? "point" : "point3";
+        const char* type = "point";
+        Params params;
+        switch (light.kind) {
+        case RESTAGE_LIGHT_POINT:
+            params.add_rgb("I", value);
+            break;
+        case RESTAGE_LIGHT_SPOT:
+            type = "spot";
+            params.add_rgb("I", value).add_float("coneangle", light.cone_angle).add_float("conedeltaangle", light.cone_delta);
+            params.add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
+            break;
+        case RESTAGE_LIGHT_DISTANT:
+            type = "distant";
+            params.add_rgb("L", value).add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
+            break;
+        default:
+            continue;
+        }
+        std::string line = std::string("LightSource ") + quote(type) + " ";
+        for (const std::string& text : k.lines) {
+            const KeptLine l = split_directive(text);
+            if (l.word == "LightSource" && !l.name.empty()) { // of a kind that is only approximated here
+                params = Params().add_raw(l.rest);
+                for (const char* placed : {"from", "to"}) // are in the transform already
+                    params.remove(placed);
+                line = "LightSource " + quote(l.name) + " ";
+            } else {
+                params.add_raw(text);
+            }
+        }
+        text_ += "\nAttributeBegin\n";
+        comment({plain_name(light.text.name)}, "    ");
+        comment(k.foreign, "    ");
+        transform(light.light_to_world, "    ");
+        text_ += "    " + line + params.text() + "\nAttributeEnd\n";
+    }
+}
+
+} // namespace restage::pbrt_out

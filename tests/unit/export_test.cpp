@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// Round trips: what is written as pbrt (v4 and v3) and read again is the same scene; undo to the start writes the same
+// bytes; nothing is left behind by an export that fails.
+#include "base/file.hpp"
+#include "io/export.hpp"
+#include "io/import.hpp"
+#include "io/scene_compare.hpp"
+#include "scene/bounds.hpp"
+#include "scene/tables.hpp"
+#include "scene/validate.hpp"
+#include "session/session.hpp"
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
+#include <map>
+
+namespace fs = std::filesystem;
+using namespace restage;
+using namespace restage::scene;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+struct Plugins { // everything that was built
+    Log log{[](LogLevel, std::string_view) {}};
+    plugin::Registry registry{log};
+    Plugins() {
+        registry.scan(std::vector<plugin::SearchPath>{{fs::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
+        for (const auto* entry : registry.entries()) {
+            INFO(entry->name() << ": " << entry->reason);
+            if (entry->manifest.kind != plugin::Kind::denoiser) // those are no part of this
+                CHECK(entry->state == plugin::State::loaded);
+        }
+        REQUIRE(registry.find_importer("pbrt"));
+        REQUIRE(registry.find_exporter("pbrt"));
+    }
+};
+
+struct Folder {
+    fs::path path;
+    explicit Folder(const char* name) : path(fs::temp_directory_path() / ("restage_export_test_" + std::string(name))) {
+        fs::remove_all(path);
+        fs::create_directories(path);
+    }
+    ~Folder() { fs::remove_all(path); }
+    std::string file(const char* name) const { return (path / name).string(); }
+    std::map<std::string, std::string> contents() const {
+        std::map<std::string, std::string> all;
+        for (const auto& entry : fs::recursive_directory_iterator(path))
+            if (entry.is_regular_file())
+                all[entry.path().lexically_relative(path).generic_string()] = read_file(entry.path()).value();
+        return all;
+    }
+};
+
+io::ExportOptions version(const char* v) {
+    io::ExportOptions options;
+    options.values.set("version", Value::choice(v));
+    return options;
+}
+
+std::shared_ptr<MeshData> grid(int n, float height) { // 2 n^2 triangles with normals and uvs
+    auto data = std::make_shared<MeshData>();
+    for (int y = 0; y <= n; ++y)
+        for (int x = 0; x <= n; ++x) {
+            const float u = static_cast<float>(x) / static_cast<float>(n), v = static_cast<float>(y) / static_cast<float>(n);
+            data->positions.emplace_back(u, v, height * u * v);
+            data->normals.push_back(glm::normalize(glm::vec3(-height * v, -height * u, 1)));
+            data->uvs.emplace_back(u, v);
+        }
+    const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * (n + 1) + x); };
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            data->triangles.emplace_back(at(x, y), at(x + 1, y), at(x + 1, y + 1));
+            data->triangles.emplace_back(at(x, y), at(x + 1, y + 1), at(x, y + 1));
+        }
+    compute_bounds(*data);
+    return data;
+}
+
+glm::dmat4 place(double x, double turn, glm::dvec3 scale = glm::dvec3(1)) {
+    return glm::scale(glm::rotate(glm::translate(glm::dmat4(1), {x, 0.1 * x, -0.3}), turn, glm::normalize(glm::dvec3(1, 2, 3))), scale);
+}
+
+// Of every kind of thing something, with numbers that have no short decimal form.
+struct Everything {
+    Scene scene;
+    template <class T>
+    Id<T> add(T item) {
+        const Id<T> id = table<T>(scene).next();
+        apply(scene, insert(scene, std::move(item), "add"));
+        return id;
+    }
+    Id<Material> material(const char* name, const char* type, std::vector<std::pair<const char*, Value>> values) {
+        Material m{.name = name, .type = type};
+        for (auto& [id, value] : values)
+            m.params.set(id, std::move(value));
+        return add(std::move(m));
+    }
+    void instance(const char* name, Id<Mesh> mesh, Id<Material> m, double x, double turn) {
+        add(Instance{.name = name, .mesh = mesh, .material = m, .object_to_world = place(x, turn)});
+    }
+
+    explicit Everything(bool v4) {
+        auto pixels = std::make_shared<PixelData>();
+        *pixels = {4, 2, 3, {}};
+        for (int i = 0; i < 24; ++i)
+            pixels->values.push_back(static_cast<float>(i) / 7);
+        const auto picture = add(Image{.name = "wood", .encoding = RESTAGE_LINEAR, .data = pixels});
+        auto square = std::make_shared<PixelData>();
+        *square = {4, 4, 3, std::vector<float>(48, 0.3f)};
+        const auto sky = add(Image{.name = "sky", .encoding = RESTAGE_LINEAR, .data = square});
+
+        Texture wood{.name = "wood", .type = "imagemap", .image = picture};
+        wood.params.set("wrap", Value::choice("clamp"));
+        wood.params.set("uscale", Value::number(1.7f));
+        const auto wood_id = add(wood);
+        Texture tiles{.name = "tiles", .type = "checkerboard"};
+        tiles.params.set("tex1", {.type = RESTAGE_COLOR, .texture = wood_id});
+        tiles.params.set("tex2", Value::color(0.1f, 0.2f, 0.7f));
+        tiles.params.set("vdelta", Value::number(0.3f));
+        const auto tiles_id = add(tiles);
+        Texture half{.name = "half", .type = "constant", .is_float = true};
+        half.params.set("value", Value::color(0.3f, 0.3f, 0.3f));
+        const auto half_id = add(half);
+        Texture dim{.name = "dim", .type = "scale"};
+        dim.params.set("tex", {.type = RESTAGE_COLOR, .texture = tiles_id});
+        dim.params.set("scale", Value::color(0.6f, 0.6f, 0.6f));
+        const auto dim_id = add(dim);
+        Texture blend{.name = "blend", .type = "mix", .is_float = true};
+        blend.params.set("tex1", {.type = RESTAGE_COLOR, .texture = half_id});
+        blend.params.set("tex2", Value::color(0.9f, 0.9f, 0.9f));
+        blend.params.set("amount", Value::number(0.25f));
+        const auto blend_id = add(blend);
+
+        const auto red = material("red \"oak\"", "diffuse", {{"reflectance", Value::color(0.7f, 0.1f, 1.f / 3)}});
+        const auto tiled = material("tiled", "diffuse", {{"reflectance", {.type = RESTAGE_COLOR, .texture = dim_id}},
+                                                         {"bump", {.type = RESTAGE_TEXTURE, .texture = blend_id}}});
+        std::vector<Id<Material>> all{red, tiled};
+        if (v4) {
+            all.push_back(material("gold", "conductor", {{"eta", Value::color(0.14f, 0.37f, 1.44f)}, {"k", Value::color(3.9f, 2.4f, 1.6f)}, {"uroughness", Value::number(0.1f)}, {"vroughness", {.type = RESTAGE_FLOAT, .texture = half_id}}}));
+            all.push_back(material("tin", "conductor", {{"use_reflectance", Value::boolean(true)}, {"reflectance", Value::color(0.8f, 0.8f, 0.9f)}, {"remap", Value::choice("none")}, {"uroughness", Value::number(0.2f)}}));
+            all.push_back(material("glass", "dielectric", {{"eta", Value::number(1.33f)}}));
+            all.push_back(material("pane", "dielectric", {{"thin", Value::boolean(true)}, {"remap", Value::choice("none")}}));
+            all.push_back(material("varnish", "coateddiffuse", {{"reflectance", Value::color(0.2f, 0.3f, 0.4f)}, {"uroughness", Value::number(0.3f)}, {"albedo", Value::color(0.1f, 0, 0)}, {"g", Value::number(0.2f)}, {"max_depth", Value::integer(7)}}));
+            all.push_back(material("lacquer", "coatedconductor", {{"conductor_eta", Value::color(1.1f, 0.9f, 0.6f)}, {"interface_uroughness", Value::number(0.05f)}, {"conductor_uroughness", Value::number(0.3f)}}));
+            all.push_back(material("leaf", "diffusetransmission", {{"transmittance", Value::color(0.1f, 0.4f, 0.1f)}}));
+        } else {
+            all.push_back(material("matte", "diffuse", {{"sigma", Value::number(20)}}));
+            all.push_back(material("metal", "conductor", {{"eta", Value::color(0.14f, 0.37f, 1.44f)}, {"remap", Value::choice("v3")}, {"uroughness", Value::number(0.1f)}}));
+            all.push_back(material("green glass", "dielectric", {{"transmittance", Value::color(0.5f, 1, 0.5f)}, {"remap", Value::choice("v3")}}));
+            all.push_back(material("paint", "substrate", {{"kd", Value::color(0.1f, 0.2f, 0.3f)}, {"remap", Value::choice("v3")}}));
+            all.push_back(material("plastic", "plastic", {{"roughness", Value::number(0.05f)}}));
+            all.push_back(material("mirror", "mirror", {}));
+            all.push_back(material("uber", "uber", {{"opacity", Value::color(0.5f, 0.5f, 0.5f)}, {"kr", Value::color(0.1f, 0.1f, 0.1f)}, {"remap", Value::choice("v3")}}));
+            all.push_back(material("paper", "translucent", {{"transmit", Value::color(0.2f, 0.2f, 0.1f)}}));
+        }
+        all.push_back(material("both", "mix", {{"first", {.type = RESTAGE_MATERIAL, .material = all[2]}}, {"second", {.type = RESTAGE_MATERIAL, .material = red}}, {"amount", Value::number(0.3f)}}));
+        all.push_back(material("nothing", "interface", {}));
+
+        const auto small = add(Mesh{.name = "tri", .data = grid(1, 0.5f)});
+        const auto big = add(Mesh{.name = "cloth/1", .data = grid(20, 0.3f)});
+        const auto once = add(Mesh{.name = "lone", .data = grid(2, 0.1f)});
+        for (std::size_t i = 0; i < all.size(); ++i)
+            instance("piece", small, all[i], static_cast<double>(i), 0.1 * static_cast<double>(i));
+        for (int i = 0; i < 3; ++i) // instances of one object
+            instance("cloth", big, red, i / 3.0, i / 7.0);
+        const auto fog = add(Medium{.name = "tea", .sigma_a = {0.1f, 0.2f, 0.3f}});
+        const auto pair = add(Group{.name = "pair"}), pair2 = add(Group{.name = "pair 2"});
+        for (const auto& [group, x] : {std::pair{pair, 5.0}, {pair2, 9.0}})
+            for (int i = 0; i < 2; ++i)
+                add(Instance{.name = "member", .mesh = big, .material = tiled, .group = group, .object_to_world = place(x, 0.4) * place(i, 0.2 * i)});
+        add(Instance{.name = "lamp", .mesh = once, .material = red, .object_to_world = place(3, 1), .emission = Emission{{17.f / 3, 2, 1}, true}, .reverse_orientation = true});
+        add(Instance{.name = "cup", .mesh = big, .material = all.back(), .object_to_world = place(4, 2, {-1, 1, 2}), .media = MediumInterface{fog, {}}, .alpha_texture = blend_id});
+        add(Instance{.name = "veil", .mesh = small, .material = red, .object_to_world = place(6, 1), .alpha = 0.4f});
+
+        add(Light{.name = "bulb", .value = {1, 2, 3}, .light_to_world = place(2, 1)});
+        add(Light{.name = "spot", .kind = RESTAGE_LIGHT_SPOT, .value = {5, 5, 1}, .light_to_world = place(1, 2), .cone_angle = 25, .cone_delta = 4});
+        add(Light{.name = "sun", .kind = RESTAGE_LIGHT_DISTANT, .value = {1, 1, 0.3f}, .light_to_world = place(0, 0.7)});
+        apply(scene, set_environment(scene, Environment{.name = "sky", .image = v4 ? sky : picture, .mapping = v4 ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT, .scale = glm::vec3(0.7f), .light_to_world = glm::rotate(glm::dmat4(1), 0.3, {1, 0, 0})}));
+        const auto camera = add(Camera{.name = "camera", .camera_to_world = place(-4, 0.5), .fov = 36.4f, .screen_window = glm::vec4(-1.5, 1.5, -1, 1), .lens_radius = 0.01f, .focal_distance = 3.3f});
+        apply(scene, *set_active_camera(scene, camera));
+        apply(scene, set_film(scene, Film{.width = 320, .height = 200, .crop = {0.25f, 0.75f, 0, 1}, .filter = {.kind = FilterKind::gaussian, .radius = {1.5f, 2}, .params = {0.4f, 0}}, .exposure = 0.7f}));
+        apply(scene, set_settings(scene, Settings{.max_depth = 13, .samples = 48}));
+    }
+};
+
+std::string joined(const std::vector<std::string>& list) {
+    std::string all;
+    for (const auto& line : list)
+        all += line + "\n";
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
+    Plugins plugins;
+    const char* v = GENERATE("v4", "v3");
+    CAPTURE(v);
+    Folder folder(v);
+    const Everything made(std::string(v) == "v4");
+    REQUIRE(validate(made.scene).empty());
+    const auto report = io::export_scene(made.scene, folder.file("out.pbrt"), plugins.registry, version(v));
+    REQUIRE(report);
+    for (const auto& entry : report->entries)
+        FAIL_CHECK(io::to_string(entry)); // this scene holds nothing that the version lacks
+    const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);
+    if (!again)
+        FAIL(again.error().message);
+    CHECK(again->scene.format == std::string("pbrt-") + v);
+    for (const auto& entry : again->report.entries)
+        if (entry.fate != RESTAGE_KEPT)
+            FAIL_CHECK(io::to_string(entry));
+    CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry)) == "");
+    // And once more: what was imported is written and read.
+    Folder second((std::string(v) + "_again").c_str());
+    REQUIRE(io::export_scene(again->scene, second.file("out.pbrt"), plugins.registry, version(v)));
+    const auto third = io::import_scene(second.file("out.pbrt"), plugins.registry);
+    REQUIRE(third);
+    CHECK(joined(io::structural_differences(again->scene, third->scene, plugins.registry)) == "");
+}
+
+TEST_CASE("the comparison of scenes sees what differs", "[export]") {
+    Plugins plugins;
+    const Everything a(true);
+    const auto differences = [&](auto&& change) {
+        Everything b(true);
+        change(b);
+        return joined(io::structural_differences(a.scene, b.scene, plugins.registry));
+    };
+    CHECK(differences([](Everything&) {}) == "");
+    CHECK(differences([](Everything& b) { apply(b.scene, *rename(b.scene, Id<Instance>{1}, "other")); }) == "");
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *set_transform(b.scene, {1}, place(7, 7))); }), ContainsSubstring("no match"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *remove_instances(b.scene, std::array{Id<Instance>{2}})); }), ContainsSubstring("no match"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *set_param(b.scene, Id<Material>{1}, "reflectance", Value::color(0.7f, 0.1f, 0.34f))); }), ContainsSubstring("0.34"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_film(b.scene, Film{})); }), ContainsSubstring("film"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_environment(b.scene, {})); }), ContainsSubstring("environment"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *remove(b.scene, Id<Light>{1})); }), ContainsSubstring("lights"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *modify(b.scene, Id<Camera>{1}, "", [](Camera& c) { c.fov = 37; })); }), ContainsSubstring("camera"));
+}
+
+TEST_CASE("undo to the start writes the same bytes", "[export]") {
+    Plugins plugins;
+    session::Session session(plugins.registry);
+    session.adopt(Everything(true).scene);
+    Folder before("before"), edited("edited"), after("after"), twice("twice");
+    REQUIRE(session.export_to(before.file("s.pbrt")));
+    REQUIRE(session.export_to(twice.file("s.pbrt")));
+    CHECK(before.contents() == twice.contents());
+
+    const std::array chairs{session.find<Instance>("cloth"), session.find<Instance>("lamp")};
+    const auto copies = session.duplicate(chairs, glm::translate(glm::dmat4(1), {0, 0, 4}));
+    REQUIRE(copies);
+    REQUIRE(session.move(*copies, glm::rotate(glm::dmat4(1), 0.3, {0, 1, 0}), "drag"));
+    REQUIRE(session.remove(std::array{session.find<Instance>("veil")}));
+    REQUIRE(session.set_material(std::array{session.find<Instance>("lamp")}, session.find<Material>("gold")));
+    REQUIRE(session.set_param(session.find<Material>("gold"), "uroughness", Value::number(0.5f)));
+    const auto velvet = session.add_material("blue", "diffuse");
+    REQUIRE(velvet);
+    REQUIRE(session.set_material(*copies, *velvet));
+    CHECK(session.modified());
+    REQUIRE(session.save_as(edited.file("s.pbrt")));
+    CHECK_FALSE(session.modified());
+    CHECK(before.contents() != edited.contents());
+    const auto reread = io::import_scene(edited.file("s.pbrt"), plugins.registry);
+    REQUIRE(reread);
+    CHECK(joined(io::structural_differences(session.scene(), reread->scene, plugins.registry)) == "");
+
+    while (session.undo()) {
+    }
+    CHECK(session.modified()); // the file holds the edits
+    REQUIRE(session.export_to(after.file("s.pbrt")));
+    CHECK(before.contents() == after.contents());
+    while (session.redo()) {
+    }
+    CHECK_FALSE(session.modified());
+}
+
+TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
+    Plugins plugins;
+    session::Session session(plugins.registry);
+    session.adopt(Everything(true).scene);
+    std::vector<Id<Instance>> copies{session.find<Instance>("cup")};
+    for (int i = 0; i < 5; ++i)
+        copies = session.duplicate(copies, glm::translate(glm::dmat4(1), {1, 0, 0})).value();
+    Folder folder("copies");
+    REQUIRE(session.export_to(folder.file("s.pbrt")));
+    const auto files = folder.contents();
+    CHECK(std::count_if(files.begin(), files.end(), [](const auto& f) { return f.first.starts_with("models/cloth"); }) == 1);
+    const std::string& text = files.at("s.pbrt");
+    std::size_t placed = 0;
+    for (std::size_t at = text.find("ObjectInstance \"cup\""); at != std::string::npos; at = text.find("ObjectInstance \"cup\"", at + 1))
+        ++placed;
+    CHECK(placed == 6);
+}
+
+TEST_CASE("what a version cannot hold is in the report", "[export]") {
+    Plugins plugins;
+    Folder folder("lacks");
+    const auto lacks = [&](const Scene& scene, const char* v, const char* part) {
+        const auto report = io::export_scene(scene, folder.file("s.pbrt"), plugins.registry, version(v));
+        REQUIRE(report);
+        CHECK(std::any_of(report->entries.begin(), report->entries.end(),
+                          [&](const auto& e) { return io::to_string(e).find(part) != std::string::npos; }));
+        const auto again = io::import_scene(folder.file("s.pbrt"), plugins.registry); // still a sound file
+        REQUIRE(again);
+        CHECK(again->scene.instances.live() == scene.instances.live());
+    };
+    lacks(Everything(true).scene, "v3", "has no layered materials");
+    lacks(Everything(true).scene, "v3", "resampled to pbrt-v3's equirectangular");
+    lacks(Everything(false).scene, "v4", "no Oren-Nayar");
+    lacks(Everything(false).scene, "v4", "resampled to pbrt-v4's octahedral");
+    Everything hidden(true);
+    apply(hidden.scene, *set_hidden(hidden.scene, std::array{Id<Instance>{1}}, true));
+    const auto report = io::export_scene(hidden.scene, folder.file("s.pbrt"), plugins.registry);
+    REQUIRE(report);
+    CHECK(report->count(RESTAGE_DROPPED) == 1);
+}
+
+TEST_CASE("an export that fails leaves what was there", "[export]") {
+    Plugins plugins;
+    Folder folder("fails");
+    const Everything made(true);
+    REQUIRE(io::export_scene(made.scene, folder.file("s.pbrt"), plugins.registry));
+    const auto before = folder.contents();
+    io::ExportOptions stopped;
+    stopped.progress = [](float done, std::string_view) { return done < 0.5f; };
+    const auto result = io::export_scene(made.scene, folder.file("s.pbrt"), plugins.registry, stopped);
+    REQUIRE_FALSE(result);
+    CHECK_THAT(result.error().message, ContainsSubstring("stopped on request"));
+    CHECK(folder.contents() == before);
+    Everything broken(true);
+    apply(broken.scene, *modify(broken.scene, Id<Instance>{1}, "", [](Instance& i) { i.material = {99}; }));
+    const auto refused = io::export_scene(broken.scene, folder.file("s.pbrt"), plugins.registry);
+    REQUIRE_FALSE(refused);
+    CHECK_THAT(refused.error().message, ContainsSubstring("material 99 does not exist"));
+    CHECK(folder.contents() == before);
+    CHECK_THAT(io::export_scene(made.scene, folder.file("no/such/s.pbrt"), plugins.registry).error().message, ContainsSubstring("there is no folder"));
+    CHECK_THAT(io::export_scene(made.scene, folder.file("s.blend"), plugins.registry).error().message, ContainsSubstring("no exporter writes files called .blend; known are: pbrt"));
+}
