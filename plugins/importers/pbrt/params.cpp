@@ -124,7 +124,9 @@ void ParamList::each_unused(const std::function<void(const Param&)>& visit) cons
 
 std::string shortest(double value) {
     char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    const bool whole = value == std::floor(value) && std::abs(value) < 1e15; // 1000000000, not 1e+09
+    const auto end = (whole ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed)
+                            : std::to_chars(text, text + sizeof text, value)).ptr;
     return {text, end};
 }
 
