@@ -49,7 +49,7 @@ def lights():
 # name: Sky
 AttributeBegin
     LightSource "infinite"
-        "string filename" [ "textures/sky.pfm" ]
+        "string filename" [ "textures/sky.exr" ]
         "float scale" [ {SKY_SCALE} ]
 AttributeEnd
 # name: Sun
@@ -76,7 +76,7 @@ def furnish(scene):
     furniture.books(scene)
     room.picture(scene, 2.28, 1.52)
     room.mirror(scene, 3.02, 1.50)
-    scene.place("Picture, rear", "Picture", translate(1.98, 0.002 - room.DEPTH, 1.52) @ rotate((0, 0, 1), 180))
+    scene.place("Picture, rear", "Picture", translate(1.66, 0.002 - room.DEPTH, 1.52) @ rotate((0, 0, 1), 180))
     lay_table(scene)
     tableware.vase(scene)
     scene.place("Vase", "Vase", translate(1.90, -0.21, top) @ scale(1.12))
@@ -142,9 +142,9 @@ def main(scenes):
     folder = scenes / "demo"
     scene = Scene(folder)
     textures.write_all(folder / "textures")
-    images.write_pfm(folder / "textures" / "sky.pfm", sky.sky_image(160, sun_from()))
+    images.write_exr(folder / "textures" / "sky.exr", sky.sky_image(512, sun_from()))
     (scenes / "spheres").mkdir(exist_ok=True)
-    images.write_pfm(scenes / "spheres" / "sky.pfm", sky.sky_image(64, sun_from()))
+    images.write_exr(scenes / "spheres" / "sky.exr", sky.sky_image(64, sun_from()))
     furnish(scene)
     scene.write("demo.pbrt", head(), lights())
     size = sum(p.stat().st_size for p in folder.rglob("*") if p.is_file())

@@ -72,7 +72,9 @@ def table(scene, centre, angle):
 def chair(scene):
     """Stands at the origin, somebody sitting on it looks along +y."""
     scene.section("Chairs")
-    scene.material("Blue wool", "diffuse", reflectance=(0.072, 0.125, 0.175), displacement=("texture", "cloth height"))
+    scene.material(
+        "Cushion wool", "diffuse", reflectance=(0.072, 0.125, 0.175), displacement=("texture", "cloth height")
+    )
     seat_z = 0.445
     parts = [planar_uv(slab(superellipse(0.45, 0.43, 3.6, 72), seat_z - 0.024, seat_z, 0.008), grain=1)]
     for sx in (-1, 1):
@@ -118,7 +120,7 @@ def chair(scene):
     scene.object(
         "Chair",
         ("Oak", scene.mesh("chair-frame", merge(*parts)), "Chair frame"),
-        ("Blue wool", scene.mesh("chair-cushion", cushion), "Chair cushion"),
+        ("Cushion wool", scene.mesh("chair-cushion", cushion), "Chair cushion"),
     )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tileable noise, and PNG and PFM writers on the standard library: what the textures of the bundled scenes need."""
+"""Tileable noise, and PNG and EXR writers on the standard library: what the textures of the bundled scenes need."""
 
 import struct
 import zlib
@@ -81,7 +81,30 @@ def write_png(path, encoded, levels=256):
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", packed) + chunk(b"IEND", b""))
 
 
-def write_pfm(path, rgb):
-    """Little-endian colour PFM; row 0 of the array is the top, the file starts at the bottom."""
-    image = np.asarray(rgb, "<f4")[::-1]
-    path.write_bytes(f"PF\n{image.shape[1]} {image.shape[0]}\n-1.0\n".encode() + image.tobytes())
+def write_exr(path, rgb):
+    """Scanline OpenEXR, half floats, ZIP blocks of 16 lines; row 0 is the top. Layout: openexr.com, "File Layout"."""
+    height, width = rgb.shape[:2]
+
+    def attribute(name, kind, data):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
+
+    channels = b"".join(c + b"\0" + struct.pack("<iBxxxii", 1, 0, 1, 1) for c in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    head = struct.pack("<ii", 20000630, 2) + attribute("channels", "chlist", channels)
+    head += attribute("compression", "compression", b"\3") + attribute("dataWindow", "box2i", window)
+    head += attribute("displayWindow", "box2i", window) + attribute("lineOrder", "lineOrder", b"\0")
+    head += attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+    head += attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0))
+    head += attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
+    blocks = []
+    for y in range(0, height, 16):
+        lines = np.moveaxis(rgb[y : y + 16, :, ::-1], 2, 1).astype("<f2")  # line, then channel B G R, then pixel
+        raw = np.frombuffer(lines.tobytes(), np.uint8)
+        split = np.concatenate([raw[0::2], raw[1::2]]).astype(np.int16)
+        predicted = np.concatenate([split[:1], np.diff(split) + 128]).astype(np.uint8)
+        packed = zlib.compress(predicted.tobytes(), 9)
+        data = packed if len(packed) < len(raw) else raw.tobytes()
+        blocks.append(struct.pack("<ii", y, len(data)) + data)
+    start = len(head) + 8 * len(blocks)
+    offsets = start + np.cumsum([0] + [len(b) for b in blocks[:-1]])
+    path.write_bytes(head + offsets.astype("<u8").tobytes() + b"".join(blocks))

@@ -7,7 +7,7 @@ from .mesh import Mesh, box_between, fillet, lathe, merge, rotate, rounded_box, 
 
 WIDTH, DEPTH, HEIGHT = 4.6, 5.6, 2.75  # x 0..WIDTH, y -DEPTH..0 (the back wall is y = 0), z 0..HEIGHT
 WINDOW = (-2.62, -0.72, 0.42, 2.36)  # y0 y1 z0 z1 in the wall x = 0
-FILL = (-5.30, -2.50, 0.10, 2.50)  # y0 y1 z0 z1 of the garden door beside the camera, in the wall x = WIDTH
+FILL = (-5.45, -1.55, 0.10, 2.55)  # y0 y1 z0 z1 of the garden door beside the camera, in the wall x = WIDTH
 REVEAL = 0.26  # how thick the window walls are
 
 
@@ -51,9 +51,7 @@ def shell(scene):
     scene.texture("floor planks", "spectrum", "floor-planks.png", uscale=0.5, vscale=0.5)
     scene.texture("floor height", "float", "floor-height.png", encoding="linear", scale=0.0012, uscale=0.5, vscale=0.5)
     scene.material("Plaster", "diffuse", reflectance=(0.80, 0.775, 0.73), displacement=("texture", "plaster height"))
-    scene.material(
-        "Plaster, sage", "diffuse", reflectance=(0.55, 0.61, 0.55), displacement=("texture", "plaster height")
-    )
+    scene.material("Wall paint", "diffuse", reflectance=(0.55, 0.61, 0.55), displacement=("texture", "plaster height"))
     scene.material("Ceiling paint", "diffuse", reflectance=(0.82, 0.81, 0.78))
     scene.material(
         "Oak floor",
@@ -70,7 +68,7 @@ def shell(scene):
     rear = quad((w + 0.1, -d, -0.1), (-w - 0.2, 0, 0), (0, 0, h + 0.2))
     scene.object("Walls", ("Plaster", scene.mesh("walls", merge(window_wall, rear, right)), "Walls"))
     back = quad((-0.1, 0, -0.1), (w + 0.2, 0, 0), (0, 0, h + 0.2))
-    scene.object("Back wall", ("Plaster, sage", scene.mesh("back-wall", back), "Back wall"))
+    scene.object("Back wall", ("Wall paint", scene.mesh("back-wall", back), "Back wall"))
     ceiling = quad((-0.1, -d - 0.1, h), (0, d + 0.2, 0), (w + 0.2, 0, 0))
     scene.object("Ceiling", ("Ceiling paint", scene.mesh("ceiling", ceiling), "Ceiling"))
     floor = quad((-0.1, -d - 0.1, 0), (w + 0.2, 0, 0), (0, d + 0.2, 0))

@@ -46,7 +46,7 @@ def sky_radiance(d, sun_from):
     crown = mix([0.10, 0.17, 0.08], [0.24, 0.33, 0.17], smoothstep(-0.10, 0.10, z + 0.05 * np.sin(23 * azimuth)))
     out = mix(sky, np.array([0.66, 0.78, 0.80]), smoothstep(0.02, -0.02, z - hills))
     out = mix(out, crown, smoothstep(0.035, -0.035, z - trees))
-    return mix(out, lawn, smoothstep(-0.08, -0.13, z))
+    return mix(out, lawn, smoothstep(-0.02, -0.16, z))
 
 
 def sky_image(resolution, sun_from, samples=3):
