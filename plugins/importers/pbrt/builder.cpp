@@ -280,8 +280,13 @@ RestageHandle Builder::named_material(const Directive& directive, const std::str
     if (const auto found = state_.names->materials.find(name); found != state_.names->materials.end()) return found->second;
     if (const auto later = later_materials_.find(name); later != later_materials_.end()) {
         const Directive& made = *later->second;
+        constexpr int deepest_mix = 100;
+        if (material_depth_ >= deepest_mix)
+            throw ImportError{directive.at, "materials mix each other more than 100 deep; flatten them"};
         later_materials_.erase(later);
+        ++material_depth_;
         const RestageHandle handle = material(made, name, made.params.string("type", ""));
+        --material_depth_;
         writable_names().materials[name] = handle;
         return handle;
     }

@@ -112,6 +112,7 @@ class Builder {
     std::string camera_exterior_;
     std::string option_lines_; // verbatim, of directives that only pbrt understands
     std::map<std::string, const Directive*> later_materials_; // v4: NamedMaterial may come first
+    int material_depth_ = 0;                                  // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
     std::set<RestageHandle> interfaces_; // materials without a surface
 

@@ -159,9 +159,9 @@ Mesh make_loop(Import& import, const Directive& shape) {
         throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"integer indices\", three a face"};
     const std::string scheme = shape.params.string("scheme", "loop");
     if (scheme != "loop") import.approximated(shape.at, "Shape \"loopsubdiv\"", "scheme " + quote(scheme) + " is done as loop");
-    constexpr double most = 1u << 26;
+    constexpr double most = 1u << 23; // about 2 GB while it is made
     if (levels < 0 || double(indices.size()) / 3 * std::pow(4.0, levels) > most)
-        throw ImportError{shape.at, "Shape \"loopsubdiv\" with " + std::to_string(levels) + " levels has more than 2^26 triangles; use fewer levels"};
+        throw ImportError{shape.at, "Shape \"loopsubdiv\" with " + std::to_string(levels) + " levels has more than 2^23 triangles; use fewer levels"};
     std::vector<Vec3> points(p->size() / 3);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {(*p)[3 * i], (*p)[3 * i + 1], (*p)[3 * i + 2]};
     Faces faces(indices.size() / 3);

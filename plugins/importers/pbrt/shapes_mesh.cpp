@@ -84,8 +84,8 @@ Mesh make_bilinear(Import& import, const Directive& shape) {
         const Vec3 twist = p00 - p10 - p01 + p11;
         const double size = length(p10 - p00) + length(p01 - p00);
         const int steps = length(twist) <= 1e-6 * size ? 1 : 16; // a parallelogram is two triangles exactly
-        if (mesh.vertex_count() + std::size_t(steps + 1) * std::size_t(steps + 1) > 0xfffffff0u)
-            throw ImportError{shape.at, "Shape \"bilinearmesh\" has too many patches"};
+        if (mesh.vertex_count() + std::size_t(steps + 1) * std::size_t(steps + 1) > (1u << 26))
+            throw ImportError{shape.at, "Shape \"bilinearmesh\" has too many bent patches for one mesh; split it"};
         const auto base = static_cast<std::uint32_t>(mesh.vertex_count());
         for (int j = 0; j <= steps; ++j)
             for (int i = 0; i <= steps; ++i) {

@@ -17,8 +17,8 @@ namespace restage::pbrt {
 
 namespace {
 
-// Nothing we read is larger; a gzip bomb ends here instead of in the memory of the machine.
-constexpr std::size_t max_file_size = std::size_t(8) << 30;
+// A gzip bomb ends here instead of in the memory of the machine.
+constexpr std::size_t max_inflated_size = std::size_t(2) << 30;
 
 std::optional<std::vector<char>> inflate(std::string_view packed, std::string& reason) {
     std::vector<char> out;
@@ -42,8 +42,8 @@ std::optional<std::vector<char>> inflate(std::string_view packed, std::string& r
         state = ::inflate(&stream, Z_NO_FLUSH);
         const std::size_t got = block.size() - stream.avail_out;
         out.insert(out.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(got));
-        if (out.size() > max_file_size) {
-            reason = "it inflates to more than 8 GiB";
+        if (out.size() > max_inflated_size) {
+            reason = "it inflates to more than 2 GiB";
             break;
         }
         if (state == Z_STREAM_END) {
