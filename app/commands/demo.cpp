@@ -1,6 +1,164 @@
 // SPDX-License-Identifier: Apache-2.0
+// restage demo: the main job without a window. Opens the bundled scene, edits it through the Session that the editor
+// uses, renders before and after, denoises, writes the edited scene as pbrt, and reads it back to see that it is the same.
+#include "base/file.hpp"
 #include "commands.hpp"
-#include <CLI/CLI.hpp>
+#include "io/scene_compare.hpp"
+#include "progress.hpp"
+#include "rendering.hpp"
+#include "session/session.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+
 namespace restage::app {
-void add_demo(CLI::App&, Context&) {}
+namespace {
+
+struct Options : RenderOptions {
+    std::string folder = "restage-demo";
+    std::string scene; // empty = the bundled one
+};
+
+using Instances = std::vector<scene::Id<scene::Instance>>;
+
+// What the user would click: everything in the groups of this name, in the order of the file.
+Result<std::vector<Instances>> objects(const scene::Scene& s, std::string_view name) {
+    std::vector<Instances> found;
+    s.groups.each([&](scene::Id<scene::Group> id, const scene::Group& group) {
+        if (group.name != name && !(group.name.starts_with(name) && group.name.substr(name.size()).starts_with(" ")))
+            return;
+        Instances parts;
+        s.instances.each([&](scene::Id<scene::Instance> i, const scene::Instance& instance) {
+            if (instance.group == id)
+                parts.push_back(i);
+        });
+        if (!parts.empty())
+            found.push_back(std::move(parts));
+    });
+    if (found.empty())
+        return fail(fmt::format("the demo scene has no object \"{}\"", name));
+    return found;
+}
+
+// Each line is one gesture at the desktop editor, and one step of the history.
+Result<std::vector<std::string>> restage_room(session::Session& session) {
+    std::vector<std::string> log;
+    const auto done = [&](std::string text) { log.push_back(std::move(text)); };
+    const auto& s = session.scene();
+
+    RESTAGE_TRY(const auto chairs, objects(s, "Chair"));
+    RESTAGE_TRY(const auto copies, session.duplicate(chairs.back(), glm::translate(glm::dmat4(1), glm::dvec3(1.15, 0.55, 0))));
+    done("a chair duplicated and moved aside");
+    (void)copies;
+    RESTAGE_TRY(const auto bowls, objects(s, "Bowl"));
+    RESTAGE_CHECK(session.move(bowls[0], glm::translate(glm::dmat4(1), glm::dvec3(0.05, -0.2, 0))));
+    done("the bowl moved");
+    RESTAGE_TRY(const auto carafes, objects(s, "Carafe"));
+    RESTAGE_CHECK(session.remove(carafes[0]));
+    done("the carafe removed");
+
+    const auto paint = session.find<scene::Material>("Wall paint");
+    RESTAGE_CHECK(session.set_param(paint, "reflectance", scene::Value::color(0.10f, 0.20f, 0.24f)));
+    done("the back wall repainted petrol blue");
+
+    RESTAGE_TRY(const auto lacquer, session.add_material("White lacquer", "coateddiffuse"));
+    RESTAGE_CHECK(session.set_param(lacquer, "reflectance", scene::Value::color(0.72f, 0.70f, 0.66f)));
+    RESTAGE_CHECK(session.set_param(lacquer, "uroughness", scene::Value::number(0.05f)));
+    RESTAGE_CHECK(session.set_param(lacquer, "vroughness", scene::Value::number(0.05f)));
+    RESTAGE_TRY(const auto tables, objects(s, "Table"));
+    RESTAGE_CHECK(session.set_material(tables[0], lacquer));
+    done("the table in white lacquer");
+    return log;
+}
+
+Result<int> run(Context& context, Options& o) {
+    if (o.scene.empty()) {
+        RESTAGE_TRY(const auto bin, executable_dir());
+        o.scene = (bin.parent_path() / "share/restage/scenes/demo/demo.pbrt").string();
+    }
+    const std::filesystem::path folder = o.folder;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        return fail(fmt::format("{}: cannot be created: {}; choose another folder with -o", o.folder, error.message()));
+
+    session::Session session(context.registry());
+    catch_interrupts();
+    {
+        ProgressBar bar(context.quiet);
+        io::ImportOptions options;
+        options.progress = [&](float done, std::string_view what) {
+            bar.show(done, std::string(what));
+            return !interrupted();
+        };
+        RESTAGE_CHECK(session.open(o.scene, options));
+    }
+    RESTAGE_TRY(const auto renderer, render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
+    std::printf("opened    %s: %u objects, %u materials\n", o.scene.c_str(), session.scene().instances.live(), session.scene().materials.live());
+    std::printf("renders   with the %s tracer on %s\n", renderer->tracer_name(), renderer->device().info().name.c_str());
+
+    const auto picture = [&](const char* name) -> Result<void> {
+        scene::Scene shown = session.scene(); // with this command's size; the document keeps its own
+        RESTAGE_CHECK(apply_options(o, shown));
+        renderer->forget_scene();
+        RESTAGE_CHECK(render_to_target(context, o, shown, *renderer, std::string(name) + ": "));
+        RESTAGE_TRY(const auto taken, take_picture(context, o, shown, *renderer));
+        const auto file = folder / (std::string(name) + ".png");
+        RESTAGE_CHECK(write_picture(file.string(), taken, {}));
+        RESTAGE_CHECK(write_picture((folder / (std::string(name) + ".exr")).string(), taken, {}));
+        std::printf("%-9s %s (%u spp%s)\n", name, file.string().c_str(), renderer->samples(), taken.denoised ? ", denoised" : "");
+        return {};
+    };
+    // A missing denoiser takes the denoising away, not the demo.
+    if (!o.denoise.empty()) {
+        const char* reason = "no denoiser plugin is loaded";
+        const auto& denoisers = context.registry().denoisers();
+        if (denoisers.empty() || !denoisers[0].table->available(&reason)) {
+            context.log.warning(std::string("pictures stay noisy: ") + reason);
+            o.denoise.clear();
+        }
+    }
+    RESTAGE_CHECK(picture("before"));
+    if (interrupted())
+        return 130;
+
+    RESTAGE_TRY(const auto gestures, restage_room(session));
+    for (const auto& line : gestures)
+        std::printf("edit      %s\n", line.c_str());
+    RESTAGE_CHECK(picture("after"));
+    if (interrupted())
+        return 130;
+
+    const auto file = (folder / "edited.pbrt").string();
+    RESTAGE_TRY(const auto report, session.export_to(file));
+    for (const auto& entry : report.entries)
+        if (entry.fate != RESTAGE_KEPT)
+            context.log.warning(io::to_string(entry));
+    RESTAGE_TRY(const auto again, io::import_scene(file, context.registry()));
+    const auto differences = io::structural_differences(session.scene(), again.scene, context.registry());
+    std::printf("exported  %s (pbrt-v4; read back: %s)\n", file.c_str(), differences.empty() ? "the same scene" : "DIFFERS");
+    for (const auto& line : differences)
+        std::printf("          %s\n", line.c_str());
+    while (session.undo()) {
+    }
+    std::printf("undo      %s\n", session.modified() ? "did NOT lead back" : "leads back to the scene as it was opened");
+    return differences.empty() && !session.modified() ? int(exit_ok) : int(exit_failed);
+}
+
+} // namespace
+
+void add_demo(CLI::App& program, Context& context) {
+    auto o = std::make_shared<Options>();
+    o->spp = 64;
+    o->size = "640x360";
+    o->denoise = "high";
+    auto* command = program.add_subcommand("demo", "Restage the bundled room: open, edit, render before and after, export");
+    command->add_option("-o,--output", o->folder, "Folder for the pictures and the edited scene")->capture_default_str();
+    command->add_option("--scene", o->scene, "Another scene with the demo's objects");
+    add_render_options(*command, *o);
+    command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
+}
+
 } // namespace restage::app
