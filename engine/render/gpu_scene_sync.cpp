@@ -78,7 +78,9 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             record.flags = MATERIAL_MIX;
             const auto child = [&](const char* param) {
                 const auto* v = m.params.find(param);
-                return v && scene.materials.find(v->material) ? v->material.value : 0u;
+                const auto* m2 = v ? scene.materials.find(v->material) : nullptr;
+                // No surface to let rays pass at part of a surface: a mix of an interface shows the placeholder there.
+                return m2 && !types_[type_index(m2->type)].null_surface() ? v->material.value : 0u;
             };
             record.mix_first = child("first");
             record.mix_second = child("second");

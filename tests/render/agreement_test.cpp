@@ -180,6 +180,7 @@ TEST_CASE("tracers agree: mixes and cut-outs") {
     floor_of(b, mix(b.diffuse(0.6f, 0.6f, 0.6f), b.diffuse(0.2f, 0.3f, 0.2f), textured(scene::Value::number(0), scaled)));
     b.instance(ball, mix(gold, inner, textured(scene::Value::number(0), amounts)), at(-3.2, 0, 0.9, 0.9));
     b.instance(ball, mix(inner, {}, scene::Value::number(0.5f)), at(-1, 0.6, 0.9, 0.9)); // a missing child: the placeholder
+    b.instance(ball, mix(b.material("interface"), gold, scene::Value::number(0.5f)), at(-3, 2.6, 0.9, 0.9)); // likewise
     edit_instance(b, b.instance(panel, b.diffuse(0.3f, 0.7f, 0.3f), at(1.2, -0.6, 0)), [&](auto& i) { i.alpha_texture = scaled; });
     edit_instance(b, b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, -0.3, 0)), [&](auto& i) { i.alpha = 0.4f; });
     edit_instance(b, b.instance(ball, gold, at(1.2, 2, 0.9, 0.9)), [&](auto& i) { i.alpha = 0; }); // is not there
