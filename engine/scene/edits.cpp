@@ -268,10 +268,27 @@ Result<Edit> set_param_of(const Scene& scene, Id<T> id, std::string_view param, 
             return fail("parameter \"" + std::string(param) + "\": the value is not a finite number");
     const T* item = table<T>(scene).find(id);
     return modify(scene, id, (item ? item->name + ": " : std::string()) + std::string(param),
-                  [&](T& t) { t.params.set(param, std::move(value)); });
+                  [&](T& t) {
+                      t.params.set(param, std::move(value));
+                      forget_edited(t.origin, param);
+                  });
 }
 
 } // namespace
+
+void forget_edited(Origin& origin, std::string_view param) {
+    std::string kept;
+    for (std::string_view rest = origin.verbatim; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = rest.substr(0, end);
+        const std::string_view id = line.starts_with('=') ? line.substr(1, line.find(' ') - 1) : std::string_view();
+        if (id.empty() || (param != "*" && id != "*" && id != param))
+            kept.append(line).append("\n");
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (kept.size() < origin.verbatim.size()) // else only a final newline would be added
+        origin.verbatim = std::move(kept);
+}
 
 Result<Edit> set_param(const Scene& scene, Id<Material> id, std::string_view param, Value value) {
     return set_param_of(scene, id, param, std::move(value));
@@ -282,11 +299,17 @@ Result<Edit> set_param(const Scene& scene, Id<Texture> id, std::string_view para
 }
 
 Result<Edit> reset_param(const Scene& scene, Id<Material> id, std::string_view param) {
-    return modify(scene, id, "Reset " + std::string(param), [&](Material& m) { m.params.remove(param); });
+    return modify(scene, id, "Reset " + std::string(param), [&](Material& m) {
+        m.params.remove(param);
+        forget_edited(m.origin, param);
+    });
 }
 
 Result<Edit> set_material_type(const Scene& scene, Id<Material> id, std::string type) {
-    return modify(scene, id, "Material type " + type, [&](Material& m) { m.type = std::move(type); });
+    return modify(scene, id, "Material type " + type, [&](Material& m) {
+        m.type = std::move(type);
+        forget_edited(m.origin, "*");
+    });
 }
 
 Result<Edit> set_light(const Scene& scene, Id<Light> id, Light light, std::string label) {

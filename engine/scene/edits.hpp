@@ -70,6 +70,8 @@ Result<Edit> set_material(const Scene&, std::span<const Id<Instance>>, Id<Materi
 Result<Edit> set_emission(const Scene&, Id<Instance>, std::optional<Emission>);
 Result<Edit> set_hidden(const Scene&, std::span<const Id<Instance>>, bool hidden);
 
+// Drops the lines that hold only while `param` ("*": while everything) is as it was imported. The builders below do it.
+void forget_edited(Origin&, std::string_view param);
 Result<Edit> set_param(const Scene&, Id<Material>, std::string_view param, Value);
 Result<Edit> set_param(const Scene&, Id<Texture>, std::string_view param, Value);
 Result<Edit> reset_param(const Scene&, Id<Material>, std::string_view param); // back to the table's default

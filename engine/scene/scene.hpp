@@ -19,6 +19,7 @@
 namespace restage::scene {
 
 // Where a thing came from, and what its importer did not understand: one "key value" line each, written back verbatim.
+// Lines "=id text" and "=* text" hold only until that value, or any, is edited (restage/scene_io.h, edits.hpp).
 struct Origin {
     std::string verbatim;
     std::string format; // "pbrt-v4", ...

@@ -281,6 +281,90 @@ TEST_CASE("undo to the start writes the same bytes", "[export]") {
     CHECK_FALSE(session.modified());
 }
 
+TEST_CASE("what the renderer reduced or did not understand is written back until it is edited", "[export]") {
+    Plugins plugins;
+    Folder folder("verbatim");
+    REQUIRE(write_file_atomic(folder.file("in.pbrt"), R"(
+Option "disablepixeljitter" true
+Film "rgb" "integer xresolution" [ 8 ] "integer yresolution" [ 8 ] "string filename" [ "a.exr" ] "float maxcomponentvalue" [ 50 ]
+Sampler "halton" "integer pixelsamples" [ 7 ] "string randomization" [ "owen" ]
+Integrator "bdpt" "integer maxdepth" [ 9 ] "bool regularize" [ true ]
+Camera "perspective" "float fov" [ 40 ]
+WorldBegin
+MakeNamedMaterial "gold" "string type" [ "conductor" ] "spectrum eta" [ "metal-Au-eta" ] "spectrum k" [ "metal-Au-k" ]
+MakeNamedMaterial "skin" "string type" [ "subsurface" ] "string name" [ "Skin1" ] "float scale" [ 3 ]
+Texture "noise" "spectrum" "marble" "integer octaves" [ 5 ]
+MakeNamedMaterial "stone" "string type" [ "diffuse" ] "texture reflectance" [ "noise" ]
+NamedMaterial "gold"
+Shape "sphere" "float radius" [ 2 ]
+NamedMaterial "skin"
+Shape "disk" "float radius" [ 2 ]
+NamedMaterial "stone"
+Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
+)"));
+    session::Session session(plugins.registry);
+    REQUIRE(session.open(folder.file("in.pbrt")));
+    const auto text = [&](const char* v) {
+        REQUIRE(session.export_to(folder.file("out.pbrt"), version(v)));
+        return read_file(folder.file("out.pbrt")).value();
+    };
+    const std::string first = text("v4");
+    for (const char* part : {"Option \"disablepixeljitter\" true", "\"float maxcomponentvalue\" [ 50 ]", "Sampler \"halton\"",
+                             "\"string randomization\" [ \"owen\" ]", "\"integer pixelsamples\" [ 7 ]", "Integrator \"bdpt\"",
+                             "\"bool regularize\" [ true ]", "\"integer maxdepth\" [ 9 ]", "\"spectrum eta\" [ \"metal-Au-eta\" ]",
+                             "\"spectrum k\" [ \"metal-Au-k\" ]", "\"string type\" [ \"subsurface\" ]", "\"string name\" [ \"Skin1\" ]",
+                             "\"spectrum\" \"marble\" \"integer octaves\" [ 5 ]", "Shape \"sphere\" \"float radius\" [ 2 ]",
+                             "Shape \"cylinder\" \"float radius\" [ 2 ] \"float zmin\" [ -3 ]"})
+        CHECK_THAT(first, ContainsSubstring(part));
+    const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);
+    REQUIRE(again);
+    CHECK(joined(io::structural_differences(session.scene(), again->scene, plugins.registry)) == "");
+
+    REQUIRE(session.set_param(session.find<Material>("gold"), "eta", Value::color(1, 2, 3)));
+    REQUIRE(session.set_param(session.find<Material>("skin"), "reflectance", Value::color(0.1f, 0.2f, 0.3f)));
+    const std::string edited = text("v4");
+    CHECK_THAT(edited, ContainsSubstring("\"rgb eta\" [ 1 2 3 ]") && !ContainsSubstring("metal-Au-eta") && ContainsSubstring("metal-Au-k"));
+    CHECK_THAT(edited, ContainsSubstring("\"string type\" [ \"coateddiffuse\" ]") && !ContainsSubstring("subsurface"));
+    const std::string other = text("v3"); // has no use for v4's lines, but shows them
+    CHECK_THAT(other, ContainsSubstring("# Option \"disablepixeljitter\" true") && ContainsSubstring("\"string type\" [ \"metal\" ]"));
+}
+
+TEST_CASE("the session holds values to the material's table", "[export]") {
+    Plugins plugins;
+    session::Session session(plugins.registry);
+    session.adopt(Everything(true).scene);
+    const auto gold = session.find<Material>("gold");
+    const auto refused = [&](const char* param, Value value) { return session.set_param(gold, param, std::move(value)).error().message; };
+    CHECK_THAT(refused("uroughness", Value::number(7)), ContainsSubstring("out of its range"));
+    CHECK_THAT(refused("uroughness", Value::color(0, 0, 0)), ContainsSubstring("has another type"));
+    CHECK_THAT(refused("remap", Value::choice("v5")), ContainsSubstring("v4|v3|none are possible"));
+    CHECK_THAT(refused("sheen", Value::number(0)), ContainsSubstring("is not one of a conductor"));
+    CHECK_THAT(refused("use_reflectance", {.type = RESTAGE_BOOL, .texture = {1}}), ContainsSubstring("takes no texture"));
+    CHECK_FALSE(session.modified());
+    CHECK_FALSE(session.add_material("x", "unobtainium"));
+    CHECK_FALSE(session.open("/no/such/file.pbrt"));
+    CHECK(session.scene().instances.live() > 0); // what is open stays open
+    const Version before = session.version();
+    session.adopt(Everything(true).scene);
+    CHECK(session.version() > before);
+    CHECK(session.scene().meshes.version({1}) > before);
+}
+
+TEST_CASE("the bundled scenes survive a round trip", "[export]") {
+    Plugins plugins;
+    const fs::path scenes = fs::path(RESTAGE_SOURCE_DIR) / "scenes";
+    for (const char* name : {"cornell/cornell.pbrt", "spheres/spheres.pbrt", "demo/demo.pbrt"}) {
+        CAPTURE(name);
+        const auto first = io::import_scene((scenes / name).string(), plugins.registry);
+        REQUIRE(first);
+        Folder folder("bundled");
+        REQUIRE(io::export_scene(first->scene, folder.file("s.pbrt"), plugins.registry));
+        const auto second = io::import_scene(folder.file("s.pbrt"), plugins.registry);
+        REQUIRE(second);
+        CHECK(joined(io::structural_differences(first->scene, second->scene, plugins.registry)) == "");
+    }
+}
+
 TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
     Plugins plugins;
     session::Session session(plugins.registry);

@@ -304,6 +304,24 @@ TEST_CASE("builders refuse what cannot be", "[scene]") {
     CHECK_FALSE(set_active_camera(r.scene, {4}));
 }
 
+TEST_CASE("what stood for a value goes when the value is edited", "[scene]") {
+    Room r;
+    const std::string kept = "\"float x\" [ 1 ]\n=eta \"spectrum eta\" [ \"metal-Au-eta\" ]\n=k \"spectrum k\" [ \"metal-Au-k\" ]\n";
+    apply(r.scene, *modify(r.scene, r.steel, "", [&](Material& m) { m.origin = {kept, "pbrt-v4"}; }));
+    History history;
+    history.push(r.scene, *set_param(r.scene, r.steel, "roughness", Value::number(1)));
+    CHECK(r.scene.materials[r.steel].origin.verbatim == kept);
+    history.push(r.scene, *set_param(r.scene, r.steel, "eta", Value::color(1, 1, 1)));
+    CHECK(r.scene.materials[r.steel].origin.verbatim == "\"float x\" [ 1 ]\n=k \"spectrum k\" [ \"metal-Au-k\" ]\n");
+    history.undo(r.scene);
+    CHECK(r.scene.materials[r.steel].origin.verbatim == kept);
+    history.push(r.scene, *set_material_type(r.scene, r.steel, "diffuse"));
+    CHECK(r.scene.materials[r.steel].origin.verbatim == "\"float x\" [ 1 ]\n");
+    Origin whole{"=* \"string type\" [ \"hair\" ]\n\"float y\" [ 2 ]", "pbrt-v4"};
+    forget_edited(whole, "anything");
+    CHECK(whole.verbatim == "\"float y\" [ 2 ]\n");
+}
+
 TEST_CASE("bounds follow the transform", "[scene]") {
     Room r;
     apply(r.scene, *set_transform(r.scene, r.chair, glm::rotate(glm::dmat4(1), glm::radians(90.0), {0, 0, 1})));

@@ -4,7 +4,9 @@
  * Handles are 1-based and per kind; 0 is none. Matrices are column-major double[16], object to world, right-handed or
  * mirrored as they come. Lengths are in the scene's own unit. Colours are linear sRGB primaries; radiometric values are
  * relative as in pbrt. `verbatim` holds what the importer did not understand, one "key value" line each, written back by
- * the exporter of the same format. Strings are UTF-8, never NULL ("" instead) in what the host gives. */
+ * the exporter of the same format. A line "=id text" holds what the value `id` was before it was reduced (a spectrum that
+ * became a colour), "=* text" what the whole thing was before it was approximated: the exporter writes it instead, and the
+ * host drops it once that value, or any, is edited. Strings are UTF-8, never NULL ("" instead) in what the host gives. */
 #ifndef RESTAGE_SCENE_IO_H
 #define RESTAGE_SCENE_IO_H
 

@@ -149,6 +149,13 @@ bool Params::has(std::string_view name) const {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
 }
 
+bool Params::stands_alone() const {
+    return std::none_of(entries_.begin(), entries_.end(), [](const Entry& e) {
+        return e.type == "rgb" || e.type == "color" ||
+               (e.value.starts_with('"') && e.value.find_first_of("./\\") != std::string::npos);
+    });
+}
+
 std::string Params::value(std::string_view name) const {
     for (const Entry& e : entries_)
         if (e.name == name)

@@ -31,6 +31,8 @@ public:
     void remove_all_of(const Params& others); // by name
     void retype(bool for_v3);                 // point and vector for v3, point3 and vector3 for v4
     bool has(std::string_view name) const;
+    // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no names of files.
+    bool stands_alone() const;
     std::string value(std::string_view name) const; // "" = absent
     bool empty() const { return entries_.empty(); }
     std::string text(std::string_view separator = " ") const;

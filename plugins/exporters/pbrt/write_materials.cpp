@@ -102,9 +102,13 @@ std::string Exporter::material(RestageHandle handle) {
         Params own;
         const std::string type = v3() ? material_v3(own, m, values, what) : material_v4(own, m, values, what);
         params.add_string("type", type);
-        for ([[maybe_unused]] const auto& [id, line] : k.for_values) { // the original spectrum of a value that was not edited
+        for (const auto& [id, line] : k.for_values) { // what a value was before it became RGB, and was not edited
             Params original;
             original.add_raw(line);
+            if (!original.stands_alone()) {
+                approximated(what, "its \"" + id + "\" was given by a file or in another colour space; its colour is written");
+                continue;
+            }
             own.remove_all_of(original);
             params.add_raw(line);
         }
