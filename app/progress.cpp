@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "progress.hpp"
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -16,10 +18,17 @@
 namespace restage::app {
 namespace {
 
-volatile std::sig_atomic_t interrupts = 0;
+// Lock-free, so a signal handler may use them. A second Ctrl-C ends the program; one that arrives within half a second is
+// the same key press delivered to the process and to its group.
+std::atomic<bool> interrupt_asked = false;
+std::atomic<std::int64_t> interrupt_time = 0; // [ms]
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
 void on_interrupt(int) {
-    interrupts = interrupts + 1;
-    if (interrupts > 1)
+    const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch());
+    if (!interrupt_asked.exchange(true))
+        interrupt_time = now.count();
+    else if (now.count() - interrupt_time > 500)
         std::_Exit(130);
     std::signal(SIGINT, on_interrupt); // some systems reset it
 }
@@ -41,10 +50,9 @@ void ProgressBar::show(double done, const std::string& note) {
         return;
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - last_).count();
-    if (last_done_ >= 0 && since < (terminal_ ? 0.1 : 10.0) && done < 1)
+    // Elsewhere than on a terminal only what takes long is worth a line.
+    if (terminal_ ? last_done_ >= 0 && since < 0.1 && done < 1 : since < 10)
         return;
-    if (!terminal_ && done >= 1 && last_done_ < 0)
-        return; // too quick to be worth a line
     last_ = now;
     last_done_ = done;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
@@ -67,6 +75,6 @@ void ProgressBar::finish() {
 }
 
 void catch_interrupts() { std::signal(SIGINT, on_interrupt); }
-bool interrupted() { return interrupts > 0; }
+bool interrupted() { return interrupt_asked; }
 
 } // namespace restage::app

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace restage::app {
 namespace {
@@ -53,7 +55,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
     ProgressBar bar(context.quiet);
     io::ImportOptions options;
     options.progress = [&](float done, std::string_view what) {
-        bar.show(done, "reading " + std::string(what));
+        bar.show(done, std::string(what));
         return !interrupted();
     };
     RESTAGE_TRY(auto imported, io::import_scene(path, context.registry(), options));
@@ -153,6 +155,18 @@ Result<Picture> take_picture(Context& context, const RenderOptions& o, const sce
                                                       }));
     }
     return picture;
+}
+
+Result<void> check_picture_path(const std::string& path) {
+    const std::filesystem::path p(path);
+    static constexpr std::string_view known[] = {".exr", ".png", ".pfm", ".hdr"};
+    if (std::find(std::begin(known), std::end(known), p.extension().string()) == std::end(known))
+        return fail(path + ": the extension says the format: .exr, .png, .pfm or .hdr");
+    const auto folder = p.has_parent_path() ? p.parent_path() : std::filesystem::path(".");
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        return fail(path + ": there is no folder " + folder.string() + "; make it first, or write elsewhere");
+    return {};
 }
 
 Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& o) {

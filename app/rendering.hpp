@@ -55,6 +55,8 @@ struct PictureOptions {
     float exposure_stops = 0;  // PNG only
     std::map<std::string, std::string> metadata;
 };
+// Before hours are spent: can a picture be written there at all?
+Result<void> check_picture_path(const std::string& path);
 // .exr: the picture, what --aov names and metadata. .png: exposure and sRGB. .pfm, .hdr: the picture.
 Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& options);
 

@@ -16,8 +16,7 @@ struct Options : RenderOptions {
 };
 
 Result<int> run(Context& context, Options& o) {
-    if (o.output.find('.') == std::string::npos)
-        return fail("-o " + o.output + ": the extension says the format: .exr, .png, .pfm or .hdr");
+    RESTAGE_CHECK(check_picture_path(o.output));
     RESTAGE_TRY(auto imported, open_scene(context, o.scene));
     scene::Scene& scene = imported.scene;
     RESTAGE_CHECK(apply_options(o, scene));

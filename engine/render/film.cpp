@@ -38,10 +38,8 @@ FilmImage Film::read() const {
     image.material_id.resize(n);
     const auto pixels = pixels_.span<shared::FilmPixel>();
     const auto guides = guides_.span<shared::GuidePixel>();
-    float least = n ? 1e30f : 0;
     for (std::size_t i = 0; i < n; ++i) {
         const auto& p = pixels[i];
-        least = std::min(least, p.count);
         if (p.count > 0) {
             const double count = p.count;
             const glm::dvec3 mean = glm::dvec3(p.sum) / count;
@@ -62,8 +60,14 @@ FilmImage Film::read() const {
             image.material_id[i] = g.material_id;
         }
     }
-    image.samples = std::uint32_t(least);
+    image.samples = least_samples();
     return image;
+}
+
+std::uint32_t Film::least_samples() const {
+    const auto pixels = pixels_.span<shared::FilmPixel>().first(std::size_t(width_) * height_);
+    const auto least = std::min_element(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
+    return least == pixels.end() ? 0 : std::uint32_t(least->count);
 }
 
 double Film::relative_error() const {

@@ -33,6 +33,7 @@ public:
     std::uint64_t pixels() const { return pixels_.address(); }
     std::uint64_t guides() const { return guides_.address(); }
     FilmImage read() const;
+    std::uint32_t least_samples() const; // of any pixel
     // Root mean square over pixels of (standard error of luminance / (luminance + 0.01)), what --error stops at.
     double relative_error() const;
 

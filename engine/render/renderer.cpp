@@ -84,9 +84,14 @@ Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_g
     request.crop_x = crop_origin_.x;
     request.crop_y = crop_origin_.y;
     request.strategy = options_.strategy;
-    request.keep_going = std::move(keep_going);
+    bool stopped = false;
+    request.keep_going = [&] {
+        stopped = stopped || (keep_going && !keep_going());
+        return !stopped;
+    };
     RESTAGE_CHECK(tracer_->trace(*gpu_scene_, *film_, request));
-    samples_ += samples;
+    // Stopped within a pass, some pixels have more samples than others: what all of them have is what counts.
+    samples_ = stopped ? film_->least_samples() : samples_ + samples;
     return {};
 }
 
