@@ -58,7 +58,7 @@ void Builder::camera(const Directive& d) {
     for (const char* name : {"shutteropen", "shutterclose"})
         if (d.params.has(name)) (verbatim += to_text(*d.params.find(name))) += '\n';
     verbatim += import_.keep_unused(d.params, what);
-    out.text = import_.text("camera", verbatim);
+    out.text = import_.text("camera", verbatim.c_str());
     import_.out.camera(import_.out.ctx, &out);
 }
 
@@ -164,7 +164,7 @@ void Builder::film_and_settings() {
         settings.samples = static_cast<std::uint32_t>(std::clamp(samples, 0, 1 << 24));
         kept += sampler_->word + " " + quote(sampler_->name) + " " + to_text(s, " ") + "\n";
     }
-    settings.text = import_.text("", kept);
+    settings.text = import_.text("", kept.c_str());
     import_.out.settings(import_.out.ctx, &settings);
     if (!camera_exterior_.empty() && camera_)
         if (const RestageHandle around = medium_named(camera_exterior_, *camera_)) import_.out.camera_medium(import_.out.ctx, around);

@@ -76,7 +76,7 @@ void Builder::light(const Directive& d) {
     std::string verbatim = import_.keep_unused(d.params, what);
     if (d.name == "goniometric" || d.name == "projection") verbatim = "LightSource " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
     const std::string name = d.name + " " + std::to_string(d.at.line);
-    out.text = import_.text(name, verbatim);
+    out.text = import_.text(name.c_str(), verbatim.c_str());
     import_.out.light(import_.out.ctx, &out);
 }
 
@@ -130,7 +130,7 @@ void Builder::infinite_light(const Directive& d) {
 
 void Builder::flush_environment() {
     if (!environment_.set) return;
-    environment_.value.text = import_.text(environment_.name, environment_.verbatim);
+    environment_.value.text = import_.text(environment_.name.c_str(), environment_.verbatim.c_str());
     import_.out.environment(import_.out.ctx, &environment_.value);
 }
 

@@ -114,7 +114,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     exact_.clear();
     std::string label = name;
     if (label.empty()) label = type + " " + std::to_string(d.at.line);
-    const RestageMaterialDesc desc{.text = import_.text(label, verbatim), .type = plugin.c_str(), .values = values.data(), .value_count = values.size()};
+    const RestageMaterialDesc desc{.text = import_.text(label.c_str(), verbatim.c_str()), .type = plugin.c_str(), .values = values.data(), .value_count = values.size()};
     const RestageHandle handle = import_.out.material(import_.out.ctx, &desc);
     if (plugin == "interface") interfaces_.insert(handle);
     if (anonymous) materials_by_content_[key] = handle;

@@ -66,7 +66,7 @@ void Builder::medium(const Directive& d) {
     for (const char* name : {"preset", "Le", "Lescale"})
         if (d.params.has(name)) (verbatim += to_text(*d.params.find(name))) += '\n';
     verbatim += import_.keep_unused(d.params, what);
-    out.text = import_.text(d.name, verbatim);
+    out.text = import_.text(d.name.c_str(), verbatim.c_str());
     media_[d.name] = import_.out.medium(import_.out.ctx, &out);
 }
 

@@ -42,7 +42,7 @@ RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
     if (handle == 0) {
         std::string name = std::filesystem::path(path).stem().string();
         if (name.ends_with(".ply")) name.resize(name.size() - 4); // of .ply.gz
-        const RestageMesh out{.text = import_.text(name, ""),
+        const RestageMesh out{.text = import_.text(name.c_str(), ""),
                               .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                               .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
                               .positions = mesh.positions.data(),
@@ -96,7 +96,7 @@ RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
         return 0;
     }
     const std::string name = d.name + " " + std::to_string(d.at.line);
-    const RestageMesh out{.text = import_.text(name, ""),
+    const RestageMesh out{.text = import_.text(name.c_str(), ""),
                           .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                           .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
                           .positions = mesh.positions.data(),
@@ -158,7 +158,7 @@ void Builder::shape(const Directive& d) {
     const std::string verbatim = import_.keep_unused(d.params, what);
     const std::string name = d.name == "plymesh" ? std::filesystem::path(d.params.string("filename", "")).stem().string()
                                                  : d.name + " " + std::to_string(d.at.line);
-    instance.text = import_.text(name, verbatim);
+    instance.text = import_.text(name.c_str(), verbatim.c_str());
     if (open_object_.empty()) {
         import_.out.instance(import_.out.ctx, &instance);
         return;
@@ -220,7 +220,7 @@ void Builder::object_instance(const Directive& d) {
         return;
     }
     const Matrix placed = ctm(d);
-    const RestageGroup group{.text = import_.text(d.name, "")};
+    const RestageGroup group{.text = import_.text(d.name.c_str(), "")};
     const RestageHandle handle = import_.out.group(import_.out.ctx, &group);
     for (RestageInstance instance : found->second.instances) { // a copy
         Matrix own;

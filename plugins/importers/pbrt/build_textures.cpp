@@ -91,7 +91,7 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
     RestageHandle& handle = images_[path + '\n' + std::to_string(encoding) + '\n' + std::to_string(gamma)];
     if (handle) return handle;
     const std::string name = std::filesystem::path(path).stem().string();
-    RestageImage image{.text = import_.text(name, ""), .path = path.c_str(), .encoding = static_cast<std::uint32_t>(encoding), .gamma = gamma};
+    RestageImage image{.text = import_.text(name.c_str(), ""), .path = path.c_str(), .encoding = static_cast<std::uint32_t>(encoding), .gamma = gamma};
     handle = import_.out.image(import_.out.ctx, &image);
     return handle;
 }
@@ -224,7 +224,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         keep_all(half, "no such texture class in pbrt; shades as a grey of 0.5");
     }
     kept += import_.keep_unused(d.params, what);
-    out.text = import_.text(d.name, kept);
+    out.text = import_.text(d.name.c_str(), kept.c_str());
     out.values = values.data();
     out.value_count = values.size();
     return import_.out.texture(import_.out.ctx, &out);

@@ -64,9 +64,8 @@ class Import {
     // The spectrum of a parameter of type "spectrum"; nullopt if it is of another type, absent or unreadable.
     std::optional<Spectrum> spectrum(const ParamList& params, std::string_view name);
 
-    RestageText text(const std::string& name, const std::string& verbatim) const {
-        return {name.c_str(), verbatim.c_str(), format()};
-    }
+    // Pointers, not strings: what they point to must outlive the call to the host.
+    RestageText text(const char* name, const char* verbatim) const { return {name, verbatim, format()}; }
 
   private:
     std::optional<Spectrum> spectrum(const Param& param);
