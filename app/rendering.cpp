@@ -31,6 +31,12 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->expected(0, 1)->default_str("high")->check(CLI::IsMember({"fast", "balanced", "high"}));
     command.add_option("--max-depth", o.max_depth, "Longest path (default: what the scene says)")->check(CLI::Range(0, 65534));
     command.add_option("--russian-roulette", o.roulette, "on or off")->check(CLI::IsMember({"on", "off"}));
+    command.add_option("--clamp-direct", o.clamp_direct, "Largest contribution of light seen directly or after no bounce (biased; 0 = off)")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--clamp-indirect", o.clamp_indirect, "Largest contribution after a bounce (biased; 0 = off)")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--ray-epsilon", o.ray_epsilon, "Offset of ray origins [scene units] (0 = by error bounds, better)")
+        ->check(CLI::NonNegativeNumber);
     command.add_option("--strategy", o.strategy, "How light is found: mis, light or bsdf (for study)")
         ->check(CLI::IsMember({"mis", "light", "bsdf"}))->capture_default_str();
     command.add_option("--seed", o.renderer.seed, "Seed of the random numbers")->capture_default_str();
@@ -85,6 +91,12 @@ Result<void> apply_options(const RenderOptions& o, scene::Scene& scene) {
         settings.max_depth = std::uint32_t(o.max_depth);
     if (!o.roulette.empty())
         settings.russian_roulette = o.roulette == "on";
+    if (o.clamp_direct > 0)
+        settings.clamp_direct = o.clamp_direct;
+    if (o.clamp_indirect > 0)
+        settings.clamp_indirect = o.clamp_indirect;
+    if (o.ray_epsilon > 0)
+        settings.ray_epsilon = o.ray_epsilon;
     if (!(settings == scene.settings.value))
         scene.settings = {settings, ++scene.clock};
     return {};

@@ -24,6 +24,8 @@ struct RenderOptions {
     std::string strategy = "mis";
     int max_depth = -1;
     std::string roulette;      // "", on, off
+    float clamp_direct = 0, clamp_indirect = 0; // biased
+    float ray_epsilon = 0;     // 0 = error bounds
 };
 
 // Adds the options of the renderer and the targets to a command.

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The program from the outside: what commands print, write and return. Needs RESTAGE_BIN (tools/test sets it)."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RESTAGE = os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))
+CORNELL = ROOT / "scenes/cornell/cornell.pbrt"
+
+
+def restage(*args, **kwargs):
+    return subprocess.run([RESTAGE, *map(str, args)], capture_output=True, text=True, timeout=300, **kwargs)
+
+
+def test_help_and_version_go_to_stdout_and_succeed():
+    for args in (["--help"], ["render", "--help"], ["--version"]):
+        done = restage(*args)
+        assert done.returncode == 0 and done.stdout and not done.stderr
+
+
+@pytest.mark.parametrize("args", [[], ["render"], ["render", "--nonsense"], ["nosuchcommand"],
+                                  ["render", "a", "-o", "b.png", "--spp", "0"], ["render", "a", "-o", "b.png", "--spp", "4", "--time", "3"]])
+def test_what_is_not_understood_is_a_usage_error(args):
+    done = restage(*args)
+    assert done.returncode == 2 and done.stderr and not done.stdout
+
+
+@pytest.mark.parametrize("args, says", [
+    (["render", "nowhere.pbrt", "-o", "x.png"], "nowhere.pbrt"),
+    (["render", CORNELL, "-o", "x.jpeg2000"], ".exr, .png, .pfm or .hdr"),
+    (["render", CORNELL, "-o", "no/such/folder/x.png"], "there is no folder"),
+    (["render", CORNELL, "-o", "x.png", "--size", "12"], "WxH"),
+    (["render", CORNELL, "-o", "x.png", "--device", "no such device"], "no such device"),
+    (["info", "nowhere.pbrt"], "nowhere.pbrt"),
+    (["convert", CORNELL, "x.unknownformat"], "unknownformat"),
+    (["convert", CORNELL, "x.pbrt", "--set", "version=v9"], "v9"),
+])
+def test_what_cannot_be_done_says_why(args, says, tmp_path):
+    done = restage(*args, cwd=tmp_path)
+    assert done.returncode == 1 and says in done.stderr and not done.stdout
+    assert not list(tmp_path.iterdir()), "a failed command leaves nothing behind"
+
+
+def test_render_writes_layers_and_settings_and_a_seed_repeats_it(tmp_path):
+    for name, seed in (("a", 1), ("b", 1), ("c", 2)):
+        done = restage("render", CORNELL, "-o", tmp_path / f"{name}.exr", "--size", "64x48", "--spp", 8, "--seed", seed)
+        assert done.returncode == 0, done.stderr
+        assert "8 spp" in done.stderr and not done.stdout
+    data = (tmp_path / "a.exr").read_bytes()
+    for name in (b"stderr.R", b"albedo.R", b"normal.X", b"depth.Z", b"id.instance", b"restage:samples"):
+        assert name in data
+
+    def difference(x, y):
+        done = restage("compare", tmp_path / x, tmp_path / y, "--json")
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    assert difference("a.exr", "b.exr")["rmse"] < 1e-6
+    other = difference("a.exr", "c.exr")
+    assert other["rmse"] > 1e-4 and other["z_test"]["share_passing"] > 0.95
+
+
+def test_targets_of_time_and_error(tmp_path):
+    start = time.monotonic()
+    done = restage("render", CORNELL, "-o", tmp_path / "t.png", "--size", "64x64", "--time", 2)
+    assert done.returncode == 0 and 2 <= time.monotonic() - start < 60
+    done = restage("render", CORNELL, "-o", tmp_path / "e.exr", "--size", "64x64", "--error", 0.2)
+    assert done.returncode == 0
+    assert float(done.stderr.split("relative error ")[1].split(",")[0]) <= 0.2
+
+
+def test_one_ctrl_c_writes_what_is_there(tmp_path):
+    out = tmp_path / "long.exr"
+    process = subprocess.Popen([RESTAGE, "render", str(CORNELL), "-o", str(out), "--size", "128x128", "--spp", "10000000"],
+                               stderr=subprocess.PIPE, text=True)
+    time.sleep(8)
+    process.send_signal(signal.SIGINT)
+    _, log = process.communicate(timeout=120)
+    assert process.returncode == 130 and "stopped after" in log
+    assert restage("compare", out, out).returncode == 0
+
+
+def test_info_as_json_counts_and_reports():
+    done = restage("info", CORNELL, "--json")
+    assert done.returncode == 0, done.stderr
+    info = json.loads(done.stdout)
+    assert info["objects"] >= 6 and info["lights"]["area"] >= 1 and info["report_counts"]["dropped"] == 0
+
+
+def test_plugins_lists_all_of_ours_and_a_stranger_with_its_reason(tmp_path):
+    bad = tmp_path / "material-bad"
+    bad.mkdir()
+    (bad / "plugin.json").write_text("{ this is no JSON")
+    done = restage("plugins", "--json", env={**os.environ, "RESTAGE_PLUGIN_PATH": str(tmp_path)})
+    assert done.returncode == 0, done.stderr
+    entries = json.loads(done.stdout)
+    loaded = " ".join(p for e in entries if e["loaded"] for p in e["provides"])
+    for name in ("importer pbrt", "exporter pbrt", "denoiser oidn", "material diffuse", "material mix"):
+        assert name in loaded
+    refused = [e for e in entries if not e["loaded"]]
+    assert len(refused) == 1 and "plugin.json" in refused[0]["reason"]
+
+
+@pytest.mark.parametrize("version", ["v4", "v3"])
+def test_convert_there_and_back_renders_the_same(version, tmp_path):
+    out = tmp_path / "out.pbrt"
+    assert restage("convert", CORNELL, out, "--set", f"version={version}").returncode == 0
+    for name, scene in (("a", CORNELL), ("b", out)):
+        done = restage("render", scene, "-o", tmp_path / f"{name}.exr", "--size", "64x64", "--spp", 16)
+        assert done.returncode == 0, done.stderr
+    z = json.loads(restage("compare", tmp_path / "a.exr", tmp_path / "b.exr", "--json").stdout)["z_test"]
+    assert z["share_passing"] > 0.95
+
+
+def test_demo_runs_the_main_job(tmp_path):
+    done = restage("demo", "-o", tmp_path / "demo", "--spp", 2, "--size", "96x54")
+    assert done.returncode == 0, done.stderr
+    assert "the same scene" in done.stdout and "leads back" in done.stdout
+    for name in ("before.png", "after.png", "before.exr", "after.exr", "edited.pbrt"):
+        assert (tmp_path / "demo" / name).stat().st_size > 0
+    changed = json.loads(restage("compare", tmp_path / "demo/before.exr", tmp_path / "demo/after.exr", "--json").stdout)
+    assert changed["rmse"] > 0.01
