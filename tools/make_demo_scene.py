@@ -69,30 +69,28 @@ def furnish(scene):
     furniture.table(scene, TABLE, 38)
     room.rug(scene, (TABLE[0] + 0.05, TABLE[1] - 0.1), 4)
     furniture.chair(scene)
-    for k, (x, y, turn) in enumerate(((0.60, -0.52, 50), (0.10, 0.82, 172), (-0.80, -0.30, -66))):
-        scene.place(f"Chair {k + 1}", "Chair", translate(TABLE[0] + x, TABLE[1] + y, 0.013) @ rotate((0, 0, 1), turn))
+    for x, y, turn in ((0.60, -0.52, 50), (0.10, 0.82, 172), (-0.80, -0.30, -66)):
+        scene.place("Chair", translate(TABLE[0] + x, TABLE[1] + y, 0.013) @ rotate((0, 0, 1), turn))
     top = furniture.sideboard(scene, 2.45)
     furniture.pendant(scene, (TABLE[0], TABLE[1]), 1.62, room.HEIGHT)
     furniture.books(scene)
     room.picture(scene, 2.28, 1.52)
     room.mirror(scene, 3.02, 1.50)
-    scene.place("Picture, rear", "Picture", translate(1.66, 0.002 - room.DEPTH, 1.52) @ rotate((0, 0, 1), 180))
+    scene.place("Picture", translate(1.66, 0.002 - room.DEPTH, 1.52) @ rotate((0, 0, 1), 180))
     lay_table(scene)
     tableware.vase(scene)
-    scene.place("Vase", "Vase", translate(1.90, -0.21, top) @ scale(1.12))
+    scene.place("Vase", translate(1.90, -0.21, top) @ scale(1.12))
     furniture.stack_books(
         scene,
         (2.42, -0.21, top),
-        ("ink", "ochre", "cream"),
-        1,
+        ("Blue", "Ochre", "Cream"),
         ((0.21, 0.28, 0.034), (0.19, 0.26, 0.026), (0.16, 0.22, 0.03)),
         (88, 97, 84),
     )
     furniture.upright_books(
         scene,
         (2.70, -0.31, top),
-        ("green", "red", "cream", "ink", "ochre", "red"),
-        4,
+        ("Green", "Red", "Cream", "Blue", "Ochre", "Red"),
         (
             (0.16, 0.235, 0.030),
             (0.15, 0.215, 0.024),
@@ -109,13 +107,13 @@ def lay_table(scene):
     z = furniture.TABLE_HEIGHT
     x, y = TABLE
     tableware.glassware(scene)
-    scene.place("Tray", "Tray", translate(x + 0.19, y + 0.16, z))
-    scene.place("Carafe", "Carafe", translate(x + 0.16, y + 0.21, z + 0.0023))
-    scene.place("Glass 1", "Glass", translate(x + 0.265, y + 0.145, z + 0.0023))
-    scene.place("Glass 2", "Glass", translate(x + 0.175, y + 0.095, z + 0.0023))
+    scene.place("Tray", translate(x + 0.19, y + 0.16, z))
+    scene.place("Carafe", translate(x + 0.16, y + 0.21, z + 0.0023))
+    scene.place("Glass", translate(x + 0.265, y + 0.145, z + 0.0023))
+    scene.place("Glass", translate(x + 0.175, y + 0.095, z + 0.0023))
     tableware.bowl(scene)
     bx, by = x - 0.21, y - 0.10
-    scene.place("Bowl", "Bowl", translate(bx, by, z))
+    scene.place("Bowl", translate(bx, by, z))
     fruit = (
         ("Orange", 0.052, 0.014, 0.063, 20, 40),
         ("Orange", -0.050, 0.030, 0.062, 70, 10),
@@ -124,18 +122,13 @@ def lay_table(scene):
         ("Lemon", 0.036, 0.078, 0.078, 85, 30),
         ("Lemon", -0.062, -0.042, 0.072, 80, 120),
     )
-    count = {}
     for name, dx, dy, dz, tilt, turn in fruit:
-        count[name] = count.get(name, 0) + 1
         scene.place(
-            f"{name} {count[name]}",
             name,
             translate(bx + dx, by + dy, z + dz) @ rotate((0, 0, 1), turn) @ rotate((1, 0, 0), tilt),
         )
-    scene.place("Pear 1", "Pear", translate(bx + 0.20, by - 0.09, z + 0.0435) @ rotate((0, 0, 1), 30) @ scale(1))
-    scene.place(
-        "Pear 2", "Pear", translate(bx + 0.275, by - 0.045, z + 0.0365) @ rotate((0, 0, 1), 160) @ rotate((1, 0, 0), 96)
-    )
+    scene.place("Pear", translate(bx + 0.20, by - 0.09, z + 0.0435) @ rotate((0, 0, 1), 30) @ scale(1))
+    scene.place("Pear", translate(bx + 0.275, by - 0.045, z + 0.0365) @ rotate((0, 0, 1), 160) @ rotate((1, 0, 0), 96))
 
 
 def main(scenes):

@@ -66,7 +66,7 @@ def table(scene, centre, angle):
             leg((0.47 * c, 0.47 * s, 0), (0.36 * c, 0.36 * s, h - 0.03), 0.016, 0.029).with_uv(1, (0.21 * k, 0.1 * k))
         )
     scene.object("Table", ("Walnut", scene.mesh("table", merge(*parts)), "Table"))
-    scene.place("Table", "Table", translate(*centre, 0) @ rotate((0, 0, 1), angle))
+    scene.place("Table", translate(*centre, 0) @ rotate((0, 0, 1), angle))
 
 
 def chair(scene):
@@ -162,7 +162,7 @@ def sideboard(scene, x, width=1.5):
         ("Walnut", scene.mesh("sideboard", merge(*parts)), "Sideboard"),
         ("Walnut", scene.mesh("sideboard-slats", merge(*slats)), "Sideboard doors"),
     )
-    scene.place("Sideboard", "Sideboard", translate(x, 0, 0))
+    scene.place("Sideboard", translate(x, 0, 0))
     return z1
 
 
@@ -205,8 +205,8 @@ def pendant(scene, centre, z, ceiling):
     )
     scene.object("Bulb", ("Opal glass", bulb, "Bulb"))
     at = translate(*centre, z)
-    scene.place("Pendant lamp", "Pendant lamp", at)
-    scene.place("Bulb", "Bulb", at @ translate(0, 0, 0.075))
+    scene.place("Pendant lamp", at)
+    scene.place("Bulb", at @ translate(0, 0, 0.075))
 
 
 def book_meshes(scene):
@@ -258,11 +258,11 @@ def crease(mesh, degrees):
 
 
 BOOKS = {
-    "red": (0.36, 0.075, 0.055),
-    "ochre": (0.56, 0.34, 0.09),
-    "ink": (0.045, 0.075, 0.13),
-    "cream": (0.62, 0.56, 0.44),
-    "green": (0.07, 0.16, 0.115),
+    "Red": (0.36, 0.075, 0.055),
+    "Ochre": (0.56, 0.34, 0.09),
+    "Blue": (0.045, 0.075, 0.13),
+    "Cream": (0.62, 0.56, 0.44),
+    "Green": (0.07, 0.16, 0.115),
 }
 
 
@@ -272,28 +272,28 @@ def books(scene):
     scene.material("Paper", "diffuse", reflectance=("texture", "page edges"))
     cover, pages = book_meshes(scene)
     for name, rgb in BOOKS.items():
-        scene.material(f"Book cloth, {name}", "coateddiffuse", reflectance=rgb, roughness=0.45)
+        scene.material(f"{name} book cloth", "coateddiffuse", reflectance=rgb, roughness=0.45)
         scene.object(
-            f"Book, {name}", (f"Book cloth, {name}", cover, f"Book cover, {name}"), ("Paper", pages, "Book pages")
+            f"{name} book", (f"{name} book cloth", cover, f"{name} book cover"), ("Paper", pages, "Book pages")
         )
 
 
-def stack_books(scene, where, names, first, sizes, angles):
+def stack_books(scene, where, names, sizes, angles):
     """A pile: sizes are (width, height, thickness) in metres."""
     z = where[2]
-    for k, (name, size, angle) in enumerate(zip(names, sizes, angles)):
+    for name, size, angle in zip(names, sizes, angles):
         m = translate(where[0], where[1], z) @ rotate((0, 0, 1), angle) @ translate(-size[0] / 2, 0, 0) @ scale(*size)
-        scene.place(f"Book {first + k}", f"Book, {name}", m)
+        scene.place(f"{name} book", m)
         z += size[2] + 0.0008
 
 
-def upright_books(scene, where, names, first, sizes):
+def upright_books(scene, where, names, sizes):
     """A row of standing books, spines towards -y, from left to right."""
     x = where[0]
-    for k, (name, size) in enumerate(zip(names, sizes)):
+    for name, size in zip(names, sizes):
         # lying (x width, y height, z thickness) -> standing: spine (x = 0) to -y, height up, thickness along +x
         basis = np.eye(4)
         basis[:3, 0], basis[:3, 1], basis[:3, 2] = (0, 1, 0), (0, 0, 1), (1, 0, 0)
         m = translate(x, where[1], where[2]) @ basis @ scale(*size) @ translate(0, 0.5, 0)
-        scene.place(f"Book {first + k}", f"Book, {name}", m)
+        scene.place(f"{name} book", m)
         x += size[2] + 0.001

@@ -80,7 +80,7 @@ def shell(scene):
         "Skirting board", ("White paint", scene.mesh("skirting", merge(along_back, along_left)), "Skirting board")
     )
     for label in ("Walls", "Back wall", "Ceiling", "Floor", "Skirting board"):
-        scene.place(label, label)
+        scene.place(label)
 
 
 def window(scene):
@@ -102,10 +102,10 @@ def window(scene):
             lo, hi = y0 + k * third + 0.02, y0 + (k + 1) * third - 0.02
             parts.append(box_between((x0 + 0.02, lo, z - 0.013), (x1 - 0.015, hi, z + 0.013), 0.005))
     scene.object("Window frame", ("White paint", scene.mesh("window-frame", merge(*parts)), "Window frame"))
-    scene.place("Window frame", "Window frame")
+    scene.place("Window frame")
     sill = box_between((-0.12, y0 - 0.06, z0 - 0.012), (0.075, y1 + 0.06, z0 + 0.018), 0.008, 3)
     scene.object("Window sill", ("White paint", scene.mesh("window-sill", sill), "Window sill"))
-    scene.place("Window sill", "Window sill")
+    scene.place("Window sill")
 
 
 def curtain(width, pitch, seed, columns, rows=18, height=2.44):
@@ -134,8 +134,8 @@ def curtains(scene):
     far, near = curtain(0.58, 0.088, 1.0, 120), curtain(0.52, 0.088, 2.6, 108)
     scene.object("Curtain, far", ("Sheer linen", scene.mesh("curtain-far", far), "Curtain, far"))
     scene.object("Curtain, near", ("Sheer linen", scene.mesh("curtain-near", near), "Curtain, near"))
-    scene.place("Curtain, far", "Curtain, far", translate(0.15, -1.02, 0))
-    scene.place("Curtain, near", "Curtain, near", translate(0.15, -2.96, 0))
+    scene.place("Curtain, far", translate(0.15, -1.02, 0))
+    scene.place("Curtain, near", translate(0.15, -2.96, 0))
     ball = lathe(
         fillet([(0, -0.028), (0.006, -0.028), (0.026, -0.012), (0.026, 0.012), (0.012, 0.030), (0, 0.034)], 0.012), 24
     )
@@ -146,14 +146,14 @@ def curtains(scene):
         tube([(0, -0.38, 2.475), (0.075, -0.38, 2.475), (0.15, -0.38, 2.475)], 0.007, 12),
     )
     scene.object("Curtain rod", ("Brass", scene.mesh("curtain-rod", rod), "Curtain rod"))
-    scene.place("Curtain rod", "Curtain rod")
+    scene.place("Curtain rod")
     t = np.linspace(0, 2 * np.pi, 25)
     ring = lathe(np.stack([0.021 + 0.0028 * np.cos(t), 0.0028 * np.sin(t)], 1), 32)
     scene.object("Curtain ring", ("Brass", scene.mesh("curtain-ring", ring), "Curtain ring"))
-    for panel, start, count in (("far", -1.00, 7), ("near", -2.94, 6)):
+    for start, count in ((-1.00, 7), (-2.94, 6)):
         for k in range(count):
             m = translate(0.15, start + 0.088 * k, 2.464) @ rotate((0, 0, 1), 7 * np.sin(3 * k)) @ rotate((1, 0, 0), 90)
-            scene.place(f"Curtain ring, {panel} {k + 1}", "Curtain ring", m)
+            scene.place("Curtain ring", m)
 
 
 def rug(scene, centre, angle):
@@ -184,7 +184,7 @@ def rug(scene, centre, angle):
         ("Woven wool", scene.mesh("rug", body), "Rug"),
         ("Wool fringe", scene.mesh("rug-fringe", merge(*threads)), "Rug fringe"),
     )
-    scene.place("Rug", "Rug", translate(*centre, 0) @ rotate((0, 0, 1), angle))
+    scene.place("Rug", translate(*centre, 0) @ rotate((0, 0, 1), angle))
 
 
 def frame(width, height, bar, depth):
@@ -239,7 +239,7 @@ def picture(scene, x, z):
         ("Mount board", scene.mesh("picture-mount", board), "Picture mount"),
         ("Print", scene.mesh("picture-print", art), "Picture print"),
     )
-    scene.place("Picture", "Picture", translate(x, -0.002, z))
+    scene.place("Picture", translate(x, -0.002, z))
 
 
 def mirror(scene, x, z, radius=0.24):
@@ -263,4 +263,4 @@ def mirror(scene, x, z, radius=0.24):
         ("Brass", scene.mesh("mirror-rim", rim), "Mirror rim"),
         ("Silver mirror", scene.mesh("mirror-glass", glass), "Mirror glass"),
     )
-    scene.place("Mirror", "Mirror", translate(x, -0.002, z) @ rotate((1, 0, 0), 90))
+    scene.place("Mirror", translate(x, -0.002, z) @ rotate((1, 0, 0), 90))

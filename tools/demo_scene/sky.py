@@ -49,7 +49,7 @@ def sky_radiance(d, sun_from):
     return mix(out, lawn, smoothstep(-0.02, -0.16, z))
 
 
-def sky_image(resolution, sun_from, samples=3):
+def sky_image(resolution, sun_from, samples=2):
     """Box-filtered: `samples` squared points a pixel."""
     fine = sky_radiance(square_to_sphere(resolution * samples), sun_from)
     return fine.reshape(resolution, samples, resolution, samples, 3).mean((1, 3))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""On the table and the sideboard: tray, carafe, glasses, fruit bowl, vase with a branch; and the plant in the corner."""
+"""On table and sideboard: tray, carafe, glasses, fruit bowl, vase with a branch; and the plant in the corner."""
 
 import numpy as np
 
@@ -288,6 +288,6 @@ def plant(scene, where):
         "Leaf", ("Fig leaf", scene.mesh("plant-leaf", leaves_up(leaf_mesh(0.27, 0.135, rows=19, columns=11))), "Leaf")
     )
     base = translate(*where, 0)
-    scene.place("Plant", "Plant", base)
-    for k, m in enumerate(spots):
-        scene.place(f"Leaf {k + 1}", "Leaf", base @ m)
+    scene.place("Plant", base)
+    for m in spots:
+        scene.place("Leaf", base @ m)

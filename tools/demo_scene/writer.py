@@ -19,7 +19,7 @@ class Scene:
             shutil.rmtree(folder / name, ignore_errors=True)
         (folder / "geometry").mkdir(parents=True)
         (folder / "textures").mkdir(parents=True)
-        self.materials, self.objects, self.placings, self.triangles = [], [], [], 0
+        self.materials, self.objects, self.placings, self.count, self.triangles = [], [], [], {}, 0
 
     def section(self, title):
         for lines in (self.materials, self.objects, self.placings):
@@ -62,7 +62,10 @@ class Scene:
             lines += [f"    # name: {label}", f'    NamedMaterial "{material}"', f"    {shape}"]
         self.objects.append("\n".join(lines + ["ObjectEnd"]))
 
-    def place(self, label, name, matrix=None):
+    def place(self, name, matrix=None):
+        """One more of an object; the second chair is called "Chair 2", as the importer would call it."""
+        self.count[name] = self.count.get(name, 0) + 1
+        label = name if self.count[name] == 1 else f"{name} {self.count[name]}"
         lines = [f"# name: {label}", "AttributeBegin"]
         if matrix is not None:  # pbrt writes matrices column by column
             lines.append(f"    ConcatTransform [ {numbers(np.asarray(matrix).T)} ]")
