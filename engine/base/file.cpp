@@ -36,8 +36,7 @@ std::FILE* open_file(const fs::path& path, const char* mode) {
 }
 
 bool flush_to_disk(std::FILE* file) {
-    if (std::fflush(file) != 0)
-        return false;
+    if (std::fflush(file) != 0) return false;
 #if defined(_WIN32)
     return _commit(_fileno(file)) == 0;
 #else
@@ -76,26 +75,21 @@ Result<fs::path> home_folder(const char* variable, const char* below_home) {
 
 Result<std::string> read_file(const fs::path& path) {
     std::error_code code;
-    if (fs::is_directory(path, code))
-        return fail(path.string() + ": is a folder, a file was expected");
+    if (fs::is_directory(path, code)) return fail(path.string() + ": is a folder, a file was expected");
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_file(path, "rb"), std::fclose);
-    if (!file)
-        return fail(path.string() + ": cannot be opened: " + reason(errno));
+    if (!file) return fail(path.string() + ": cannot be opened: " + reason(errno));
     std::string bytes;
     const auto size = fs::file_size(path, code);
     if (!code && size < (std::uintmax_t{1} << 40)) // only a hint: pipes and /proc have none
         bytes.resize(static_cast<std::size_t>(size));
     std::size_t filled = 0;
     for (;;) {
-        if (filled == bytes.size())
-            bytes.resize(bytes.size() + 65536);
+        if (filled == bytes.size()) bytes.resize(bytes.size() + 65536);
         const std::size_t got = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
         filled += got;
-        if (got == 0)
-            break;
+        if (got == 0) break;
     }
-    if (std::ferror(file.get()))
-        return fail(path.string() + ": cannot be read: " + reason(errno));
+    if (std::ferror(file.get())) return fail(path.string() + ": cannot be read: " + reason(errno));
     bytes.resize(filled);
     return bytes;
 }
@@ -110,7 +104,8 @@ AtomicFile::AtomicFile(fs::path target, fs::path temporary, std::FILE* file)
     : target_(std::move(target)), temporary_(std::move(temporary)), file_(file) {}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::move(other.temporary_)),
+    : target_(std::move(other.target_)),
+      temporary_(std::move(other.temporary_)),
       file_(std::exchange(other.file_, nullptr)) {}
 
 AtomicFile::~AtomicFile() {
@@ -131,8 +126,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
     fs::path temporary = path;
     temporary += ".tmp-" + std::to_string(process) + "-" + std::to_string(counter++);
     std::FILE* file = open_file(temporary, "wbx");
-    if (!file)
-        return fail(path.string() + ": cannot be written: " + reason(errno));
+    if (!file) return fail(path.string() + ": cannot be written: " + reason(errno));
     return AtomicFile(path, std::move(temporary), file);
 }
 
@@ -166,15 +160,13 @@ Result<fs::path> executable_path() {
 #if defined(_WIN32)
     std::wstring buffer(32768, L'\0');
     const DWORD length = GetModuleFileNameW(nullptr, buffer.data(), static_cast<DWORD>(buffer.size()));
-    if (length == 0 || length == buffer.size())
-        return fail("the path of the running program cannot be found");
+    if (length == 0 || length == buffer.size()) return fail("the path of the running program cannot be found");
     buffer.resize(length);
     return fs::path(buffer);
 #else
     std::error_code code;
     fs::path path = fs::read_symlink("/proc/self/exe", code);
-    if (code)
-        return fail("/proc/self/exe: cannot be read: " + code.message());
+    if (code) return fail("/proc/self/exe: cannot be read: " + code.message());
     return path;
 #endif
 }
@@ -193,8 +185,7 @@ Result<fs::path> cache_dir() {
 #endif
     std::error_code code;
     fs::create_directories(folder, code);
-    if (code)
-        return fail(folder.string() + ": cannot be created: " + code.message());
+    if (code) return fail(folder.string() + ": cannot be created: " + code.message());
     return folder;
 }
 

@@ -21,7 +21,7 @@ Result<> write_file_atomic(const std::filesystem::path&, std::string_view bytes)
 
 // The same for a file too big for one string: write pieces, then commit. Dropped without commit = nothing happened.
 class AtomicFile {
-public:
+  public:
     static Result<AtomicFile> create(const std::filesystem::path&);
     AtomicFile(AtomicFile&&) noexcept;
     AtomicFile& operator=(AtomicFile&&) = delete;
@@ -29,7 +29,7 @@ public:
     Result<> write(std::string_view bytes);
     Result<> commit();
 
-private:
+  private:
     AtomicFile(std::filesystem::path target, std::filesystem::path temporary, std::FILE* file);
     std::filesystem::path target_, temporary_;
     std::FILE* file_;

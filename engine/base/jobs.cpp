@@ -24,7 +24,7 @@ thread_local bool inside_loop = false;
 
 // Sets flush-to-zero (bit 15) and denormals-are-zero (bit 6) of MXCSR and restores what was there.
 class FlushDenormals {
-public:
+  public:
 #if defined(RESTAGE_HAVE_MXCSR)
     FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040u); }
     ~FlushDenormals() { _mm_setcsr(before_); }
@@ -34,20 +34,20 @@ public:
     FlushDenormals(const FlushDenormals&) = delete;
     FlushDenormals& operator=(const FlushDenormals&) = delete;
 
-private:
+  private:
 #if defined(RESTAGE_HAVE_MXCSR)
     unsigned before_;
 #endif
 };
 
 class InsideLoop {
-public:
+  public:
     InsideLoop() { inside_loop = true; }
     ~InsideLoop() { inside_loop = false; }
     InsideLoop(const InsideLoop&) = delete;
     InsideLoop& operator=(const InsideLoop&) = delete;
 
-private:
+  private:
     FlushDenormals flush_;
 };
 
@@ -63,13 +63,11 @@ struct Loop {
         InsideLoop scope;
         while (!failed.load(std::memory_order_relaxed)) {
             const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-            if (begin >= count)
-                return;
+            if (begin >= count) return;
             try {
                 (*body)(begin, std::min(begin + grain, count), thread);
             } catch (...) {
-                if (!failed.exchange(true))
-                    error = std::current_exception();
+                if (!failed.exchange(true)) error = std::current_exception();
             }
         }
     }
@@ -81,7 +79,7 @@ struct Jobs::Pool {
     std::mutex call; // held by the thread whose loop has the pool
     std::mutex mutex;
     std::condition_variable wake, idle;
-    Loop* loop = nullptr;       // guarded by mutex, as is everything below
+    Loop* loop = nullptr; // guarded by mutex, as is everything below
     std::uint64_t generation = 0;
     unsigned running = 0;
     bool stop = false;
@@ -92,16 +90,14 @@ struct Jobs::Pool {
         std::unique_lock lock(mutex);
         for (;;) {
             wake.wait(lock, [&] { return stop || (loop && generation != seen); });
-            if (stop)
-                return;
+            if (stop) return;
             seen = generation;
             Loop* mine = loop;
             ++running;
             lock.unlock();
             mine->run(thread);
             lock.lock();
-            if (--running == 0)
-                idle.notify_one();
+            if (--running == 0) idle.notify_one();
         }
     }
 };
@@ -127,8 +123,7 @@ Jobs::~Jobs() {
 unsigned Jobs::threads() const { return static_cast<unsigned>(pool_->workers.size()) + 1; }
 
 void Jobs::parallel_for(std::size_t count, std::size_t grain, const Body& f) {
-    if (count == 0)
-        return;
+    if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count - 1) / grain + 1;
     if (inside_loop) {
@@ -156,8 +151,7 @@ void Jobs::parallel_for(std::size_t count, std::size_t grain, const Body& f) {
         pool_->loop = nullptr; // whoever still sleeps does not join any more
         pool_->idle.wait(lock, [&] { return pool_->running == 0; });
     }
-    if (loop.error)
-        std::rethrow_exception(loop.error);
+    if (loop.error) std::rethrow_exception(loop.error);
 }
 
 } // namespace restage

@@ -11,7 +11,7 @@
 namespace restage {
 
 class Jobs {
-public:
+  public:
     // f(begin, end, thread): indices [begin, end), thread in [0, threads()), 0 is the caller.
     using Body = std::function<void(std::size_t begin, std::size_t end, unsigned thread)>;
 
@@ -28,7 +28,7 @@ public:
     // pool. If a body throws, remaining chunks are skipped and the first exception is thrown here.
     void parallel_for(std::size_t count, std::size_t grain, const Body& f);
 
-private:
+  private:
     struct Pool;
     std::unique_ptr<Pool> pool_;
 };

@@ -30,8 +30,7 @@ void Log::set_threshold(LogLevel level) {
 
 void Log::write(LogLevel level, std::string_view line) {
     std::lock_guard lock(mutex_);
-    if (level >= threshold_ && sink_)
-        sink_(level, line);
+    if (level >= threshold_ && sink_) sink_(level, line);
 }
 
 } // namespace restage

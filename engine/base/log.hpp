@@ -13,7 +13,7 @@ namespace restage {
 enum class LogLevel { debug, info, warning, error };
 
 class Log {
-public:
+  public:
     using Sink = std::function<void(LogLevel, std::string_view line)>;
 
     Log();                        // writes "restage: warning: ..." to stderr, from `info` upwards
@@ -26,7 +26,7 @@ public:
     void error(std::string_view line) { write(LogLevel::error, line); }
     void write(LogLevel level, std::string_view line);
 
-private:
+  private:
     std::mutex mutex_;
     Sink sink_;
     LogLevel threshold_ = LogLevel::info;

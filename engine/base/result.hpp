@@ -28,13 +28,12 @@ inline tl::unexpected<Error> fail(const std::string& context, const Error& cause
 #define RESTAGE_CONCAT_(a, b) a##b
 #define RESTAGE_CONCAT(a, b) RESTAGE_CONCAT_(a, b)
 // RESTAGE_TRY(auto x, f()): x is the value, or the error is returned.
-#define RESTAGE_TRY(decl, expr)                                                                                        \
-    auto RESTAGE_CONCAT(result_, __LINE__) = (expr);                                                                   \
-    if (!RESTAGE_CONCAT(result_, __LINE__))                                                                            \
-        return tl::unexpected<::restage::Error>(std::move(RESTAGE_CONCAT(result_, __LINE__).error()));                 \
+#define RESTAGE_TRY(decl, expr)                                                                        \
+    auto RESTAGE_CONCAT(result_, __LINE__) = (expr);                                                   \
+    if (!RESTAGE_CONCAT(result_, __LINE__))                                                            \
+        return tl::unexpected<::restage::Error>(std::move(RESTAGE_CONCAT(result_, __LINE__).error())); \
     decl = std::move(*RESTAGE_CONCAT(result_, __LINE__))
-#define RESTAGE_CHECK(expr)                                                                                            \
-    do {                                                                                                               \
-        if (auto result_ = (expr); !result_)                                                                           \
-            return tl::unexpected<::restage::Error>(std::move(result_.error()));                                       \
+#define RESTAGE_CHECK(expr)                                                                                       \
+    do {                                                                                                          \
+        if (auto result_ = (expr); !result_) return tl::unexpected<::restage::Error>(std::move(result_.error())); \
     } while (false)

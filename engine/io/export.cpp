@@ -17,8 +17,7 @@ namespace {
 
 const RestageParam* find_option(const RestageExporter1& exporter, std::string_view id) {
     for (std::uint32_t i = 0; i < exporter.option_count; ++i)
-        if (exporter.options[i].id == id)
-            return &exporter.options[i];
+        if (exporter.options[i].id == id) return &exporter.options[i];
     return nullptr;
 }
 
@@ -26,8 +25,7 @@ std::string known_options(const RestageExporter1& exporter) {
     std::string list;
     for (std::uint32_t i = 0; i < exporter.option_count; ++i) {
         list += (list.empty() ? "" : ", ") + std::string(exporter.options[i].id);
-        if (exporter.options[i].type == RESTAGE_ENUM)
-            list += "=" + std::string(exporter.options[i].choices);
+        if (exporter.options[i].type == RESTAGE_ENUM) list += "=" + std::string(exporter.options[i].choices);
     }
     return list.empty() ? "it has no options" : "there are: " + list;
 }
@@ -35,12 +33,12 @@ std::string known_options(const RestageExporter1& exporter) {
 Result<> check_option(const RestageExporter1& exporter, const std::string& id, const Value& value) {
     const RestageParam* option = find_option(exporter, id);
     const std::string who = std::string("exporter \"") + exporter.format + "\": ";
-    if (!option)
-        return fail(who + "there is no option \"" + id + "\"; " + known_options(exporter));
+    if (!option) return fail(who + "there is no option \"" + id + "\"; " + known_options(exporter));
     if (value.type != static_cast<RestageType>(option->type))
         return fail(who + "option \"" + id + "\" has another type");
     if (option->type == RESTAGE_ENUM && !choice_index(option->choices, value.text))
-        return fail(who + "option \"" + id + "\" cannot be \"" + value.text + "\"; " + option->choices + " are possible");
+        return fail(who + "option \"" + id + "\" cannot be \"" + value.text + "\"; " + option->choices +
+                    " are possible");
     if ((option->type == RESTAGE_FLOAT || option->type == RESTAGE_INT) &&
         !(value.v[0] >= option->min && value.v[0] <= option->max))
         return fail(who + "option \"" + id + "\" is out of its range");
@@ -60,16 +58,13 @@ Result<const RestageExporter1*> find_exporter(const std::string& path, const std
         known += (known.empty() ? "" : ", ") + std::string(entry.table->format);
     known = known.empty() ? "no exporter plugin is loaded" : "known are: " + known;
     if (!format.empty()) {
-        if (const auto* entry = registry.find_exporter(format))
-            return entry->table;
+        if (const auto* entry = registry.find_exporter(format)) return entry->table;
         return fail("there is no exporter \"" + format + "\"; " + known);
     }
     std::string extension = std::filesystem::path(path).extension().string();
-    if (!extension.empty())
-        extension.erase(0, 1);
+    if (!extension.empty()) extension.erase(0, 1);
     for (const auto& entry : registry.exporters())
-        if (has_extension(*entry.table, extension))
-            return entry.table;
+        if (has_extension(*entry.table, extension)) return entry.table;
     return fail(path + ": no exporter writes files called ." + extension + "; " + known);
 }
 
@@ -79,8 +74,7 @@ Result<> set_option(const RestageExporter1& exporter, const std::string& assignm
         return fail("\"" + assignment + "\" is no option; write name=value");
     const std::string id = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const RestageParam* option = find_option(exporter, id);
-    if (!option)
-        return check_option(exporter, id, {});
+    if (!option) return check_option(exporter, id, {});
     Value value{.type = static_cast<RestageType>(option->type)};
     if (option->type == RESTAGE_ENUM || option->type == RESTAGE_TEXT) {
         value.text = text;
@@ -104,8 +98,7 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     for (const auto& [id, value] : options.values.entries())
         RESTAGE_CHECK(check_option(*exporter, id, value));
     for (const Problem& problem : validate(scene))
-        if (problem.severity == Problem::Severity::error)
-            return fail(path + ": not written: " + problem.sentence);
+        if (problem.severity == Problem::Severity::error) return fail(path + ": not written: " + problem.sentence);
 
     ParamSet all; // every option, set or default, in the table's order
     for (std::uint32_t i = 0; i < exporter->option_count; ++i) {
@@ -114,18 +107,20 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     }
     std::vector<RestageValue> values;
     for (const auto& [id, value] : all.entries()) {
-        RestageValue out{.id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = value.text.c_str()};
+        RestageValue out{.id = id.c_str(),
+                         .type = static_cast<std::uint32_t>(value.type),
+                         .ref = 0,
+                         .v = {},
+                         .text = value.text.c_str()};
         std::memcpy(out.v, value.v.data(), sizeof out.v);
         values.push_back(out);
     }
     SceneReader reader(scene, options.progress);
-    const bool saved = exporter->save(path.c_str(), &reader.table(), values.data(), static_cast<std::uint32_t>(values.size())) != 0;
-    if (reader.cancelled())
-        return fail(path + ": stopped on request");
-    if (!reader.error().empty())
-        return fail(reader.error());
-    if (!saved)
-        return fail(path + ": exporter \"" + exporter->format + "\" gave up and did not say why");
+    const bool saved =
+        exporter->save(path.c_str(), &reader.table(), values.data(), static_cast<std::uint32_t>(values.size())) != 0;
+    if (reader.cancelled()) return fail(path + ": stopped on request");
+    if (!reader.error().empty()) return fail(reader.error());
+    if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" gave up and did not say why");
     return std::move(reader.report);
 }
 

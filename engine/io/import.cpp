@@ -19,17 +19,14 @@ constexpr std::size_t head_bytes = 4096;
 
 Result<std::string> read_head(const std::string& path) {
     std::error_code code;
-    if (fs::is_directory(path, code))
-        return fail(path + ": is a folder; name the scene file in it");
+    if (fs::is_directory(path, code)) return fail(path + ": is a folder; name the scene file in it");
     std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (!file)
-        return fail(path + ": cannot be opened: " + std::generic_category().message(errno));
+    if (!file) return fail(path + ": cannot be opened: " + std::generic_category().message(errno));
     std::string head(head_bytes, '\0');
     head.resize(std::fread(head.data(), 1, head.size(), file));
     const bool failed = std::ferror(file) != 0;
     std::fclose(file);
-    if (failed)
-        return fail(path + ": cannot be read");
+    if (failed) return fail(path + ": cannot be read");
     return head;
 }
 
@@ -40,11 +37,10 @@ std::string known_formats(const plugin::Registry& registry) {
     return list.empty() ? "no importer plugin is loaded; `restage plugins` says why" : "known are: " + list;
 }
 
-Result<const RestageImporter1*> choose(const std::string& path, const std::string& head, const plugin::Registry& registry,
-                                       const std::string& format) {
+Result<const RestageImporter1*> choose(const std::string& path, const std::string& head,
+                                       const plugin::Registry& registry, const std::string& format) {
     if (!format.empty()) {
-        if (const auto* entry = registry.find_importer(format))
-            return entry->table;
+        if (const auto* entry = registry.find_importer(format)) return entry->table;
         return fail(path + ": there is no importer \"" + format + "\"; " + known_formats(registry));
     }
     const RestageImporter1* best = nullptr;
@@ -54,8 +50,7 @@ Result<const RestageImporter1*> choose(const std::string& path, const std::strin
             best = entry.table;
             best_score = score;
         }
-    if (!best)
-        return fail(path + ": the format of this file is not known; " + known_formats(registry));
+    if (!best) return fail(path + ": the format of this file is not known; " + known_formats(registry));
     return best;
 }
 
@@ -63,29 +58,24 @@ Result<const RestageImporter1*> choose(const std::string& path, const std::strin
 
 std::string to_string(const ReportEntry& entry) {
     std::string line = entry.file;
-    if (entry.line)
-        line += ":" + std::to_string(entry.line);
+    if (entry.line) line += ":" + std::to_string(entry.line);
     line += (line.empty() ? "" : ": ") + std::string(to_string(entry.fate)) + ": " + entry.what;
     return entry.note.empty() ? line : line + ": " + entry.note;
 }
 
-Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry& registry, const ImportOptions& options) {
+Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry& registry,
+                                   const ImportOptions& options) {
     RESTAGE_TRY(const std::string head, read_head(path));
     RESTAGE_TRY(const RestageImporter1* importer, choose(path, head, registry, options.format));
     SceneWriter writer(registry, options.progress);
     const bool loaded = importer->load(path.c_str(), &writer.table()) != 0;
-    if (writer.cancelled())
-        return fail(path + ": stopped on request");
-    if (!writer.error().empty())
-        return fail(writer.error());
-    if (!loaded)
-        return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");
+    if (writer.cancelled()) return fail(path + ": stopped on request");
+    if (!writer.error().empty()) return fail(writer.error());
+    if (!loaded) return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");
     std::optional<Jobs> own;
     Jobs& jobs = options.jobs ? *options.jobs : own.emplace();
-    if (auto finished = writer.finish(jobs, options.read_images); !finished)
-        return fail(path, finished.error());
-    if (writer.scene.format.empty())
-        writer.scene.format = importer->format;
+    if (auto finished = writer.finish(jobs, options.read_images); !finished) return fail(path, finished.error());
+    if (writer.scene.format.empty()) writer.scene.format = importer->format;
     return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format};
 }
 

@@ -2,10 +2,10 @@
 // What an import or export did to the things in a file: kept, approximated or dropped, each with its place and reason.
 #pragma once
 
+#include <restage/scene_io.h>
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <restage/scene_io.h>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -40,7 +40,7 @@ std::uint64_t hash_of(const std::vector<T>& values, std::uint64_t seed) {
 }
 
 class Describer {
-public:
+  public:
     Describer(const Scene& scene, const plugin::Registry& registry) : scene_(scene), registry_(registry) {
         scene.instances.each([&](auto, const Instance& i) { ++members_[i.group.value]; });
     }
@@ -59,27 +59,25 @@ public:
 
     std::string image(Id<Image> id) {
         const Image* i = scene_.images.find(id);
-        if (!i)
-            return "no image";
+        if (!i) return "no image";
         std::string& text = images_[id.value];
         if (text.empty() && i->data)
             text = "image " + std::to_string(i->data->width) + "x" + std::to_string(i->data->height) + ", hash " +
                    std::to_string(hash_of(i->data->values, i->data->channels));
         if (text.empty())
-            text = "image file " + i->path.substr(i->path.find_last_of("/\\") + 1) + (i->encoding == RESTAGE_LINEAR ? " linear" : "");
+            text = "image file " + i->path.substr(i->path.find_last_of("/\\") + 1) +
+                   (i->encoding == RESTAGE_LINEAR ? " linear" : "");
         return text;
     }
 
     std::string texture(Id<Texture> id, int depth) {
         const Texture* t = scene_.textures.find(id);
-        if (!t || depth > 16)
-            return "no texture";
+        if (!t || depth > 16) return "no texture";
         std::string text = t->type + (t->is_float ? " float" : "");
-        if (t->image)
-            text += " (" + image(t->image) + ")";
-        static const std::map<std::string, std::string, std::less<>> defaults{{"uscale", "1"}, {"vscale", "1"}, {"udelta", "0"},
-                                                                              {"vdelta", "0"}, {"scale", "1"},  {"invert", "0"},
-                                                                              {"wrap", "repeat"}};
+        if (t->image) text += " (" + image(t->image) + ")";
+        static const std::map<std::string, std::string, std::less<>> defaults{
+            {"uscale", "1"}, {"vscale", "1"}, {"udelta", "0"},   {"vdelta", "0"},
+            {"scale", "1"},  {"invert", "0"}, {"wrap", "repeat"}};
         std::map<std::string, std::string> params;
         for (const auto& [name, v] : t->params.entries()) {
             const std::string shown_value = value(v, depth);
@@ -91,8 +89,7 @@ public:
 
     std::string material(Id<Material> id, int depth = 0) {
         const Material* m = scene_.materials.find(id);
-        if (!m || depth > 16)
-            return "no material";
+        if (!m || depth > 16) return "no material";
         std::map<std::string, std::string> params;
         if (const auto* plugin = registry_.find_material(m->type)) {
             for (std::uint32_t i = 0; i < plugin->table->param_count; ++i) {
@@ -101,8 +98,7 @@ public:
                 params[line.id] = value(set ? *set : default_value(line), depth);
             }
             for (const char* common : {"bump", "normalmap"})
-                if (m->params.texture(common))
-                    params[common] = texture(m->params.texture(common), depth + 1);
+                if (m->params.texture(common)) params[common] = texture(m->params.texture(common), depth + 1);
         } else {
             for (const auto& [name, v] : m->params.entries())
                 params[name] = value(v, depth);
@@ -119,37 +115,33 @@ public:
         std::string text = mesh(i.mesh) + "; " + material(i.material);
         if (i.emission)
             text += "; emits " + shown(i.emission->radiance) + (i.emission->two_sided ? " from both sides" : "");
-        if (i.media)
-            text += "; media " + medium(i.media->interior) + " " + medium(i.media->exterior);
+        if (i.media) text += "; media " + medium(i.media->interior) + " " + medium(i.media->exterior);
         if (i.alpha_texture)
             text += "; alpha " + texture(i.alpha_texture, 0);
         else if (i.alpha != 1)
             text += "; alpha " + shown(i.alpha);
-        if (i.reverse_orientation)
-            text += "; reversed";
-        if (i.hidden)
-            text += "; hidden";
+        if (i.reverse_orientation) text += "; reversed";
+        if (i.hidden) text += "; hidden";
         if (i.group && members_[i.group.value] > 1)
             text += "; in a group of " + std::to_string(members_[i.group.value]);
         return text;
     }
 
-private:
+  private:
     std::string value(const Value& v, int depth) {
-        if (v.texture)
-            return texture(v.texture, depth + 1);
+        if (v.texture) return texture(v.texture, depth + 1);
         switch (v.type) {
-        case RESTAGE_COLOR:
-            return shown(glm::vec3(v.v[0], v.v[1], v.v[2]));
-        case RESTAGE_ENUM:
-        case RESTAGE_TEXT:
-            return v.text;
-        case RESTAGE_MATERIAL:
-            return "{" + material(v.material, depth + 1) + "}";
-        case RESTAGE_TEXTURE:
-            return "none";
-        default:
-            return shown(v.v[0]);
+            case RESTAGE_COLOR:
+                return shown(glm::vec3(v.v[0], v.v[1], v.v[2]));
+            case RESTAGE_ENUM:
+            case RESTAGE_TEXT:
+                return v.text;
+            case RESTAGE_MATERIAL:
+                return "{" + material(v.material, depth + 1) + "}";
+            case RESTAGE_TEXTURE:
+                return "none";
+            default:
+                return shown(v.v[0]);
         }
     }
     static std::string list(const std::map<std::string, std::string>& params) {
@@ -166,7 +158,7 @@ private:
 };
 
 class Comparison {
-public:
+  public:
     Comparison(const Scene& a, const Scene& b, const plugin::Registry& registry, const CompareOptions& options)
         : a_(a), b_(b), describe_a_(a, registry), describe_b_(b, registry), options_(options) {}
 
@@ -176,19 +168,16 @@ public:
         environment();
         camera();
         film();
-        if (found_ > options_.most)
-            out_.push_back(std::to_string(found_ - options_.most) + " more differences");
+        if (found_ > options_.most) out_.push_back(std::to_string(found_ - options_.most) + " more differences");
         return std::move(out_);
     }
 
-private:
+  private:
     void differ(const std::string& sentence) {
-        if (++found_ <= options_.most)
-            out_.push_back(sentence);
+        if (++found_ <= options_.most) out_.push_back(sentence);
     }
     void same(const std::string& what, const std::string& x, const std::string& y) {
-        if (x != y)
-            differ(what + ": " + x + " | " + y);
+        if (x != y) differ(what + ": " + x + " | " + y);
     }
 
     void instances() {
@@ -197,7 +186,8 @@ private:
             bool taken = false;
         };
         std::map<std::string, std::vector<Other>> others;
-        b_.instances.each([&](auto, const Instance& i) { others[describe_b_.instance(i)].push_back({i.object_to_world}); });
+        b_.instances.each(
+            [&](auto, const Instance& i) { others[describe_b_.instance(i)].push_back({i.object_to_world}); });
         std::size_t left = b_.instances.live();
         a_.instances.each([&](auto, const Instance& i) {
             const std::string text = describe_a_.instance(i);
@@ -216,8 +206,7 @@ private:
         if (left > 0)
             for (const auto& [text, list] : others)
                 for (const Other& o : list)
-                    if (!o.taken)
-                        differ("only in the second scene: " + text);
+                    if (!o.taken) differ("only in the second scene: " + text);
     }
 
     void lights() {
@@ -226,12 +215,9 @@ private:
             s.lights.each([&](auto, const Light& l) {
                 const glm::dvec3 at(l.light_to_world[3]), along = glm::normalize(glm::dvec3(l.light_to_world[2]));
                 std::string text = "light " + std::to_string(l.kind) + " of " + shown(l.value);
-                if (l.kind != RESTAGE_LIGHT_DISTANT)
-                    text += " at " + shown(glm::vec3(at));
-                if (l.kind != RESTAGE_LIGHT_POINT)
-                    text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
-                if (l.kind == RESTAGE_LIGHT_SPOT)
-                    text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta);
+                if (l.kind != RESTAGE_LIGHT_DISTANT) text += " at " + shown(glm::vec3(at));
+                if (l.kind != RESTAGE_LIGHT_POINT) text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
+                if (l.kind == RESTAGE_LIGHT_SPOT) text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta);
                 all.push_back(std::move(text));
             });
             std::sort(all.begin(), all.end());
@@ -263,9 +249,9 @@ private:
             return;
         }
         const auto describe = [](const Camera& c) {
-            std::string text = "fov " + shown(c.fov) + ", lens " + shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
-            if (c.lens_radius > 0)
-                text += ", focus " + shown(c.focal_distance);
+            std::string text =
+                "fov " + shown(c.fov) + ", lens " + shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
+            if (c.lens_radius > 0) text += ", focus " + shown(c.focal_distance);
             if (c.screen_window)
                 text += ", window " + shown(glm::vec3(*c.screen_window)) + " " + shown(c.screen_window->w);
             return text;
@@ -280,11 +266,11 @@ private:
     void film() {
         const auto describe = [](const Scene& s) {
             const Film& f = s.film.value;
-            return std::to_string(f.width) + "x" + std::to_string(f.height) + ", crop " + shown(glm::vec3(f.crop)) + " " +
-                   shown(f.crop.w) + ", filter " + std::to_string(static_cast<int>(f.filter.kind)) + " " +
-                   shown(glm::vec3(f.filter.radius, f.filter.params.x)) + " " + shown(f.filter.params.y) + ", exposure " +
-                   shown(f.exposure) + ", depth " + std::to_string(s.settings.value.max_depth) + ", samples " +
-                   std::to_string(s.settings.value.samples);
+            return std::to_string(f.width) + "x" + std::to_string(f.height) + ", crop " + shown(glm::vec3(f.crop)) +
+                   " " + shown(f.crop.w) + ", filter " + std::to_string(static_cast<int>(f.filter.kind)) + " " +
+                   shown(glm::vec3(f.filter.radius, f.filter.params.x)) + " " + shown(f.filter.params.y) +
+                   ", exposure " + shown(f.exposure) + ", depth " + std::to_string(s.settings.value.max_depth) +
+                   ", samples " + std::to_string(s.settings.value.samples);
         };
         same("film and settings", describe(a_), describe(b_));
     }

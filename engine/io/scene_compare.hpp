@@ -13,7 +13,7 @@ namespace restage::io {
 
 struct CompareOptions {
     double transform_tolerance = 1e-9; // of the largest entry of the matrix
-    std::size_t most = 20;             // differences listed
+    std::size_t most = 20; // differences listed
 };
 
 // Sentences, none when the scenes are alike. The registry gives the defaults of parameters that are not set.

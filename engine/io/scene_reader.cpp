@@ -19,16 +19,16 @@ void copy(glm::vec3 from, float to[3]) { std::memcpy(to, &from.x, 3 * sizeof(flo
 
 const char* filter_name(FilterKind kind) {
     switch (kind) {
-    case FilterKind::box:
-        return "box";
-    case FilterKind::triangle:
-        return "triangle";
-    case FilterKind::gaussian:
-        return "gaussian";
-    case FilterKind::mitchell:
-        return "mitchell";
-    case FilterKind::sinc:
-        return "sinc";
+        case FilterKind::box:
+            return "box";
+        case FilterKind::triangle:
+            return "triangle";
+        case FilterKind::gaussian:
+            return "gaussian";
+        case FilterKind::mitchell:
+            return "mitchell";
+        case FilterKind::sinc:
+            return "sinc";
     }
     return "box";
 }
@@ -38,10 +38,10 @@ const char* filter_name(FilterKind kind) {
 const RestageValue* SceneReader::values(const ParamSet& params, std::uint32_t& count) {
     auto& list = values_.emplace_back();
     for (const auto& [id, value] : params.entries()) {
-        RestageValue out{.id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = nullptr};
+        RestageValue out{
+            .id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = nullptr};
         std::memcpy(out.v, value.v.data(), sizeof out.v);
-        if (value.type == RESTAGE_ENUM || value.type == RESTAGE_TEXT)
-            out.text = value.text.c_str();
+        if (value.type == RESTAGE_ENUM || value.type == RESTAGE_TEXT) out.text = value.text.c_str();
         out.ref = value.type == RESTAGE_MATERIAL ? value.material.value : value.texture.value;
         list.push_back(out);
     }
@@ -56,33 +56,32 @@ struct SceneReader::Calls {
     static std::uint32_t count(void* ctx, std::uint32_t kind) {
         const Scene& s = scene(ctx);
         switch (kind) {
-        case RESTAGE_KIND_MESH:
-            return s.meshes.size();
-        case RESTAGE_KIND_IMAGE:
-            return s.images.size();
-        case RESTAGE_KIND_TEXTURE:
-            return s.textures.size();
-        case RESTAGE_KIND_MATERIAL:
-            return s.materials.size();
-        case RESTAGE_KIND_MEDIUM:
-            return s.media.size();
-        case RESTAGE_KIND_GROUP:
-            return s.groups.size();
-        case RESTAGE_KIND_INSTANCE:
-            return s.instances.size();
-        case RESTAGE_KIND_LIGHT:
-            return s.lights.size();
-        case RESTAGE_KIND_CAMERA:
-            return s.cameras.size();
-        default:
-            return 0;
+            case RESTAGE_KIND_MESH:
+                return s.meshes.size();
+            case RESTAGE_KIND_IMAGE:
+                return s.images.size();
+            case RESTAGE_KIND_TEXTURE:
+                return s.textures.size();
+            case RESTAGE_KIND_MATERIAL:
+                return s.materials.size();
+            case RESTAGE_KIND_MEDIUM:
+                return s.media.size();
+            case RESTAGE_KIND_GROUP:
+                return s.groups.size();
+            case RESTAGE_KIND_INSTANCE:
+                return s.instances.size();
+            case RESTAGE_KIND_LIGHT:
+                return s.lights.size();
+            case RESTAGE_KIND_CAMERA:
+                return s.cameras.size();
+            default:
+                return 0;
         }
     }
 
     static int mesh(void* ctx, RestageHandle handle, RestageMesh* out) {
         const Mesh* m = scene(ctx).meshes.find({handle});
-        if (!m || !m->data)
-            return 0;
+        if (!m || !m->data) return 0;
         const MeshData& d = *m->data;
         *out = {.text = text(*m),
                 .vertex_count = static_cast<std::uint32_t>(d.positions.size()),
@@ -98,8 +97,7 @@ struct SceneReader::Calls {
 
     static int image(void* ctx, RestageHandle handle, RestageImage* out) {
         const Image* i = scene(ctx).images.find({handle});
-        if (!i)
-            return 0;
+        if (!i) return 0;
         *out = {.text = text(*i),
                 .path = i->path.c_str(),
                 .encoding = static_cast<std::uint32_t>(i->encoding),
@@ -119,17 +117,20 @@ struct SceneReader::Calls {
 
     static int texture(void* ctx, RestageHandle handle, RestageTexture* out) {
         const Texture* t = scene(ctx).textures.find({handle});
-        if (!t)
-            return 0;
-        *out = {.text = text(*t), .type = t->type.c_str(), .is_float = t->is_float, .image = t->image.value, .values = nullptr, .value_count = 0};
+        if (!t) return 0;
+        *out = {.text = text(*t),
+                .type = t->type.c_str(),
+                .is_float = t->is_float,
+                .image = t->image.value,
+                .values = nullptr,
+                .value_count = 0};
         out->values = self(ctx).values(t->params, out->value_count);
         return 1;
     }
 
     static int material(void* ctx, RestageHandle handle, RestageMaterialDesc* out) {
         const Material* m = scene(ctx).materials.find({handle});
-        if (!m)
-            return 0;
+        if (!m) return 0;
         *out = {.text = text(*m), .type = m->type.c_str(), .values = nullptr, .value_count = 0};
         out->values = self(ctx).values(m->params, out->value_count);
         return 1;
@@ -137,8 +138,7 @@ struct SceneReader::Calls {
 
     static int medium(void* ctx, RestageHandle handle, RestageMedium* out) {
         const Medium* m = scene(ctx).media.find({handle});
-        if (!m)
-            return 0;
+        if (!m) return 0;
         *out = {.text = text(*m), .sigma_a = {}, .sigma_s = {}, .g = m->g};
         copy(m->sigma_a, out->sigma_a);
         copy(m->sigma_s, out->sigma_s);
@@ -147,16 +147,14 @@ struct SceneReader::Calls {
 
     static int group(void* ctx, RestageHandle handle, RestageGroup* out) {
         const Group* g = scene(ctx).groups.find({handle});
-        if (!g)
-            return 0;
+        if (!g) return 0;
         *out = {.text = text(*g), .parent = g->parent.value};
         return 1;
     }
 
     static int instance(void* ctx, RestageHandle handle, RestageInstance* out) {
         const Instance* i = scene(ctx).instances.find({handle});
-        if (!i)
-            return 0;
+        if (!i) return 0;
         *out = {.text = text(*i),
                 .mesh = i->mesh.value,
                 .material = i->material.value,
@@ -169,14 +167,11 @@ struct SceneReader::Calls {
                 .alpha = i->alpha,
                 .emission = {},
                 .object_to_world = {}};
-        if (i->reverse_orientation)
-            out->flags |= RESTAGE_INSTANCE_REVERSE_ORIENTATION;
-        if (i->hidden)
-            out->flags |= RESTAGE_INSTANCE_HIDDEN;
+        if (i->reverse_orientation) out->flags |= RESTAGE_INSTANCE_REVERSE_ORIENTATION;
+        if (i->hidden) out->flags |= RESTAGE_INSTANCE_HIDDEN;
         if (i->emission) {
             out->flags |= RESTAGE_INSTANCE_EMITS;
-            if (i->emission->two_sided)
-                out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
+            if (i->emission->two_sided) out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
             copy(i->emission->radiance, out->emission);
         }
         copy(i->object_to_world, out->object_to_world);
@@ -185,8 +180,7 @@ struct SceneReader::Calls {
 
     static int light(void* ctx, RestageHandle handle, RestageLight* out) {
         const Light* l = scene(ctx).lights.find({handle});
-        if (!l)
-            return 0;
+        if (!l) return 0;
         *out = {.text = text(*l),
                 .kind = static_cast<std::uint32_t>(l->kind),
                 .value = {},
@@ -200,9 +194,12 @@ struct SceneReader::Calls {
 
     static int environment(void* ctx, RestageEnvironment* out) {
         const auto& e = scene(ctx).environment.value;
-        if (!e)
-            return 0;
-        *out = {.text = text(*e), .image = e->image.value, .mapping = static_cast<std::uint32_t>(e->mapping), .scale = {}, .light_to_world = {}};
+        if (!e) return 0;
+        *out = {.text = text(*e),
+                .image = e->image.value,
+                .mapping = static_cast<std::uint32_t>(e->mapping),
+                .scale = {},
+                .light_to_world = {}};
         copy(e->scale, out->scale);
         copy(e->light_to_world, out->light_to_world);
         return 1;
@@ -210,8 +207,7 @@ struct SceneReader::Calls {
 
     static int camera(void* ctx, RestageHandle handle, RestageCamera* out) {
         const Camera* c = scene(ctx).cameras.find({handle});
-        if (!c)
-            return 0;
+        if (!c) return 0;
         *out = {.text = text(*c),
                 .camera_to_world = {},
                 .fov = c->fov,
@@ -249,19 +245,18 @@ struct SceneReader::Calls {
     }
 
     static void report(void* ctx, int fate, const char* what, const char* note) {
-        self(ctx).report.add(static_cast<RestageFate>(fate < 0 || fate > 2 ? 2 : fate), what ? what : "", note ? note : "");
+        self(ctx).report.add(static_cast<RestageFate>(fate < 0 || fate > 2 ? 2 : fate), what ? what : "",
+                             note ? note : "");
     }
 
     static void error(void* ctx, const char* file, const char* message) {
         std::string& e = self(ctx).error_;
-        if (e.empty())
-            e = std::string(file ? file : "") + (file && *file ? ": " : "") + (message ? message : "");
+        if (e.empty()) e = std::string(file ? file : "") + (file && *file ? ": " : "") + (message ? message : "");
     }
 
     static int progress(void* ctx, float done, const char* what) {
         SceneReader& s = self(ctx);
-        if (!s.cancelled_ && s.progress_ && !s.progress_(done, what ? what : ""))
-            s.cancelled_ = true;
+        if (!s.cancelled_ && s.progress_ && !s.progress_(done, what ? what : "")) s.cancelled_ = true;
         return !s.cancelled_;
     }
 };

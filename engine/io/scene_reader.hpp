@@ -6,15 +6,15 @@
 #include "io/report.hpp"
 #include "scene/scene.hpp"
 
-#include <deque>
 #include <restage/scene_io.h>
+#include <deque>
 #include <string>
 #include <vector>
 
 namespace restage::io {
 
 class SceneReader {
-public:
+  public:
     SceneReader(const scene::Scene&, Progress);
     SceneReader(const SceneReader&) = delete; // table().ctx is this
     SceneReader& operator=(const SceneReader&) = delete;
@@ -25,7 +25,7 @@ public:
 
     Report report;
 
-private:
+  private:
     struct Calls; // the C functions
     const RestageValue* values(const scene::ParamSet&, std::uint32_t& count);
 

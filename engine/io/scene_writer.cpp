@@ -52,19 +52,16 @@ void SceneWriter::refuse(const std::string& what, const std::string& why) { repo
 
 Origin SceneWriter::origin(const RestageText& t) {
     Origin result{text(t.verbatim), text(t.verbatim_format)};
-    if (scene.format.empty())
-        scene.format = result.format;
+    if (scene.format.empty()) scene.format = result.format;
     return result;
 }
 
 std::string SceneWriter::unique_name(const char* kind, const std::string& wanted) {
     auto& taken = names_[kind];
-    if (!wanted.empty() && taken.insert(wanted).second)
-        return wanted;
+    if (!wanted.empty() && taken.insert(wanted).second) return wanted;
     const std::string base = wanted.empty() ? kind : wanted;
     unsigned& number = numbers_[std::string(kind) + '\n' + base];
-    if (number == 0 && !wanted.empty())
-        number = 1; // the second "chair" is "chair 2"
+    if (number == 0 && !wanted.empty()) number = 1; // the second "chair" is "chair 2"
     std::string name;
     do
         name = base + " " + std::to_string(++number);
@@ -82,11 +79,10 @@ RestageHandle SceneWriter::push(T item) {
 
 template <class T>
 bool SceneWriter::known(RestageHandle handle, const char* who_kind, const std::string& who, bool needed) {
-    if (handle == 0 ? !needed : scene::table<T>(scene).find({handle}) != nullptr)
-        return true;
+    if (handle == 0 ? !needed : scene::table<T>(scene).find({handle}) != nullptr) return true;
     refuse(std::string(who_kind) + " \"" + who + "\"",
-           handle == 0 ? std::string("it has no ") + kind_name<T> : std::string("there is no ") + kind_name<T> + " " +
-                                                                        std::to_string(handle));
+           handle == 0 ? std::string("it has no ") + kind_name<T>
+                       : std::string("there is no ") + kind_name<T> + " " + std::to_string(handle));
     return false;
 }
 
@@ -104,9 +100,10 @@ ParamSet SceneWriter::params(const RestageValue* values, std::uint32_t count, co
             drop("not a finite number; the default stands for it");
             continue;
         }
-        Value value{.type = static_cast<RestageType>(in.type), .v = {in.v[0], in.v[1], in.v[2], in.v[3]}, .text = text(in.text)};
-        if (value.type == RESTAGE_COLOR)
-            value.v[3] = 0; // a colour has three; equal colours compare equal
+        Value value{.type = static_cast<RestageType>(in.type),
+                    .v = {in.v[0], in.v[1], in.v[2], in.v[3]},
+                    .text = text(in.text)};
+        if (value.type == RESTAGE_COLOR) value.v[3] = 0; // a colour has three; equal colours compare equal
         if (in.ref && value.type == RESTAGE_MATERIAL) {
             value.material = {in.ref};
             if (!scene.materials.find(value.material)) {
@@ -156,14 +153,14 @@ struct SceneWriter::Calls {
             };
             copy(data->positions, in->positions);
             data->triangles.resize(in->triangle_count);
-            std::memcpy(static_cast<void*>(data->triangles.data()), in->indices, data->triangles.size() * sizeof(glm::uvec3));
+            std::memcpy(static_cast<void*>(data->triangles.data()), in->indices,
+                        data->triangles.size() * sizeof(glm::uvec3));
             if (const std::string problem = check_mesh(*data); !problem.empty()) {
                 w.refuse(who, problem);
                 return 0;
             }
             const auto optional = [&](auto& to, const float* from) { // worth less than the mesh itself
-                if (!from)
-                    return;
+                if (!from) return;
                 copy(to, from);
                 if (const std::string problem = check_mesh(*data); !problem.empty()) {
                     w.report.add(RESTAGE_APPROXIMATED, who, problem + "; done without");
@@ -183,15 +180,14 @@ struct SceneWriter::Calls {
 
     static RestageHandle image(void* ctx, const RestageImage* in) {
         return guarded(ctx, "image", [&](SceneWriter& w) -> RestageHandle {
-            Image image{.path = text(in->path), .encoding = static_cast<RestageEncoding>(in->encoding), .gamma = in->gamma};
+            Image image{
+                .path = text(in->path), .encoding = static_cast<RestageEncoding>(in->encoding), .gamma = in->gamma};
             std::string name = text(in->text.name);
-            if (name.empty())
-                name = image.path.substr(image.path.find_last_of("/\\") + 1);
+            if (name.empty()) name = image.path.substr(image.path.find_last_of("/\\") + 1);
             const std::string who = "image \"" + name + "\"";
             const auto key = std::tuple(image.path, in->encoding, in->gamma);
             if (!image.path.empty()) {
-                if (const auto it = w.image_files_.find(key); it != w.image_files_.end())
-                    return it->second;
+                if (const auto it = w.image_files_.find(key); it != w.image_files_.end()) return it->second;
             } else if (in->pixels) {
                 if (in->width == 0 || in->height == 0 || in->width > 65536 || in->height > 65536 ||
                     (in->channels != 1 && in->channels != 3 && in->channels != 4)) {
@@ -210,8 +206,7 @@ struct SceneWriter::Calls {
             image.origin = w.origin(in->text);
             const bool file = !image.path.empty();
             const RestageHandle handle = w.push(std::move(image));
-            if (file)
-                w.image_files_[key] = handle;
+            if (file) w.image_files_[key] = handle;
             return handle;
         });
     }
@@ -219,8 +214,7 @@ struct SceneWriter::Calls {
     static RestageHandle texture(void* ctx, const RestageTexture* in) {
         return guarded(ctx, "texture", [&](SceneWriter& w) -> RestageHandle {
             const std::string name = text(in->text.name);
-            if (!w.known<Image>(in->image, "texture", name))
-                return 0;
+            if (!w.known<Image>(in->image, "texture", name)) return 0;
             return w.push(Texture{.name = w.unique_name("texture", name),
                                   .type = text(in->type),
                                   .is_float = in->is_float != 0,
@@ -256,8 +250,7 @@ struct SceneWriter::Calls {
 
     static RestageHandle group(void* ctx, const RestageGroup* in) {
         return guarded(ctx, "group", [&](SceneWriter& w) -> RestageHandle {
-            if (!w.known<Group>(in->parent, "group", text(in->text.name)))
-                return 0;
+            if (!w.known<Group>(in->parent, "group", text(in->text.name))) return 0;
             return w.push(Group{.name = w.unique_name("group", text(in->text.name)),
                                 .parent = {in->parent},
                                 .origin = w.origin(in->text)});
@@ -268,7 +261,8 @@ struct SceneWriter::Calls {
         return guarded(ctx, "instance", [&](SceneWriter& w) -> RestageHandle {
             const std::string name = text(in->text.name);
             if (!w.known<Mesh>(in->mesh, "instance", name, true) ||
-                !w.known<Material>(in->material, "instance", name, true) || !w.known<Group>(in->group, "instance", name) ||
+                !w.known<Material>(in->material, "instance", name, true) ||
+                !w.known<Group>(in->group, "instance", name) ||
                 !w.known<Texture>(in->alpha_texture, "instance", name) ||
                 !w.known<Medium>(in->interior, "instance", name) || !w.known<Medium>(in->exterior, "instance", name))
                 return 0;
@@ -289,8 +283,7 @@ struct SceneWriter::Calls {
                               .origin = w.origin(in->text)};
             if (in->flags & RESTAGE_INSTANCE_EMITS)
                 instance.emission = Emission{vec3(in->emission), (in->flags & RESTAGE_INSTANCE_TWO_SIDED) != 0};
-            if (in->has_medium_interface)
-                instance.media = MediumInterface{{in->interior}, {in->exterior}};
+            if (in->has_medium_interface) instance.media = MediumInterface{{in->interior}, {in->exterior}};
             return w.push(std::move(instance));
         });
     }
@@ -320,14 +313,14 @@ struct SceneWriter::Calls {
     static void environment(void* ctx, const RestageEnvironment* in) {
         guarded(ctx, "environment", [&](SceneWriter& w) -> RestageHandle {
             const glm::dmat4 to_world = matrix(in->light_to_world);
-            if (!w.known<Image>(in->image, "environment", text(in->text.name)))
-                return 0;
+            if (!w.known<Image>(in->image, "environment", text(in->text.name))) return 0;
             if (!affine(to_world) || !finite3(in->scale)) {
                 w.refuse("the environment", "its scale or transform is not finite, or not affine");
                 return 0;
             }
             if (w.scene.environment.value)
-                w.refuse("environment \"" + w.scene.environment.value->name + "\"", "another one follows; the last one counts");
+                w.refuse("environment \"" + w.scene.environment.value->name + "\"",
+                         "another one follows; the last one counts");
             const std::string name = text(in->text.name);
             w.scene.environment = {Environment{.name = name.empty() ? "environment" : name,
                                                .image = {in->image},
@@ -360,16 +353,14 @@ struct SceneWriter::Calls {
             if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
                 camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
             const RestageHandle handle = w.push(std::move(camera));
-            if (!w.scene.active_camera.value)
-                w.scene.active_camera = {{handle}, w.scene.clock};
+            if (!w.scene.active_camera.value) w.scene.active_camera = {{handle}, w.scene.clock};
             return handle;
         });
     }
 
     static void camera_medium(void* ctx, RestageHandle medium) {
         guarded(ctx, "camera medium", [&](SceneWriter& w) -> RestageHandle {
-            if (w.known<Medium>(medium, "medium of", "the camera"))
-                w.scene.settings.value.camera_medium = {medium};
+            if (w.known<Medium>(medium, "medium of", "the camera")) w.scene.settings.value.camera_medium = {medium};
             return 0;
         });
     }
@@ -393,8 +384,7 @@ struct SceneWriter::Calls {
         guarded(ctx, "settings", [&](SceneWriter& w) -> RestageHandle {
             Settings& s = w.scene.settings.value;
             s.max_depth = in->max_depth;
-            if (in->samples)
-                s.samples = in->samples;
+            if (in->samples) s.samples = in->samples;
             s.origin = w.origin(in->text);
             return 0;
         });
@@ -411,8 +401,7 @@ struct SceneWriter::Calls {
         guarded(ctx, "error", [&](SceneWriter& w) -> RestageHandle {
             if (w.error_.empty()) {
                 w.error_ = text(file);
-                if (line)
-                    w.error_ += ":" + std::to_string(line) + (column ? ":" + std::to_string(column) : "");
+                if (line) w.error_ += ":" + std::to_string(line) + (column ? ":" + std::to_string(column) : "");
                 w.error_ += (w.error_.empty() ? "" : ": ") + text(message);
             }
             return 0;
@@ -421,16 +410,14 @@ struct SceneWriter::Calls {
 
     static int progress(void* ctx, float done, const char* what) {
         return static_cast<int>(guarded(ctx, "progress", [&](SceneWriter& w) -> RestageHandle {
-            if (!w.cancelled_ && w.progress_ && !w.progress_(done, text(what)))
-                w.cancelled_ = true;
+            if (!w.cancelled_ && w.progress_ && !w.progress_(done, text(what))) w.cancelled_ = true;
             return !w.cancelled_;
         }));
     }
 
     static const RestageParam* material_table(void* ctx, const char* type, std::uint32_t* count) {
         const auto* entry = self(ctx).registry_.find_material(type ? type : "");
-        if (count)
-            *count = entry ? entry->table->param_count : 0;
+        if (count) *count = entry ? entry->table->param_count : 0;
         return entry ? entry->table->params : nullptr;
     }
 };

@@ -10,8 +10,8 @@
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
 
-#include <map>
 #include <restage/scene_io.h>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -19,7 +19,7 @@
 namespace restage::io {
 
 class SceneWriter {
-public:
+  public:
     SceneWriter(const plugin::Registry&, Progress);
     SceneWriter(const SceneWriter&) = delete; // table().ctx is this
     SceneWriter& operator=(const SceneWriter&) = delete;
@@ -34,7 +34,7 @@ public:
     scene::Scene scene;
     Report report;
 
-private:
+  private:
     struct Calls; // the C functions
     template <class T>
     RestageHandle push(T item);

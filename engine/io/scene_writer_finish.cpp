@@ -21,8 +21,7 @@ void SceneWriter::read_images(Jobs& jobs) {
     };
     std::vector<Job> work;
     scene.images.each([&](Id<Image> id, const Image& image) {
-        if (!image.data && !image.path.empty())
-            work.push_back({id, image, {}, {}});
+        if (!image.data && !image.path.empty()) work.push_back({id, image, {}, {}});
     });
     jobs.parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -61,13 +60,10 @@ void SceneWriter::add_camera() {
 }
 
 Result<> SceneWriter::finish(Jobs& jobs, bool with_images) {
-    if (!scene.active_camera.value)
-        add_camera();
-    if (with_images)
-        read_images(jobs);
+    if (!scene.active_camera.value) add_camera();
+    if (with_images) read_images(jobs);
     for (const Problem& problem : validate(scene))
-        if (problem.severity == Problem::Severity::error)
-            return fail(problem.sentence);
+        if (problem.severity == Problem::Severity::error) return fail(problem.sentence);
     scene.film.version = scene.settings.version = scene.environment.version = scene.clock;
     return {};
 }

@@ -13,8 +13,8 @@
 #if defined(__linux__)
 #include "base/file.hpp"
 
-#include <cstring>
 #include <elf.h>
+#include <cstring>
 #endif
 
 namespace restage::plugin {
@@ -32,14 +32,14 @@ const char* Library::extension() { return ".dll"; }
 
 Result<Library> Library::open(const std::filesystem::path& path) {
     // The library's own folder is searched for what it depends on; the current folder is not.
-    if (HMODULE handle = LoadLibraryExW(path.c_str(), nullptr, LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR | LOAD_LIBRARY_SEARCH_DEFAULT_DIRS))
+    if (HMODULE handle =
+            LoadLibraryExW(path.c_str(), nullptr, LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR | LOAD_LIBRARY_SEARCH_DEFAULT_DIRS))
         return Library(handle);
     return fail(path.string() + ": " + std::system_category().message(static_cast<int>(GetLastError())));
 }
 
 Library::~Library() {
-    if (handle_)
-        FreeLibrary(static_cast<HMODULE>(handle_));
+    if (handle_) FreeLibrary(static_cast<HMODULE>(handle_));
 }
 
 void* Library::symbol(const char* name) const {
@@ -63,23 +63,19 @@ Result<> check_elf(const std::filesystem::path& path) {
     Elf64_Ehdr header, ours;
     if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
         return broken("is no shared library (no ELF file)");
-    if (bytes.size() < sizeof header)
-        return broken("is truncated");
+    if (bytes.size() < sizeof header) return broken("is truncated");
     std::memcpy(&header, bytes.data(), sizeof header);
     std::memcpy(&ours, self.data(), sizeof ours);
     if (std::memcmp(header.e_ident, ours.e_ident, EI_VERSION) != 0 || header.e_machine != ours.e_machine)
         return broken("was built for another processor");
-    if (header.e_ident[EI_CLASS] != ELFCLASS64)
-        return {};
+    if (header.e_ident[EI_CLASS] != ELFCLASS64) return {};
     // The section headers are the end of a file that is whole.
     const std::uint64_t sections = std::uint64_t{header.e_shnum} * header.e_shentsize;
-    if (header.e_shoff > bytes.size() || sections > bytes.size() - header.e_shoff)
-        return broken("is truncated");
+    if (header.e_shoff > bytes.size() || sections > bytes.size() - header.e_shoff) return broken("is truncated");
     for (std::size_t i = 0; i < header.e_phnum; ++i) {
         Elf64_Phdr segment;
         const std::uint64_t at = header.e_phoff + i * sizeof segment;
-        if (at > bytes.size() || bytes.size() - at < sizeof segment)
-            return broken("is truncated");
+        if (at > bytes.size() || bytes.size() - at < sizeof segment) return broken("is truncated");
         std::memcpy(&segment, bytes.data() + at, sizeof segment);
         if (segment.p_offset > bytes.size() || segment.p_filesz > bytes.size() - segment.p_offset)
             return broken("is truncated");
@@ -95,16 +91,14 @@ Result<Library> Library::open(const std::filesystem::path& path) {
 #if defined(__linux__)
     RESTAGE_CHECK(check_elf(path));
 #endif
-    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
-        return Library(handle);
+    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
     const char* why = dlerror(); // begins with the path where it is about this file
     const std::string text = why ? why : "unknown reason";
     return fail(text.starts_with(path.string()) ? text : path.string() + ": " + text);
 }
 
 Library::~Library() {
-    if (handle_)
-        dlclose(handle_);
+    if (handle_) dlclose(handle_);
 }
 
 void* Library::symbol(const char* name) const { return dlsym(handle_, name); }

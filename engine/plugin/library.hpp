@@ -9,7 +9,7 @@
 namespace restage::plugin {
 
 class Library {
-public:
+  public:
     // All symbols are resolved at once and stay invisible to other libraries, so a plugin that does not fit fails here.
     static Result<Library> open(const std::filesystem::path&);
     static const char* extension(); // ".so", ".dll"
@@ -20,7 +20,7 @@ public:
 
     void* symbol(const char* name) const; // null = not exported
 
-private:
+  private:
     explicit Library(void* handle) : handle_(handle) {}
     void* handle_;
 };

@@ -26,8 +26,7 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
 
 Result<std::string> text_of(const json& object, const char* key, const std::string& file) {
     const auto it = object.find(key);
-    if (it == object.end())
-        return fail(file + ": \"" + key + "\" is missing");
+    if (it == object.end()) return fail(file + ": \"" + key + "\" is missing");
     if (!it->is_string() || it->get_ref<const std::string&>().empty())
         return fail(file + ": \"" + key + "\" must be a text that is not empty");
     return it->get<std::string>();
@@ -37,13 +36,11 @@ bool is_reverse_dns(const std::string& id) { // org.example.velvet
     bool dot = false, start = true;
     for (const char c : id) {
         if (c == '.') {
-            if (start)
-                return false;
+            if (start) return false;
             dot = start = true;
             continue;
         }
-        if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_'))
-            return false;
+        if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_')) return false;
         start = false;
     }
     return dot && !start;
@@ -73,12 +70,10 @@ Result<> read_abi(const json& object, const std::string& file, Manifest& out) {
         return {};
     }
     for (const char* key : {"min", "max"})
-        if (!abi->contains(key))
-            return fail(file + ": \"abi\" has no \"" + key + "\"");
+        if (!abi->contains(key)) return fail(file + ": \"abi\" has no \"" + key + "\"");
     RESTAGE_TRY(out.abi_min, revision((*abi)["min"], "\"abi\".\"min\"", file));
     RESTAGE_TRY(out.abi_max, revision((*abi)["max"], "\"abi\".\"max\"", file));
-    if (out.abi_min > out.abi_max)
-        return fail(file + ": \"abi\": min is greater than max");
+    if (out.abi_min > out.abi_max) return fail(file + ": \"abi\": min is greater than max");
     return {};
 }
 
@@ -86,14 +81,14 @@ Result<> read_abi(const json& object, const std::string& file, Manifest& out) {
 
 const char* to_string(Kind kind) {
     switch (kind) {
-    case Kind::material:
-        return "material";
-    case Kind::importer:
-        return "importer";
-    case Kind::exporter:
-        return "exporter";
-    case Kind::denoiser:
-        return "denoiser";
+        case Kind::material:
+            return "material";
+        case Kind::importer:
+            return "importer";
+        case Kind::exporter:
+            return "exporter";
+        case Kind::denoiser:
+            return "denoiser";
     }
     return "";
 }
@@ -103,13 +98,13 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
     try {
         object = json::parse(text);
     } catch (const json::parse_error& e) {
-        const std::string what = e.what(); // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ..."
+        const std::string what =
+            e.what(); // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ..."
         const std::size_t colon = what.find(": ");
-        return fail(file + ":" + line_and_column(text, e.byte) + ": not JSON: " +
-                    (colon == std::string::npos ? what : what.substr(colon + 2)));
+        return fail(file + ":" + line_and_column(text, e.byte) +
+                    ": not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2)));
     }
-    if (!object.is_object())
-        return fail(file + ": the manifest must be one JSON object { ... }");
+    if (!object.is_object()) return fail(file + ": the manifest must be one JSON object { ... }");
     Manifest out;
     RESTAGE_TRY(out.id, text_of(object, "id", file));
     if (!is_reverse_dns(out.id))
@@ -124,18 +119,16 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
             known = true;
         }
     if (!known)
-        return fail(file + ": \"kind\": \"" + kind + "\" is unknown; material, importer, exporter and denoiser are known");
+        return fail(file + ": \"kind\": \"" + kind +
+                    "\" is unknown; material, importer, exporter and denoiser are known");
     RESTAGE_CHECK(read_abi(object, file, out));
     RESTAGE_TRY(const std::string library, text_of(object, "library", file));
     RESTAGE_TRY(out.library, inner_path(library, "library", file));
-    if (!out.library.has_extension())
-        out.library += Library::extension();
+    if (!out.library.has_extension()) out.library += Library::extension();
     if (const auto files = object.find("files"); files != object.end()) {
-        if (!files->is_array())
-            return fail(file + ": \"files\" must be a list of paths");
+        if (!files->is_array()) return fail(file + ": \"files\" must be a list of paths");
         for (const json& entry : *files) {
-            if (!entry.is_string())
-                return fail(file + ": \"files\" must hold paths only");
+            if (!entry.is_string()) return fail(file + ": \"files\" must hold paths only");
             RESTAGE_TRY(fs::path path, inner_path(entry.get<std::string>(), "files", file));
             out.files.push_back(std::move(path));
         }

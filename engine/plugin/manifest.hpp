@@ -23,7 +23,7 @@ struct Manifest {
     std::string id, version, licence;
     Kind kind = Kind::material;
     std::uint32_t abi_min = 0, abi_max = 0;
-    std::filesystem::path library;            // file name as it is on this platform
+    std::filesystem::path library; // file name as it is on this platform
     std::vector<std::filesystem::path> files; // that the plugin needs beside its library
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding, judging and loading. Order of the questions: manifest, id taken, abi range, files there, library opens, entry
-// symbol, entry abi and size, id and version as promised, init, tables.
+// Finding, judging and loading. Order of the questions: manifest, id taken, abi range, files there, library opens,
+// entry symbol, entry abi and size, id and version as promised, init, tables.
 #include "plugin/registry.hpp"
 
 #include "base/file.hpp"
@@ -66,15 +66,13 @@ void find_folders(const fs::path& folder, int depth, std::vector<fs::path>& out)
         out.push_back(folder);
         return;
     }
-    if (depth == 0)
-        return;
+    if (depth == 0) return;
     std::error_code code;
     std::set<fs::path> below;
-    for (fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, code), end; !code && it != end;
-         it.increment(code)) {
+    for (fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, code), end;
+         !code && it != end; it.increment(code)) {
         std::error_code ignored;
-        if (it->is_directory(ignored))
-            below.insert(it->path());
+        if (it->is_directory(ignored)) below.insert(it->path());
     }
     for (const fs::path& f : below)
         find_folders(f, depth - 1, out);
@@ -90,8 +88,7 @@ struct Registry::Plugin {
     bool running = false; // init succeeded: shutdown is due
 
     ~Plugin() {
-        if (running && table->shutdown)
-            table->shutdown();
+        if (running && table->shutdown) table->shutdown();
     }
 };
 
@@ -104,8 +101,7 @@ Registry::~Registry() {
 
 std::vector<SearchPath> Registry::default_paths() {
     std::vector<SearchPath> paths;
-    if (const auto user = user_data_dir())
-        paths.push_back({*user / "plugins", false});
+    if (const auto user = user_data_dir()) paths.push_back({*user / "plugins", false});
 #if defined(_WIN32)
     constexpr char separator = ';';
 #else
@@ -115,8 +111,7 @@ std::vector<SearchPath> Registry::default_paths() {
         std::string_view rest = variable;
         while (!rest.empty()) {
             const std::size_t end = std::min(rest.find(separator), rest.size());
-            if (end > 0)
-                paths.push_back({fs::path(std::string(rest.substr(0, end))), true});
+            if (end > 0) paths.push_back({fs::path(std::string(rest.substr(0, end))), true});
             rest.remove_prefix(std::min(end + 1, rest.size()));
         }
     }
@@ -129,8 +124,7 @@ void Registry::scan(std::span<const SearchPath> paths) {
     for (const SearchPath& path : paths) {
         std::error_code code;
         if (!fs::is_directory(path.folder, code)) {
-            if (path.required)
-                log_.warning("plugin folder " + path.folder.string() + " does not exist");
+            if (path.required) log_.warning("plugin folder " + path.folder.string() + " does not exist");
             continue;
         }
         std::vector<fs::path> folders;
@@ -160,8 +154,7 @@ void Registry::add(const fs::path& folder) {
         log_.debug("plugin " + entry.name() + " " + entry.manifest.version + " loaded from " + folder.string());
     } else {
         entry.reason = loaded.error().message;
-        if (plugin->running && plugin->table->shutdown)
-            plugin->table->shutdown();
+        if (plugin->running && plugin->table->shutdown) plugin->table->shutdown();
         plugin->running = false;
         plugin->library.reset();
         log_.warning("plugin " + entry.name() + " is not used: " + entry.reason);
@@ -188,13 +181,11 @@ Result<> Registry::load(Plugin& plugin) {
         if (!fs::exists(entry.folder / needed, code))
             return fail(file + ": \"files\": " + (entry.folder / needed).string() + " is missing");
     const fs::path library = entry.folder / manifest.library;
-    if (!fs::exists(library, code))
-        return fail(library.string() + ": the library is missing");
+    if (!fs::exists(library, code)) return fail(library.string() + ": the library is missing");
     RESTAGE_TRY(plugin.library, Library::open(library));
 
     const auto* table = static_cast<const RestagePlugin*>(plugin.library->symbol(RESTAGE_PLUGIN_SYMBOL));
-    if (!table)
-        return fail(library.string() + ": exports no symbol \"" RESTAGE_PLUGIN_SYMBOL "\": this is no plugin");
+    if (!table) return fail(library.string() + ": exports no symbol \"" RESTAGE_PLUGIN_SYMBOL "\": this is no plugin");
     if (table->abi != RESTAGE_ABI)
         return fail(library.string() + ": was built for plugin interface " + std::to_string(table->abi) +
                     ", this program has " + std::to_string(RESTAGE_ABI) + " (its manifest says otherwise)");
@@ -202,19 +193,19 @@ Result<> Registry::load(Plugin& plugin) {
         return fail(library.string() + ": its entry table has " + std::to_string(table->size) + " bytes, " +
                     std::to_string(sizeof(RestagePlugin)) + " are needed: rebuild it with this SDK");
     if (!table->id || manifest.id != table->id)
-        return fail(library.string() + ": says its id is \"" + (table->id ? table->id : "") + "\", the manifest says \"" +
-                    manifest.id + "\"");
+        return fail(library.string() + ": says its id is \"" + (table->id ? table->id : "") +
+                    "\", the manifest says \"" + manifest.id + "\"");
     if (!table->version || manifest.version != table->version)
         return fail(library.string() + ": says its version is \"" + (table->version ? table->version : "") +
                     "\", the manifest says \"" + manifest.version + "\"");
-    if (!table->query)
-        return fail(library.string() + ": has no query function");
+    if (!table->query) return fail(library.string() + ": has no query function");
 
     plugin.table = table;
-    plugin.host = {.c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = host_version, .service = host_service},
-                   .log_table = {.size = sizeof(RestageLog1), .log = host_log},
-                   .log = &log_,
-                   .entry = &entry};
+    plugin.host = {
+        .c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = host_version, .service = host_service},
+        .log_table = {.size = sizeof(RestageLog1), .log = host_log},
+        .log = &log_,
+        .entry = &entry};
     if (table->init && !table->init(&plugin.host.c))
         return fail(library.string() + ": its init function reports failure");
     plugin.running = true;
@@ -227,16 +218,15 @@ Result<> Registry::take_tables(Plugin& plugin) {
     // All of a plugin's tables are judged before the first is taken.
     const auto take = [&]<class Table>(const char* interface_id, std::vector<Provided<Table>>& list) -> Result<> {
         std::vector<Provided<Table>> found;
-        for (std::uint32_t i = 0; const auto* table = static_cast<const Table*>(plugin.table->query(interface_id, i)); ++i) {
-            if (i == most_tables)
-                return fail(library + ": provides " + interface_id + " without end");
+        for (std::uint32_t i = 0; const auto* table = static_cast<const Table*>(plugin.table->query(interface_id, i));
+             ++i) {
+            if (i == most_tables) return fail(library + ": provides " + interface_id + " without end");
             std::string problem;
             if constexpr (std::is_same_v<Table, RestageMaterial1>)
                 problem = check_table(*table, entry.folder);
             else
                 problem = check_table(*table);
-            if (!problem.empty())
-                return fail(library + ": " + problem);
+            if (!problem.empty()) return fail(library + ": " + problem);
             if (find_in(found, key(*table)))
                 return fail(library + ": provides \"" + std::string(key(*table)) + "\" twice");
             if (const auto* other = find_in(list, key(*table)))
@@ -258,14 +248,14 @@ Result<> Registry::take_tables(Plugin& plugin) {
         return {};
     };
     switch (entry.manifest.kind) {
-    case Kind::material:
-        return take(RESTAGE_MATERIAL1, materials_);
-    case Kind::importer:
-        return take(RESTAGE_IMPORTER1, importers_);
-    case Kind::exporter:
-        return take(RESTAGE_EXPORTER1, exporters_);
-    case Kind::denoiser:
-        return take(RESTAGE_DENOISER1, denoisers_);
+        case Kind::material:
+            return take(RESTAGE_MATERIAL1, materials_);
+        case Kind::importer:
+            return take(RESTAGE_IMPORTER1, importers_);
+        case Kind::exporter:
+            return take(RESTAGE_EXPORTER1, exporters_);
+        case Kind::denoiser:
+            return take(RESTAGE_DENOISER1, denoisers_);
     }
     return {};
 }

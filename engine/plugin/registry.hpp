@@ -8,11 +8,11 @@
 #include "base/result.hpp"
 #include "plugin/manifest.hpp"
 
-#include <filesystem>
-#include <memory>
 #include <restage/denoiser.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
+#include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,7 +49,7 @@ struct SearchPath {
 };
 
 class Registry {
-public:
+  public:
     explicit Registry(Log&);
     ~Registry(); // shuts the plugins down and unloads them, the last loaded first
     Registry(const Registry&) = delete;
@@ -74,7 +74,7 @@ public:
 
     Log& log() const { return log_; }
 
-private:
+  private:
     struct Plugin;
     void add(const std::filesystem::path& folder);
     Result<> load(Plugin&);

@@ -15,19 +15,21 @@ namespace {
 
 // Words a struct member or a function prefix must not be: keywords and reserved words of GLSL 4.60, section 3.6.
 constexpr std::string_view reserved_words[] = {
-    "active",   "asm",      "attribute", "bool",     "break",    "buffer",   "bvec2",    "bvec3",    "bvec4",
-    "case",     "cast",     "centroid",  "class",    "coherent", "common",   "const",    "continue", "default",
-    "discard",  "dmat2",    "dmat3",     "dmat4",    "do",       "double",   "dvec2",    "dvec3",    "dvec4",
-    "else",     "enum",     "extern",    "external", "false",    "filter",   "fixed",    "flat",     "float",
-    "for",      "fvec2",    "fvec3",     "fvec4",    "goto",     "half",     "highp",    "hvec2",    "hvec3",
-    "hvec4",    "if",       "image1D",   "image2D",  "image3D",  "in",       "inline",   "inout",    "input",
-    "int",      "interface", "invariant", "ivec2",   "ivec3",    "ivec4",    "layout",   "long",     "lowp",
-    "mat2",     "mat3",     "mat4",      "mediump",  "namespace", "noinline", "noperspective", "out", "output",
-    "partition", "patch",   "precise",   "precision", "public",  "readonly", "resource", "restrict", "return",
-    "sample",   "sampler1D", "sampler2D", "sampler3D", "shared", "short",    "sizeof",   "smooth",   "static",
-    "struct",   "subroutine", "superp",  "switch",   "template", "this",     "true",     "typedef",  "uint",
-    "uniform",  "union",    "unsigned",  "using",    "uvec2",    "uvec3",    "uvec4",    "varying",  "vec2",
-    "vec3",     "vec4",     "void",      "volatile", "while",    "writeonly"};
+    "active",    "asm",      "attribute", "bool",       "break",     "buffer",        "bvec2",    "bvec3",
+    "bvec4",     "case",     "cast",      "centroid",   "class",     "coherent",      "common",   "const",
+    "continue",  "default",  "discard",   "dmat2",      "dmat3",     "dmat4",         "do",       "double",
+    "dvec2",     "dvec3",    "dvec4",     "else",       "enum",      "extern",        "external", "false",
+    "filter",    "fixed",    "flat",      "float",      "for",       "fvec2",         "fvec3",    "fvec4",
+    "goto",      "half",     "highp",     "hvec2",      "hvec3",     "hvec4",         "if",       "image1D",
+    "image2D",   "image3D",  "in",        "inline",     "inout",     "input",         "int",      "interface",
+    "invariant", "ivec2",    "ivec3",     "ivec4",      "layout",    "long",          "lowp",     "mat2",
+    "mat3",      "mat4",     "mediump",   "namespace",  "noinline",  "noperspective", "out",      "output",
+    "partition", "patch",    "precise",   "precision",  "public",    "readonly",      "resource", "restrict",
+    "return",    "sample",   "sampler1D", "sampler2D",  "sampler3D", "shared",        "short",    "sizeof",
+    "smooth",    "static",   "struct",    "subroutine", "superp",    "switch",        "template", "this",
+    "true",      "typedef",  "uint",      "uniform",    "union",     "unsigned",      "using",    "uvec2",
+    "uvec3",     "uvec4",    "varying",   "vec2",       "vec3",      "vec4",          "void",     "volatile",
+    "while",     "writeonly"};
 
 std::string quoted(const char* text) { return std::string("\"") + text + "\""; }
 
@@ -36,18 +38,15 @@ std::vector<std::string_view> split(std::string_view text) { // at '|'
     for (;;) {
         const std::size_t bar = text.find('|');
         parts.push_back(text.substr(0, bar));
-        if (bar == std::string_view::npos)
-            return parts;
+        if (bar == std::string_view::npos) return parts;
         text.remove_prefix(bar + 1);
     }
 }
 
 std::string check_range(const RestageParam& p, int components) {
-    if (!std::isfinite(p.min) || !std::isfinite(p.max) || !(p.min <= p.max))
-        return "its range is not a range";
+    if (!std::isfinite(p.min) || !std::isfinite(p.max) || !(p.min <= p.max)) return "its range is not a range";
     for (int i = 0; i < components; ++i)
-        if (!(p.def[i] >= p.min && p.def[i] <= p.max))
-            return "its default is out of its range";
+        if (!(p.def[i] >= p.min && p.def[i] <= p.max)) return "its default is out of its range";
     return "";
 }
 
@@ -56,31 +55,30 @@ std::string check_param(const RestageParam& p) {
     if (texturable && p.type != RESTAGE_FLOAT && p.type != RESTAGE_COLOR)
         return "only FLOAT and COLOR can be texturable";
     switch (p.type) {
-    case RESTAGE_FLOAT:
-        return check_range(p, 1);
-    case RESTAGE_COLOR:
-        return check_range(p, 3);
-    case RESTAGE_INT:
-        return p.def[0] == std::floor(p.def[0]) ? check_range(p, 1) : "its default is not a whole number";
-    case RESTAGE_BOOL:
-        return p.def[0] == 0 || p.def[0] == 1 ? "" : "its default is neither 0 nor 1";
-    case RESTAGE_ENUM: {
-        if (!p.choices || !*p.choices)
-            return "it has no choices";
-        const auto choices = split(p.choices);
-        if (std::set(choices.begin(), choices.end()).size() != choices.size() ||
-            std::count(choices.begin(), choices.end(), ""))
-            return "a choice is empty or there twice";
-        return p.def[0] >= 0 && p.def[0] < static_cast<float>(choices.size()) && p.def[0] == std::floor(p.def[0])
-                   ? ""
-                   : "its default is not the index of a choice";
-    }
-    case RESTAGE_TEXT:
-    case RESTAGE_MATERIAL:
-    case RESTAGE_TEXTURE:
-        return "";
-    default:
-        return "its type " + std::to_string(p.type) + " is unknown";
+        case RESTAGE_FLOAT:
+            return check_range(p, 1);
+        case RESTAGE_COLOR:
+            return check_range(p, 3);
+        case RESTAGE_INT:
+            return p.def[0] == std::floor(p.def[0]) ? check_range(p, 1) : "its default is not a whole number";
+        case RESTAGE_BOOL:
+            return p.def[0] == 0 || p.def[0] == 1 ? "" : "its default is neither 0 nor 1";
+        case RESTAGE_ENUM: {
+            if (!p.choices || !*p.choices) return "it has no choices";
+            const auto choices = split(p.choices);
+            if (std::set(choices.begin(), choices.end()).size() != choices.size() ||
+                std::count(choices.begin(), choices.end(), ""))
+                return "a choice is empty or there twice";
+            return p.def[0] >= 0 && p.def[0] < static_cast<float>(choices.size()) && p.def[0] == std::floor(p.def[0])
+                       ? ""
+                       : "its default is not the index of a choice";
+        }
+        case RESTAGE_TEXT:
+        case RESTAGE_MATERIAL:
+        case RESTAGE_TEXTURE:
+            return "";
+        default:
+            return "its type " + std::to_string(p.type) + " is unknown";
     }
 }
 
@@ -92,19 +90,18 @@ bool is_type_name(std::string_view name) { // lower_snake, as scene files write 
 
 template <class T>
 std::string check_size(const T& table, const char* interface_id) {
-    if (table.size >= sizeof(T))
-        return "";
+    if (table.size >= sizeof(T)) return "";
     return std::string("its table ") + interface_id + " has " + std::to_string(table.size) + " bytes, " +
            std::to_string(sizeof(T)) + " are needed: rebuild it with this SDK";
 }
 
 bool has_param(const RestageMaterial1& m, std::string_view id, std::uint32_t type) {
-    return std::any_of(m.params, m.params + m.param_count, [&](const RestageParam& p) { return p.id == id && p.type == type; });
+    return std::any_of(m.params, m.params + m.param_count,
+                       [&](const RestageParam& p) { return p.id == id && p.type == type; });
 }
 
 std::string check_format(const char* what, const char* format, const char* label, const char* extensions) {
-    if (!format || !is_type_name(format))
-        return std::string("an ") + what + " without a proper format name";
+    if (!format || !is_type_name(format)) return std::string("an ") + what + " without a proper format name";
     if (!label || !*label || !extensions || !*extensions)
         return std::string(what) + " " + quoted(format) + " has no label or no extensions";
     return "";
@@ -123,20 +120,16 @@ bool is_glsl_identifier(std::string_view name) {
 }
 
 std::string check_params(const RestageParam* params, std::uint32_t count) {
-    if (count > 0 && !params)
-        return "its parameter table is missing";
-    if (count > 4096)
-        return std::to_string(count) + " parameters are not believable";
+    if (count > 0 && !params) return "its parameter table is missing";
+    if (count > 4096) return std::to_string(count) + " parameters are not believable";
     std::set<std::string_view> ids;
     for (std::uint32_t i = 0; i < count; ++i) {
         const RestageParam& p = params[i];
         if (!p.id || !is_glsl_identifier(p.id))
             return "parameter " + std::to_string(i) + ": " + (p.id ? quoted(p.id) : "an id that is NULL") +
                    " is no GLSL identifier";
-        if (!ids.insert(p.id).second)
-            return "parameter " + quoted(p.id) + " is there twice";
-        if (!p.label)
-            return "parameter " + quoted(p.id) + " has no label";
+        if (!ids.insert(p.id).second) return "parameter " + quoted(p.id) + " is there twice";
+        if (!p.label) return "parameter " + quoted(p.id) + " has no label";
         if (const std::string problem = check_param(p); !problem.empty())
             return "parameter " + quoted(p.id) + ": " + problem;
     }
@@ -144,13 +137,10 @@ std::string check_params(const RestageParam* params, std::uint32_t count) {
 }
 
 std::string check_table(const RestageMaterial1& m, const fs::path& folder) {
-    if (const std::string problem = check_size(m, RESTAGE_MATERIAL1); !problem.empty())
-        return problem;
-    if (!m.type || !is_type_name(m.type))
-        return "a material without a proper type name (lower case, digits, _)";
+    if (const std::string problem = check_size(m, RESTAGE_MATERIAL1); !problem.empty()) return problem;
+    if (!m.type || !is_type_name(m.type)) return "a material without a proper type name (lower case, digits, _)";
     const std::string who = "material " + quoted(m.type);
-    if (!m.label || !*m.label)
-        return who + " has no label";
+    if (!m.label || !*m.label) return who + " has no label";
     const bool has_code = !(m.flags & (RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL));
     if (m.prefix ? !is_glsl_identifier(m.prefix) || std::string_view(m.prefix).back() == '_' : has_code)
         return who + ": its prefix " + (m.prefix ? quoted(m.prefix) : "NULL") +
@@ -166,30 +156,25 @@ std::string check_table(const RestageMaterial1& m, const fs::path& folder) {
                        has_param(m, "amount", RESTAGE_FLOAT)
                    ? ""
                    : who + ": a mix needs the parameters first, second (MATERIAL) and amount (FLOAT)";
-    if (!has_code)
-        return "";
-    if (!m.glsl_file || !*m.glsl_file)
-        return who + " names no GLSL file";
+    if (!has_code) return "";
+    if (!m.glsl_file || !*m.glsl_file) return who + " names no GLSL file";
     const fs::path glsl = fs::path(m.glsl_file).lexically_normal();
     if (glsl.is_absolute() || glsl.has_root_name() || *glsl.begin() == "..")
         return who + ": the GLSL file " + quoted(m.glsl_file) + " is outside of the plugin's folder";
     std::error_code code;
-    if (!fs::is_regular_file(folder / glsl, code))
-        return who + ": " + (folder / glsl).string() + " is missing";
+    if (!fs::is_regular_file(folder / glsl, code)) return who + ": " + (folder / glsl).string() + " is missing";
     return "";
 }
 
 std::string check_table(const RestageImporter1& t) {
-    if (const std::string problem = check_size(t, RESTAGE_IMPORTER1); !problem.empty())
-        return problem;
+    if (const std::string problem = check_size(t, RESTAGE_IMPORTER1); !problem.empty()) return problem;
     if (const std::string problem = check_format("importer", t.format, t.label, t.extensions); !problem.empty())
         return problem;
     return t.probe && t.load ? "" : "importer " + quoted(t.format) + " lacks probe or load";
 }
 
 std::string check_table(const RestageExporter1& t) {
-    if (const std::string problem = check_size(t, RESTAGE_EXPORTER1); !problem.empty())
-        return problem;
+    if (const std::string problem = check_size(t, RESTAGE_EXPORTER1); !problem.empty()) return problem;
     if (const std::string problem = check_format("exporter", t.format, t.label, t.extensions); !problem.empty())
         return problem;
     if (const std::string problem = check_params(t.options, t.option_count); !problem.empty())
@@ -198,8 +183,7 @@ std::string check_table(const RestageExporter1& t) {
 }
 
 std::string check_table(const RestageDenoiser1& t) {
-    if (const std::string problem = check_size(t, RESTAGE_DENOISER1); !problem.empty())
-        return problem;
+    if (const std::string problem = check_size(t, RESTAGE_DENOISER1); !problem.empty()) return problem;
     if (!t.type || !is_type_name(t.type) || !t.label || !*t.label)
         return "a denoiser without a proper type name or label";
     return t.available && t.run ? "" : "denoiser " + quoted(t.type) + " lacks available or run";

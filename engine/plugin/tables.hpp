@@ -3,10 +3,10 @@
 // GLSL identifiers, defaults in range. Each check returns "" or the sentence that refuses the plugin.
 #pragma once
 
-#include <filesystem>
 #include <restage/denoiser.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
+#include <filesystem>
 #include <string>
 #include <string_view>
 

@@ -15,8 +15,7 @@ void compute_bounds(MeshData& data) {
 // larger of its two products.
 Bounds world_bounds(const MeshData& data, const glm::dmat4& m) {
     Bounds result;
-    if (data.positions.empty())
-        return result;
+    if (data.positions.empty()) return result;
     result.lower = result.upper = glm::dvec3(m[3]);
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row) {
@@ -37,8 +36,7 @@ Bounds world_bounds(const Scene& scene, Id<Instance> id) {
 Bounds world_bounds(const Scene& scene) {
     Bounds result;
     scene.instances.each([&](Id<Instance> id, const Instance& instance) {
-        if (!instance.hidden)
-            result.add(world_bounds(scene, id));
+        if (!instance.hidden) result.add(world_bounds(scene, id));
     });
     return result;
 }

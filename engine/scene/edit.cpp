@@ -43,8 +43,7 @@ void apply_change(Scene& scene, const ChangeOne<T>& change) {
 } // namespace
 
 void apply(Scene& scene, const Edit& edit) {
-    if (edit.changes.empty())
-        return;
+    if (edit.changes.empty()) return;
     ++scene.clock;
     for (const AnyChange& change : edit.changes)
         std::visit([&](const auto& c) { apply_change(scene, c); }, change);

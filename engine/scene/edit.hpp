@@ -21,10 +21,10 @@ struct ChangeOne {
     T before, after;
 };
 
-using AnyChange = std::variant<Change<Mesh>, Change<Image>, Change<Texture>, Change<Material>, Change<Medium>,
-                               Change<Group>, Change<Instance>, Change<Light>, Change<Camera>,
-                               ChangeOne<std::optional<Environment>>, ChangeOne<Id<Camera>>, ChangeOne<Film>,
-                               ChangeOne<Settings>>;
+using AnyChange =
+    std::variant<Change<Mesh>, Change<Image>, Change<Texture>, Change<Material>, Change<Medium>, Change<Group>,
+                 Change<Instance>, Change<Light>, Change<Camera>, ChangeOne<std::optional<Environment>>,
+                 ChangeOne<Id<Camera>>, ChangeOne<Film>, ChangeOne<Settings>>;
 
 struct Edit {
     std::string label; // "Move chair": what the history shows

@@ -22,14 +22,12 @@ tl::unexpected<Error> missing(Id<T> id) {
 bool usable(const glm::dmat4& m) { // finite, affine, invertible
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r)
-            if (!std::isfinite(m[c][r]))
-                return false;
+            if (!std::isfinite(m[c][r])) return false;
     return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1 && glm::determinant(glm::dmat3(m)) != 0;
 }
 
 std::string label_for(const Scene& scene, const char* verb, std::span<const Id<Instance>> ids) {
-    if (ids.size() == 1 && scene.instances.find(ids[0]))
-        return std::string(verb) + " " + scene.instances[ids[0]].name;
+    if (ids.size() == 1 && scene.instances.find(ids[0])) return std::string(verb) + " " + scene.instances[ids[0]].name;
     return std::string(verb) + " " + std::to_string(ids.size()) + " objects";
 }
 
@@ -40,10 +38,8 @@ Result<Edit> modify_each(const Scene& scene, std::span<const Id<Instance>> ids, 
     std::unordered_set<std::uint32_t> seen;
     for (const Id<Instance> id : ids) {
         const Instance* before = scene.instances.find(id);
-        if (!before)
-            return missing(id);
-        if (!seen.insert(id.value).second)
-            continue;
+        if (!before) return missing(id);
+        if (!seen.insert(id.value).second) continue;
         Instance after = *before;
         f(after);
         edit.changes.push_back(Change<Instance>{id, *before, std::move(after)});
@@ -73,14 +69,12 @@ std::string next_name(std::string name, std::set<std::string>& taken) {
 template <class T>
 Result<Edit> remove(const Scene& scene, Id<T> id) {
     const T* item = table<T>(scene).find(id);
-    if (!item)
-        return missing(id);
+    if (!item) return missing(id);
     if (const auto by = users(scene, id); !by.empty()) {
         std::string names = by[0];
         for (std::size_t i = 1; i < by.size() && i < 3; ++i)
             names += ", " + by[i];
-        if (by.size() > 3)
-            names += " and " + std::to_string(by.size() - 3) + " more";
+        if (by.size() > 3) names += " and " + std::to_string(by.size() - 3) + " more";
         return fail(std::string(kind_name<T>) + " \"" + item->name + "\" is used by " + names + ": change these first");
     }
     Edit edit{"Remove " + item->name, {}};
@@ -105,21 +99,16 @@ Result<Edit> remove_instances(const Scene& scene, std::span<const Id<Instance>> 
     std::vector<Id<Group>> emptied;
     for (const Id<Instance> id : ids) {
         const Instance* before = scene.instances.find(id);
-        if (!before)
-            return missing(id);
-        if (!seen.insert(id.value).second)
-            continue;
+        if (!before) return missing(id);
+        if (!seen.insert(id.value).second) continue;
         edit.changes.push_back(Change<Instance>{id, *before, std::nullopt});
-        if (before->group && --members[before->group.value] == 0)
-            emptied.push_back(before->group);
+        if (before->group && --members[before->group.value] == 0) emptied.push_back(before->group);
     }
     for (std::size_t i = 0; i < emptied.size(); ++i) { // grows: a parent may be emptied by its last child
         const Group* group = scene.groups.find(emptied[i]);
-        if (!group)
-            continue;
+        if (!group) continue;
         edit.changes.push_back(Change<Group>{emptied[i], *group, std::nullopt});
-        if (group->parent && --members[group->parent.value] == 0)
-            emptied.push_back(group->parent);
+        if (group->parent && --members[group->parent.value] == 0) emptied.push_back(group->parent);
     }
     return edit;
 }
@@ -149,15 +138,13 @@ Edit remove_unused(const Scene& scene) {
     };
     scene.instances.each(
         [&](auto, const Instance& i) { visit_references(i, [&](auto target) { mark(mark, target); }); });
-    if (scene.environment.value)
-        mark(mark, scene.environment.value->image);
+    if (scene.environment.value) mark(mark, scene.environment.value->image);
     mark(mark, scene.settings.value.camera_medium);
 
     Edit edit{"Remove what is not used", {}};
     const auto sweep = [&]<class T>(int kind, const Table<T>& slots) {
         slots.each([&](Id<T> id, const T& item) {
-            if (!marked.contains({kind, id.value}))
-                edit.changes.push_back(Change<T>{id, item, std::nullopt});
+            if (!marked.contains({kind, id.value})) edit.changes.push_back(Change<T>{id, item, std::nullopt});
         });
     };
     sweep(5, scene.groups);
@@ -170,13 +157,11 @@ Edit remove_unused(const Scene& scene) {
 }
 
 Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Instance>> ids, const glm::dmat4& move) {
-    if (!usable(move))
-        return fail("the displacement of the copies is not an invertible affine transform");
+    if (!usable(move)) return fail("the displacement of the copies is not an invertible affine transform");
     Duplicate result{{label_for(scene, "Duplicate", ids), {}}, {}};
     std::unordered_set<std::uint32_t> selected;
     for (const Id<Instance> id : ids) {
-        if (!scene.instances.find(id))
-            return missing(id);
+        if (!scene.instances.find(id)) return missing(id);
         selected.insert(id.value);
     }
     // A group is copied when all that is in it, at any depth, is selected.
@@ -197,16 +182,14 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
     std::unordered_map<std::uint32_t, Id<Group>> copy_of;
     std::uint32_t next_group = scene.groups.next().value;
     scene.groups.each([&](Id<Group> id, const Group&) {
-        if (touched.contains(id.value) && !kept.contains(id.value))
-            copy_of[id.value] = {next_group++};
+        if (touched.contains(id.value) && !kept.contains(id.value)) copy_of[id.value] = {next_group++};
     });
     const auto mapped = [&](Id<Group> id) {
         const auto it = copy_of.find(id.value);
         return it == copy_of.end() ? id : it->second;
     };
     scene.groups.each([&](Id<Group> id, const Group& group) {
-        if (!copy_of.contains(id.value))
-            return;
+        if (!copy_of.contains(id.value)) return;
         Group copy = group;
         copy.name = next_name(group.name, group_names);
         copy.parent = mapped(group.parent);
@@ -225,24 +208,20 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
 }
 
 Result<Edit> set_transform(const Scene& scene, Id<Instance> id, const glm::dmat4& object_to_world) {
-    if (!usable(object_to_world))
-        return fail("the transform is not an invertible affine one");
+    if (!usable(object_to_world)) return fail("the transform is not an invertible affine one");
     return modify_each(scene, std::span(&id, 1), label_for(scene, "Move", std::span(&id, 1)),
                        [&](Instance& i) { i.object_to_world = object_to_world; });
 }
 
 Result<Edit> move_instances(const Scene& scene, std::span<const Id<Instance>> ids, const glm::dmat4& move) {
-    if (!usable(move))
-        return fail("the displacement is not an invertible affine transform");
+    if (!usable(move)) return fail("the displacement is not an invertible affine transform");
     return modify_each(scene, ids, label_for(scene, "Move", ids),
                        [&](Instance& i) { i.object_to_world = move * i.object_to_world; });
 }
 
 Result<Edit> set_material(const Scene& scene, std::span<const Id<Instance>> ids, Id<Material> material) {
-    if (!scene.materials.find(material))
-        return missing(material);
-    return modify_each(scene, ids, label_for(scene, "Material of", ids),
-                       [&](Instance& i) { i.material = material; });
+    if (!scene.materials.find(material)) return missing(material);
+    return modify_each(scene, ids, label_for(scene, "Material of", ids), [&](Instance& i) { i.material = material; });
 }
 
 Result<Edit> set_emission(const Scene& scene, Id<Instance> id, std::optional<Emission> emission) {
@@ -259,19 +238,16 @@ namespace {
 
 template <class T>
 Result<Edit> set_param_of(const Scene& scene, Id<T> id, std::string_view param, Value value) {
-    if (value.texture && !scene.textures.find(value.texture))
-        return missing(value.texture);
-    if (value.material && !scene.materials.find(value.material))
-        return missing(value.material);
+    if (value.texture && !scene.textures.find(value.texture)) return missing(value.texture);
+    if (value.material && !scene.materials.find(value.material)) return missing(value.material);
     for (const float x : value.v)
         if (!std::isfinite(x))
             return fail("parameter \"" + std::string(param) + "\": the value is not a finite number");
     const T* item = table<T>(scene).find(id);
-    return modify(scene, id, (item ? item->name + ": " : std::string()) + std::string(param),
-                  [&](T& t) {
-                      t.params.set(param, std::move(value));
-                      forget_edited(t.origin, param);
-                  });
+    return modify(scene, id, (item ? item->name + ": " : std::string()) + std::string(param), [&](T& t) {
+        t.params.set(param, std::move(value));
+        forget_edited(t.origin, param);
+    });
 }
 
 } // namespace
@@ -282,8 +258,7 @@ void forget_edited(Origin& origin, std::string_view param) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view line = rest.substr(0, end);
         const std::string_view id = line.starts_with('=') ? line.substr(1, line.find(' ') - 1) : std::string_view();
-        if (id.empty() || (param != "*" && id != "*" && id != param))
-            kept.append(line).append("\n");
+        if (id.empty() || (param != "*" && id != "*" && id != param)) kept.append(line).append("\n");
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     if (kept.size() < origin.verbatim.size()) // else only a final newline would be added
@@ -321,8 +296,7 @@ Result<Edit> set_camera(const Scene& scene, Id<Camera> id, Camera camera, std::s
 }
 
 Result<Edit> set_active_camera(const Scene& scene, Id<Camera> id) {
-    if (!scene.cameras.find(id))
-        return missing(id);
+    if (!scene.cameras.find(id)) return missing(id);
     Edit edit{"Look through " + scene.cameras[id].name, {}};
     edit.changes.push_back(ChangeOne<Id<Camera>>{scene.active_camera.value, id});
     return edit;

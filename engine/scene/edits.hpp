@@ -25,8 +25,7 @@ Edit insert(const Scene& scene, T item, std::string label) {
 template <class T, class F>
 Result<Edit> modify(const Scene& scene, Id<T> id, std::string label, F&& f) {
     const T* before = table<T>(scene).find(id);
-    if (!before)
-        return fail("there is no " + std::string(kind_name<T>) + " with id " + std::to_string(id.value));
+    if (!before) return fail("there is no " + std::string(kind_name<T>) + " with id " + std::to_string(id.value));
     T after = *before;
     f(after);
     Edit edit{std::move(label), {}};

@@ -43,13 +43,11 @@ void merge(Edit& edit, const Edit& later) {
 
 bool History::push(Scene& scene, Edit edit, std::string_view gesture) {
     drop_idle_changes(edit);
-    if (edit.changes.empty())
-        return false;
+    if (edit.changes.empty()) return false;
     apply(scene, edit);
     const bool merges = !gesture.empty() && gesture == gesture_ && position_ > 0;
     edits_.resize(position_);
-    if (clean_ && *clean_ > position_)
-        clean_.reset();
+    if (clean_ && *clean_ > position_) clean_.reset();
     if (merges) {
         merge(edits_.back(), edit);
         if (edits_.back().changes.empty()) { // dragged back to where it began
@@ -67,16 +65,14 @@ bool History::push(Scene& scene, Edit edit, std::string_view gesture) {
 
 bool History::undo(Scene& scene) {
     gesture_.clear();
-    if (position_ == 0)
-        return false;
+    if (position_ == 0) return false;
     apply(scene, inverse(edits_[--position_]));
     return true;
 }
 
 bool History::redo(Scene& scene) {
     gesture_.clear();
-    if (position_ == edits_.size())
-        return false;
+    if (position_ == edits_.size()) return false;
     apply(scene, edits_[position_++]);
     return true;
 }

@@ -12,7 +12,7 @@
 namespace restage::scene {
 
 class History {
-public:
+  public:
     // Applies the edit and records it; what could be redone is gone. An edit that changes nothing is not recorded.
     // `gesture`: not empty = merge with the entry of the same running gesture. True when the scene changed.
     bool push(Scene&, Edit edit, std::string_view gesture = {});
@@ -30,7 +30,7 @@ public:
     void mark_clean(); // the scene as it is now is what the file holds
     bool clean() const { return clean_ && *clean_ == position_; }
 
-private:
+  private:
     std::vector<Edit> edits_;
     std::size_t position_ = 0;
     std::optional<std::size_t> clean_ = 0; // position of the saved state; none = it cannot be reached any more

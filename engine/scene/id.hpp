@@ -24,7 +24,7 @@ struct Id {
 
 template <class T>
 class Table {
-public:
+  public:
     // Number of slots, holes included: ids run from 1 to size().
     std::uint32_t size() const { return static_cast<std::uint32_t>(slots_.size()); }
     std::uint32_t live() const { return live_; }
@@ -43,8 +43,7 @@ public:
     // The only way in: nullopt removes. `id` may be next(), or an existing slot.
     void set(Id<T> id, std::optional<T> item, Version version) {
         assert(id && id.value <= slots_.size() + 1);
-        if (id.value > slots_.size())
-            slots_.emplace_back();
+        if (id.value > slots_.size()) slots_.emplace_back();
         auto& slot = slots_[id.value - 1];
         live_ += (item ? 1u : 0u) - (slot.item ? 1u : 0u);
         slot = {std::move(item), version};
@@ -55,11 +54,10 @@ public:
     template <class F>
     void each(F&& f) const {
         for (std::uint32_t i = 0; i < slots_.size(); ++i)
-            if (slots_[i].item)
-                f(Id<T>{i + 1}, *slots_[i].item);
+            if (slots_[i].item) f(Id<T>{i + 1}, *slots_[i].item);
     }
 
-private:
+  private:
     struct Slot {
         std::optional<T> item;
         Version version = 0;

@@ -46,25 +46,25 @@ Value default_value(const RestageParam& param) {
     Value value;
     value.type = static_cast<RestageType>(param.type);
     switch (value.type) {
-    case RESTAGE_FLOAT:
-    case RESTAGE_INT:
-    case RESTAGE_BOOL:
-        value.v[0] = param.def[0];
-        break;
-    case RESTAGE_COLOR:
-        std::copy_n(param.def, 3, value.v.begin());
-        break;
-    case RESTAGE_ENUM: {
-        std::string_view rest = param.choices ? param.choices : "";
-        for (int i = static_cast<int>(param.def[0]); i > 0; --i)
-            rest.remove_prefix(std::min(rest.find('|'), rest.size() - 1) + 1);
-        value.text = rest.substr(0, rest.find('|'));
-        break;
-    }
-    case RESTAGE_TEXT:
-    case RESTAGE_MATERIAL:
-    case RESTAGE_TEXTURE:
-        break;
+        case RESTAGE_FLOAT:
+        case RESTAGE_INT:
+        case RESTAGE_BOOL:
+            value.v[0] = param.def[0];
+            break;
+        case RESTAGE_COLOR:
+            std::copy_n(param.def, 3, value.v.begin());
+            break;
+        case RESTAGE_ENUM: {
+            std::string_view rest = param.choices ? param.choices : "";
+            for (int i = static_cast<int>(param.def[0]); i > 0; --i)
+                rest.remove_prefix(std::min(rest.find('|'), rest.size() - 1) + 1);
+            value.text = rest.substr(0, rest.find('|'));
+            break;
+        }
+        case RESTAGE_TEXT:
+        case RESTAGE_MATERIAL:
+        case RESTAGE_TEXTURE:
+            break;
     }
     return value;
 }
@@ -72,10 +72,8 @@ Value default_value(const RestageParam& param) {
 std::optional<int> choice_index(std::string_view choices, std::string_view choice) {
     for (int i = 0;; ++i) {
         const std::size_t bar = choices.find('|');
-        if (choices.substr(0, bar) == choice)
-            return i;
-        if (bar == std::string_view::npos)
-            return std::nullopt;
+        if (choices.substr(0, bar) == choice) return i;
+        if (bar == std::string_view::npos) return std::nullopt;
         choices.remove_prefix(bar + 1);
     }
 }

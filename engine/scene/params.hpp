@@ -5,9 +5,9 @@
 
 #include "scene/id.hpp"
 
+#include <restage/params.h>
 #include <array>
 #include <optional>
-#include <restage/params.h>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +34,7 @@ struct Value {
 
 // A handful of entries in order of first setting; a linear search beats a map at this size.
 class ParamSet {
-public:
+  public:
     const Value* find(std::string_view id) const;
     void set(std::string_view id, Value value); // replaces or appends
     void remove(std::string_view id);
@@ -51,7 +51,7 @@ public:
     };
     const std::vector<Entry>& entries() const { return entries_; }
 
-private:
+  private:
     std::vector<Entry> entries_;
 };
 

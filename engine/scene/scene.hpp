@@ -8,11 +8,11 @@
 #include "scene/id.hpp"
 #include "scene/params.hpp"
 
+#include <restage/scene_io.h>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
-#include <restage/scene_io.h>
 #include <string>
 #include <vector>
 
@@ -28,24 +28,24 @@ struct Origin {
 
 struct MeshData { // immutable once shared
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;    // as many as positions, or none
-    std::vector<glm::vec2> uvs;        // as many as positions, or none
+    std::vector<glm::vec3> normals; // as many as positions, or none
+    std::vector<glm::vec2> uvs; // as many as positions, or none
     std::vector<glm::uvec3> triangles; // indices < positions.size()
-    glm::vec3 lower{0}, upper{0};      // bounds of the positions
+    glm::vec3 lower{0}, upper{0}; // bounds of the positions
 };
 
 struct Mesh {
     std::string name;
     std::shared_ptr<const MeshData> data;
     std::string source_file; // exporters may refer to it
-    std::string primitive;   // `sphere "float radius" 1`: what the triangles stand for
+    std::string primitive; // `sphere "float radius" 1`: what the triangles stand for
     Origin origin;
     bool operator==(const Mesh&) const = default; // data compares by identity
 };
 
 struct PixelData { // immutable once shared; linear
     std::uint32_t width = 0, height = 0, channels = 0; // 1, 3 or 4; row 0 is the top
-    std::vector<float> values;                         // width * height * channels
+    std::vector<float> values; // width * height * channels
 };
 
 struct Image {
@@ -141,10 +141,10 @@ struct Environment {
 struct Camera {
     std::string name;
     glm::dmat4 camera_to_world{1};
-    float fov = 45;                            // [deg], of the shorter side
-    std::optional<glm::vec4> screen_window;    // x0 x1 y0 y1
+    float fov = 45; // [deg], of the shorter side
+    std::optional<glm::vec4> screen_window; // x0 x1 y0 y1
     float lens_radius = 0, focal_distance = 1; // 0 = pinhole
-    float frame_aspect = 0;                    // 0 = width/height
+    float frame_aspect = 0; // 0 = width/height
     Origin origin;
     bool operator==(const Camera&) const = default;
 };
@@ -152,8 +152,8 @@ struct Camera {
 enum class FilterKind { box, triangle, gaussian, mitchell, sinc };
 struct Filter {
     FilterKind kind = FilterKind::box;
-    glm::vec2 radius{0.5f};  // [pixel]
-    glm::vec2 params{0.f};   // gaussian: sigma | mitchell: B, C | sinc: tau
+    glm::vec2 radius{0.5f}; // [pixel]
+    glm::vec2 params{0.f}; // gaussian: sigma | mitchell: B, C | sinc: tau
     bool operator==(const Filter&) const = default;
 };
 
@@ -172,7 +172,7 @@ struct Settings {
     std::uint32_t samples = 64;
     bool russian_roulette = true;
     float clamp_direct = 0, clamp_indirect = 0; // biased; 0 = off
-    float ray_epsilon = 0;                      // 0 = error-bounded offsets; else an offset in scene units
+    float ray_epsilon = 0; // 0 = error-bounded offsets; else an offset in scene units
     Id<Medium> camera_medium;
     Origin origin; // integrator, sampler, options
     bool operator==(const Settings&) const = default;

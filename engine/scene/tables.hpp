@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// table<T>(scene): the table that holds T, for code that is the same for every kind of thing; kind_name<T> for messages.
+// table<T>(scene): the table that holds T, for code that is the same for every kind of thing; kind_name<T> for
+// messages.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -58,8 +59,7 @@ template <class T>
 Id<T> find_by_name(const Scene& scene, std::string_view name) {
     Id<T> found;
     table<T>(scene).each([&](Id<T> id, const T& item) {
-        if (!found && item.name == name)
-            found = id;
+        if (!found && item.name == name) found = id;
     });
     return found;
 }

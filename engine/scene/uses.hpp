@@ -14,16 +14,13 @@ namespace restage::scene {
 template <class V>
 void visit_references(const ParamSet& params, V&& visitor) {
     for (const auto& entry : params.entries()) {
-        if (entry.value.texture)
-            visitor(entry.value.texture);
-        if (entry.value.material)
-            visitor(entry.value.material);
+        if (entry.value.texture) visitor(entry.value.texture);
+        if (entry.value.material) visitor(entry.value.material);
     }
 }
 template <class V>
 void visit_references(const Texture& texture, V&& visitor) {
-    if (texture.image)
-        visitor(texture.image);
+    if (texture.image) visitor(texture.image);
     visit_references(texture.params, visitor);
 }
 template <class V>
@@ -32,24 +29,17 @@ void visit_references(const Material& material, V&& visitor) {
 }
 template <class V>
 void visit_references(const Group& group, V&& visitor) {
-    if (group.parent)
-        visitor(group.parent);
+    if (group.parent) visitor(group.parent);
 }
 template <class V>
 void visit_references(const Instance& instance, V&& visitor) {
-    if (instance.mesh)
-        visitor(instance.mesh);
-    if (instance.material)
-        visitor(instance.material);
-    if (instance.group)
-        visitor(instance.group);
-    if (instance.alpha_texture)
-        visitor(instance.alpha_texture);
+    if (instance.mesh) visitor(instance.mesh);
+    if (instance.material) visitor(instance.material);
+    if (instance.group) visitor(instance.group);
+    if (instance.alpha_texture) visitor(instance.alpha_texture);
     if (instance.media) {
-        if (instance.media->interior)
-            visitor(instance.media->interior);
-        if (instance.media->exterior)
-            visitor(instance.media->exterior);
+        if (instance.media->interior) visitor(instance.media->interior);
+        if (instance.media->exterior) visitor(instance.media->exterior);
     }
 }
 
@@ -65,8 +55,7 @@ void for_each_reference(const Scene& scene, V&& visitor) {
     scene.instances.each([&](auto, const Instance& i) { of("instance", i); });
     if (scene.environment.value && scene.environment.value->image)
         visitor(scene.environment.value->image, std::string("the environment"));
-    if (scene.active_camera.value)
-        visitor(scene.active_camera.value, std::string("the active camera"));
+    if (scene.active_camera.value) visitor(scene.active_camera.value, std::string("the active camera"));
     if (scene.settings.value.camera_medium)
         visitor(scene.settings.value.camera_medium, std::string("the medium of the camera"));
 }
@@ -77,8 +66,7 @@ std::vector<std::string> users(const Scene& scene, Id<T> id) {
     std::vector<std::string> result;
     for_each_reference(scene, [&]<class X>(Id<X> target, std::string who) {
         if constexpr (std::is_same_v<X, T>)
-            if (target == id)
-                result.push_back(std::move(who));
+            if (target == id) result.push_back(std::move(who));
     });
     return result;
 }

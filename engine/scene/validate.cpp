@@ -17,13 +17,12 @@ constexpr std::uint32_t longest_film_side = 65536;       // 8 bytes a pixel and 
 constexpr std::uint64_t most_film_pixels = 1ull << 28;
 
 class Findings {
-public:
+  public:
     // `kind` counts alike problems together.
     void add(Problem::Severity severity, const std::string& kind, std::string sentence) {
         auto& [seen, worst] = counts_[kind];
         worst = std::max(worst, severity);
-        if (++seen <= listed_of_a_kind)
-            problems_.push_back({severity, std::move(sentence)});
+        if (++seen <= listed_of_a_kind) problems_.push_back({severity, std::move(sentence)});
     }
     void error(const std::string& kind, std::string s) { add(Problem::Severity::error, kind, std::move(s)); }
     void warning(const std::string& kind, std::string s) { add(Problem::Severity::warning, kind, std::move(s)); }
@@ -36,7 +35,7 @@ public:
         return std::move(problems_);
     }
 
-private:
+  private:
     struct Count {
         std::size_t seen = 0;
         Problem::Severity worst = Problem::Severity::warning;
@@ -61,7 +60,8 @@ void check_references(const Scene& scene, Findings& out) {
     });
 }
 
-// Things that refer to things of their own kind must not do so in a circle. Iterative depth-first search, three colours.
+// Things that refer to things of their own kind must not do so in a circle. Iterative depth-first search, three
+// colours.
 template <class T, class Next>
 void check_cycles(const Scene& scene, Findings& out, Next&& next) {
     const Table<T>& slots = table<T>(scene);
@@ -74,8 +74,7 @@ void check_cycles(const Scene& scene, Findings& out, Next&& next) {
     };
     const auto frame = [&](Id<T> id) { return Frame{id, next(slots[id])}; };
     slots.each([&](Id<T> root, const T&) {
-        if (color[root.value] != white)
-            return;
+        if (color[root.value] != white) return;
         std::vector<Frame> path{frame(root)};
         color[root.value] = gray;
         while (!path.empty()) {
@@ -86,8 +85,7 @@ void check_cycles(const Scene& scene, Findings& out, Next&& next) {
                 continue;
             }
             const Id<T> child = top.children[top.visited++];
-            if (!slots.find(child) || color[child.value] == black)
-                continue;
+            if (!slots.find(child) || color[child.value] == black) continue;
             if (color[child.value] == gray) {
                 out.error("circle", called(slots[top.id]) + " contains itself through " + called(slots[child]));
                 continue;
@@ -102,8 +100,7 @@ template <class T>
 std::vector<Id<T>> params_of_kind(const ParamSet& params) {
     std::vector<Id<T>> result;
     visit_references(params, [&]<class X>(Id<X> id) {
-        if constexpr (std::is_same_v<X, T>)
-            result.push_back(id);
+        if constexpr (std::is_same_v<X, T>) result.push_back(id);
     });
     return result;
 }
@@ -118,8 +115,7 @@ void check_params(const std::string& who, const ParamSet& params, Findings& out)
 }
 
 void check_transform(const std::string& who, const glm::dmat4& m, Findings& out) {
-    if (!is_finite(m))
-        return out.error("transform", who + ": the transform holds a value that is not a finite number");
+    if (!is_finite(m)) return out.error("transform", who + ": the transform holds a value that is not a finite number");
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
         return out.error("transform", who + ": the transform is projective; only affine ones can be rendered");
     const glm::dmat3 linear(m);
@@ -136,8 +132,7 @@ void check_images(const Scene& scene, Findings& out) {
         const PixelData& d = *image.data;
         if (d.channels != 1 && d.channels != 3 && d.channels != 4)
             out.error("image", called(image) + ": " + std::to_string(d.channels) + " channels; 1, 3 or 4 are possible");
-        else if (d.width == 0 || d.height == 0 ||
-                 d.values.size() != std::size_t{d.width} * d.height * d.channels)
+        else if (d.width == 0 || d.height == 0 || d.values.size() != std::size_t{d.width} * d.height * d.channels)
             out.error("image", called(image) + ": " + std::to_string(d.values.size()) + " values for " +
                                    std::to_string(d.width) + "x" + std::to_string(d.height) + " pixels of " +
                                    std::to_string(d.channels) + " channels");
@@ -147,8 +142,7 @@ void check_images(const Scene& scene, Findings& out) {
 void check_things(const Scene& scene, Findings& out) {
     scene.meshes.each([&](auto, const Mesh& mesh) {
         const std::string problem = mesh.data ? check_mesh(*mesh.data) : "has no data";
-        if (!problem.empty())
-            out.error("mesh", called(mesh) + ": " + problem);
+        if (!problem.empty()) out.error("mesh", called(mesh) + ": " + problem);
     });
     check_images(scene, out);
     scene.textures.each([&](auto, const Texture& t) { check_params(called(t), t.params, out); });
@@ -160,10 +154,8 @@ void check_things(const Scene& scene, Findings& out) {
             out.error("medium", called(m) + " has a negative coefficient");
     });
     scene.instances.each([&](auto, const Instance& i) {
-        if (!i.mesh)
-            out.error("instance", called(i) + " has no mesh");
-        if (!i.material)
-            out.error("instance", called(i) + " has no material");
+        if (!i.mesh) out.error("instance", called(i) + " has no mesh");
+        if (!i.material) out.error("instance", called(i) + " has no material");
         check_transform(called(i), i.object_to_world, out);
         if (!finite(i.alpha) || (i.emission && !finite(i.emission->radiance)))
             out.error("instance", called(i) + ": alpha or emission is not a finite number");
@@ -184,8 +176,7 @@ void check_things(const Scene& scene, Findings& out) {
             out.error("camera", called(c) + ": lens radius, focal distance or aspect is out of range");
         if (c.screen_window) {
             const glm::vec4& w = *c.screen_window;
-            if (!(w.x < w.y && w.z < w.w))
-                out.error("camera", called(c) + ": the screen window is empty");
+            if (!(w.x < w.y && w.z < w.w)) out.error("camera", called(c) + ": the screen window is empty");
         }
     });
 }
@@ -196,13 +187,13 @@ void check_rest(const Scene& scene, Findings& out) {
         if (!finite(scene.environment.value->scale))
             out.error("environment", "the environment's scale is not a finite number");
     }
-    if (!scene.active_camera.value)
-        out.error("camera", "there is no camera to look through");
+    if (!scene.active_camera.value) out.error("camera", "there is no camera to look through");
     const Film& film = scene.film.value;
     if (film.width == 0 || film.height == 0 || film.width > longest_film_side || film.height > longest_film_side ||
         std::uint64_t{film.width} * film.height > most_film_pixels)
         out.error("film", "the film has " + std::to_string(film.width) + "x" + std::to_string(film.height) +
-                              " pixels; 1x1 to " + std::to_string(longest_film_side) + " a side and 2^28 in all are possible");
+                              " pixels; 1x1 to " + std::to_string(longest_film_side) +
+                              " a side and 2^28 in all are possible");
     const glm::vec4& crop = film.crop;
     if (!(crop.x >= 0 && crop.x < crop.y && crop.y <= 1 && crop.z >= 0 && crop.z < crop.w && crop.w <= 1))
         out.error("film", "the crop window of the film is empty or outside of it");
@@ -221,15 +212,13 @@ void check_rest(const Scene& scene, Findings& out) {
 bool is_finite(const glm::dmat4& m) {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r)
-            if (!std::isfinite(m[c][r]))
-                return false;
+            if (!std::isfinite(m[c][r])) return false;
     return true;
 }
 
 std::string check_mesh(const MeshData& data) {
     const std::size_t vertices = data.positions.size();
-    if (vertices == 0 || data.triangles.empty())
-        return "has no triangles";
+    if (vertices == 0 || data.triangles.empty()) return "has no triangles";
     if (!data.normals.empty() && data.normals.size() != vertices)
         return std::to_string(data.normals.size()) + " normals for " + std::to_string(vertices) + " vertices";
     if (!data.uvs.empty() && data.uvs.size() != vertices)
@@ -238,8 +227,7 @@ std::string check_mesh(const MeshData& data) {
         if (!finite(data.positions[i]))
             return "the position of vertex " + std::to_string(i) + " is not a finite number";
     for (std::size_t i = 0; i < data.normals.size(); ++i)
-        if (!finite(data.normals[i]))
-            return "the normal of vertex " + std::to_string(i) + " is not a finite number";
+        if (!finite(data.normals[i])) return "the normal of vertex " + std::to_string(i) + " is not a finite number";
     for (std::size_t i = 0; i < data.uvs.size(); ++i)
         if (!finite(data.uvs[i].x) || !finite(data.uvs[i].y))
             return "the texture coordinates of vertex " + std::to_string(i) + " are not finite numbers";

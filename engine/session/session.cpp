@@ -49,8 +49,7 @@ void Session::adopt(Scene scene, io::Report report) {
 bool Session::edit(Edit edit, std::string_view gesture) { return history_.push(scene_, std::move(edit), gesture); }
 
 Result<bool> Session::edit(Result<Edit> edit, std::string_view gesture) {
-    if (!edit)
-        return tl::unexpected<Error>(std::move(edit.error()));
+    if (!edit) return tl::unexpected<Error>(std::move(edit.error()));
     return history_.push(scene_, std::move(*edit), gesture);
 }
 
@@ -79,26 +78,26 @@ Result<bool> Session::set_param(Id<Material> id, std::string_view param, Value v
         const auto* begin = plugin->table->params;
         const auto* end = begin + plugin->table->param_count;
         const auto* line = std::find_if(begin, end, [&](const RestageParam& p) { return p.id == param; });
-        if (line == end)
-            return fail(who + " is not one of a " + material->type);
-        if (static_cast<RestageType>(line->type) != value.type)
-            return fail(who + " has another type");
+        if (line == end) return fail(who + " is not one of a " + material->type);
+        if (static_cast<RestageType>(line->type) != value.type) return fail(who + " has another type");
         if (value.texture && !(line->flags & RESTAGE_PARAM_TEXTURABLE) && line->type != RESTAGE_TEXTURE)
             return fail(who + " takes no texture");
         if (line->type == RESTAGE_ENUM && !choice_index(line->choices, value.text))
             return fail(who + " cannot be \"" + value.text + "\"; " + line->choices + " are possible");
-        const int components = line->type == RESTAGE_COLOR ? 3 : line->type == RESTAGE_FLOAT || line->type == RESTAGE_INT ? 1 : 0;
+        const int components = line->type == RESTAGE_COLOR                                ? 3
+                               : line->type == RESTAGE_FLOAT || line->type == RESTAGE_INT ? 1
+                                                                                          : 0;
         for (int i = 0; i < components && !value.texture; ++i)
-            if (!(value.v[static_cast<std::size_t>(i)] >= line->min && value.v[static_cast<std::size_t>(i)] <= line->max))
-                return fail(who + ": " + std::to_string(value.v[static_cast<std::size_t>(i)]) + " is out of its range, " +
-                            std::to_string(line->min) + " to " + std::to_string(line->max));
+            if (!(value.v[static_cast<std::size_t>(i)] >= line->min &&
+                  value.v[static_cast<std::size_t>(i)] <= line->max))
+                return fail(who + ": " + std::to_string(value.v[static_cast<std::size_t>(i)]) +
+                            " is out of its range, " + std::to_string(line->min) + " to " + std::to_string(line->max));
     }
     return edit(scene::set_param(scene_, id, param, std::move(value)), gesture);
 }
 
 Result<Id<Material>> Session::add_material(std::string name, std::string type) {
-    if (!registry_.find_material(type))
-        return fail("there is no material type \"" + type + "\"");
+    if (!registry_.find_material(type)) return fail("there is no material type \"" + type + "\"");
     const Id<Material> id = scene_.materials.next();
     const std::string label = "Add " + name;
     edit(insert(scene_, Material{.name = std::move(name), .type = std::move(type)}, label));

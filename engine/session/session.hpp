@@ -20,7 +20,7 @@
 namespace restage::session {
 
 class Session {
-public:
+  public:
     explicit Session(const plugin::Registry& registry) : registry_(registry) {}
 
     // Replaces what is open; when it fails, what is open stays.
@@ -31,7 +31,7 @@ public:
     scene::Version version() const { return scene_.clock; } // grows with every change
     const scene::History& history() const { return history_; }
     const io::Report& report() const { return report_; } // of the import
-    const std::string& path() const { return path_; }    // of the file that was opened or saved; "" = none
+    const std::string& path() const { return path_; } // of the file that was opened or saved; "" = none
     bool modified() const { return !history_.clean(); }
     const plugin::Registry& registry() const { return registry_; }
 
@@ -55,7 +55,8 @@ public:
     Result<bool> set_material(Instances, scene::Id<scene::Material>);
     // The value is held to the table of the material's plugin: type, range, choices. Unknown ids are refused; a
     // material whose plugin is missing takes any.
-    Result<bool> set_param(scene::Id<scene::Material>, std::string_view param, scene::Value, std::string_view gesture = {});
+    Result<bool> set_param(scene::Id<scene::Material>, std::string_view param, scene::Value,
+                           std::string_view gesture = {});
     Result<scene::Id<scene::Material>> add_material(std::string name, std::string type);
 
     // Writes a copy; the document stays what and where it is.
@@ -63,7 +64,7 @@ public:
     // Writes it and remembers the place: the document is unmodified afterwards.
     Result<io::Report> save_as(const std::string& path, const io::ExportOptions& = {});
 
-private:
+  private:
     const plugin::Registry& registry_;
     scene::Scene scene_;
     scene::History history_;

@@ -46,7 +46,8 @@ static const RestageParam params[] = {
     {PARAM_ID, "Fuzz", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0.0f, 1.0f, {PARAM_DEFAULT}, "", NULL, "How fuzzy."},
     {"weave", "Weave", RESTAGE_ENUM, 0, 0.0f, 0.0f, {ENUM_DEFAULT}, "", "plain|twill", "Which weave."},
 };
-static const RestageMaterial1 material = {TABLE_SIZE, 0, "velvet", "Velvet", TABLE_PREFIX, "velvet.glsl", params, 2, "Cloth."};
+static const RestageMaterial1 material = {TABLE_SIZE,    0,      "velvet", "Velvet", TABLE_PREFIX,
+                                          "velvet.glsl", params, 2,        "Cloth."};
 #endif
 
 #if defined(TEST_IMPORTER)
@@ -95,8 +96,7 @@ static const RestageHost* used_host;
 static int init(const RestageHost* host) {
     const RestageLog1* log = (const RestageLog1*)host->service(host, RESTAGE_LOG);
     used_host = host;
-    if (log)
-        log->log(host, RESTAGE_LOG_INFO, "velvet is here");
+    if (log) log->log(host, RESTAGE_LOG_INFO, "velvet is here");
 #if defined(TEST_INIT_FAILS)
     return 0;
 #else
@@ -115,8 +115,7 @@ int a_function_nobody_has(void);
 
 static const void* query(const char* id, uint32_t index) {
 #if defined(TEST_UNRESOLVED)
-    if (a_function_nobody_has())
-        return NULL;
+    if (a_function_nobody_has()) return NULL;
 #endif
 #if defined(TEST_NO_TABLES)
     (void)id, (void)index;

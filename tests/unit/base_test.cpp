@@ -68,7 +68,8 @@ TEST_CASE("file errors name the file and the reason", "[base]") {
     const fs::path folder = fresh_folder("errors");
     const auto missing = read_file(folder / "missing.pbrt");
     REQUIRE_FALSE(missing);
-    CHECK(missing.error().message == (folder / "missing.pbrt").string() + ": cannot be opened: No such file or directory");
+    CHECK(missing.error().message ==
+          (folder / "missing.pbrt").string() + ": cannot be opened: No such file or directory");
     const auto directory = read_file(folder);
     REQUIRE_FALSE(directory);
     CHECK(directory.error().message.find("is a folder") != std::string::npos);
@@ -103,7 +104,8 @@ TEST_CASE("parallel_for visits each index once, whatever the grain", "[base]") {
                 std::vector<std::atomic<int>> visits(count);
                 std::atomic<bool> sane{true};
                 jobs.parallel_for(count, grain, [&](std::size_t begin, std::size_t end, unsigned thread) {
-                    if (begin >= end || end > count || end - begin > std::max<std::size_t>(grain, 1) || thread >= threads)
+                    if (begin >= end || end > count || end - begin > std::max<std::size_t>(grain, 1) ||
+                        thread >= threads)
                         sane = false;
                     for (std::size_t i = begin; i < end; ++i)
                         ++visits[i];
@@ -136,8 +138,7 @@ TEST_CASE("an exception in a loop reaches the caller and the pool lives on", "[b
     Jobs jobs(2);
     CHECK_THROWS_AS(jobs.parallel_for(100, 1,
                                       [](std::size_t begin, std::size_t, unsigned) {
-                                          if (begin == 37)
-                                              throw std::runtime_error("37");
+                                          if (begin == 37) throw std::runtime_error("37");
                                       }),
                     std::runtime_error);
     std::atomic<int> n{0};

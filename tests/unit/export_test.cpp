@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Round trips: what is written as pbrt (v4 and v3) and read again is the same scene; undo to the start writes the same
 // bytes; nothing is left behind by an export that fails.
-#include "base/file.hpp"
 #include "io/export.hpp"
+#include "base/file.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
 #include "scene/bounds.hpp"
@@ -29,7 +29,8 @@ struct Plugins { // everything that was built
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
     Plugins() {
-        registry.scan(std::vector<plugin::SearchPath>{{fs::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
+        registry.scan(
+            std::vector<plugin::SearchPath>{{fs::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
         for (const auto* entry : registry.entries()) {
             INFO(entry->name() << ": " << entry->reason);
             if (entry->manifest.kind != plugin::Kind::denoiser) // those are no part of this
@@ -67,7 +68,8 @@ std::shared_ptr<MeshData> grid(int n, float height) { // 2 n^2 triangles with no
     auto data = std::make_shared<MeshData>();
     for (int y = 0; y <= n; ++y)
         for (int x = 0; x <= n; ++x) {
-            const float u = static_cast<float>(x) / static_cast<float>(n), v = static_cast<float>(y) / static_cast<float>(n);
+            const float u = static_cast<float>(x) / static_cast<float>(n),
+                        v = static_cast<float>(y) / static_cast<float>(n);
             data->positions.emplace_back(u, v, height * u * v);
             data->normals.push_back(glm::normalize(glm::vec3(-height * v, -height * u, 1)));
             data->uvs.emplace_back(u, v);
@@ -83,7 +85,9 @@ std::shared_ptr<MeshData> grid(int n, float height) { // 2 n^2 triangles with no
 }
 
 glm::dmat4 place(double x, double turn, glm::dvec3 scale = glm::dvec3(1)) {
-    return glm::scale(glm::rotate(glm::translate(glm::dmat4(1), {x, 0.1 * x, -0.3}), turn, glm::normalize(glm::dvec3(1, 2, 3))), scale);
+    return glm::scale(
+        glm::rotate(glm::translate(glm::dmat4(1), {x, 0.1 * x, -0.3}), turn, glm::normalize(glm::dvec3(1, 2, 3))),
+        scale);
 }
 
 // Of every kind of thing something, with numbers that have no short decimal form.
@@ -138,28 +142,57 @@ struct Everything {
         const auto blend_id = add(blend);
 
         const auto red = material("red \"oak\"", "diffuse", {{"reflectance", Value::color(0.7f, 0.1f, 1.f / 3)}});
-        const auto tiled = material("tiled", "diffuse", {{"reflectance", {.type = RESTAGE_COLOR, .texture = dim_id}},
-                                                         {"bump", {.type = RESTAGE_TEXTURE, .texture = blend_id}}});
+        const auto tiled = material("tiled", "diffuse",
+                                    {{"reflectance", {.type = RESTAGE_COLOR, .texture = dim_id}},
+                                     {"bump", {.type = RESTAGE_TEXTURE, .texture = blend_id}}});
         std::vector<Id<Material>> all{red, tiled};
         if (v4) {
-            all.push_back(material("gold", "conductor", {{"eta", Value::color(0.14f, 0.37f, 1.44f)}, {"k", Value::color(3.9f, 2.4f, 1.6f)}, {"uroughness", Value::number(0.1f)}, {"vroughness", {.type = RESTAGE_FLOAT, .texture = half_id}}}));
-            all.push_back(material("tin", "conductor", {{"use_reflectance", Value::boolean(true)}, {"reflectance", Value::color(0.8f, 0.8f, 0.9f)}, {"remap", Value::choice("none")}, {"uroughness", Value::number(0.2f)}}));
+            all.push_back(material("gold", "conductor",
+                                   {{"eta", Value::color(0.14f, 0.37f, 1.44f)},
+                                    {"k", Value::color(3.9f, 2.4f, 1.6f)},
+                                    {"uroughness", Value::number(0.1f)},
+                                    {"vroughness", {.type = RESTAGE_FLOAT, .texture = half_id}}}));
+            all.push_back(material("tin", "conductor",
+                                   {{"use_reflectance", Value::boolean(true)},
+                                    {"reflectance", Value::color(0.8f, 0.8f, 0.9f)},
+                                    {"remap", Value::choice("none")},
+                                    {"uroughness", Value::number(0.2f)}}));
             all.push_back(material("glass", "dielectric", {{"eta", Value::number(1.33f)}}));
-            all.push_back(material("pane", "dielectric", {{"thin", Value::boolean(true)}, {"remap", Value::choice("none")}}));
-            all.push_back(material("varnish", "coateddiffuse", {{"reflectance", Value::color(0.2f, 0.3f, 0.4f)}, {"uroughness", Value::number(0.3f)}, {"albedo", Value::color(0.1f, 0, 0)}, {"g", Value::number(0.2f)}, {"max_depth", Value::integer(7)}}));
-            all.push_back(material("lacquer", "coatedconductor", {{"conductor_eta", Value::color(1.1f, 0.9f, 0.6f)}, {"interface_uroughness", Value::number(0.05f)}, {"conductor_uroughness", Value::number(0.3f)}}));
+            all.push_back(
+                material("pane", "dielectric", {{"thin", Value::boolean(true)}, {"remap", Value::choice("none")}}));
+            all.push_back(material("varnish", "coateddiffuse",
+                                   {{"reflectance", Value::color(0.2f, 0.3f, 0.4f)},
+                                    {"uroughness", Value::number(0.3f)},
+                                    {"albedo", Value::color(0.1f, 0, 0)},
+                                    {"g", Value::number(0.2f)},
+                                    {"max_depth", Value::integer(7)}}));
+            all.push_back(material("lacquer", "coatedconductor",
+                                   {{"conductor_eta", Value::color(1.1f, 0.9f, 0.6f)},
+                                    {"interface_uroughness", Value::number(0.05f)},
+                                    {"conductor_uroughness", Value::number(0.3f)}}));
             all.push_back(material("leaf", "diffusetransmission", {{"transmittance", Value::color(0.1f, 0.4f, 0.1f)}}));
         } else {
             all.push_back(material("matte", "diffuse", {{"sigma", Value::number(20)}}));
-            all.push_back(material("metal", "conductor", {{"eta", Value::color(0.14f, 0.37f, 1.44f)}, {"remap", Value::choice("v3")}, {"uroughness", Value::number(0.1f)}}));
-            all.push_back(material("green glass", "dielectric", {{"transmittance", Value::color(0.5f, 1, 0.5f)}, {"remap", Value::choice("v3")}}));
-            all.push_back(material("paint", "substrate", {{"kd", Value::color(0.1f, 0.2f, 0.3f)}, {"remap", Value::choice("v3")}}));
+            all.push_back(material("metal", "conductor",
+                                   {{"eta", Value::color(0.14f, 0.37f, 1.44f)},
+                                    {"remap", Value::choice("v3")},
+                                    {"uroughness", Value::number(0.1f)}}));
+            all.push_back(material("green glass", "dielectric",
+                                   {{"transmittance", Value::color(0.5f, 1, 0.5f)}, {"remap", Value::choice("v3")}}));
+            all.push_back(material("paint", "substrate",
+                                   {{"kd", Value::color(0.1f, 0.2f, 0.3f)}, {"remap", Value::choice("v3")}}));
             all.push_back(material("plastic", "plastic", {{"roughness", Value::number(0.05f)}}));
             all.push_back(material("mirror", "mirror", {}));
-            all.push_back(material("uber", "uber", {{"opacity", Value::color(0.5f, 0.5f, 0.5f)}, {"kr", Value::color(0.1f, 0.1f, 0.1f)}, {"remap", Value::choice("v3")}}));
+            all.push_back(material("uber", "uber",
+                                   {{"opacity", Value::color(0.5f, 0.5f, 0.5f)},
+                                    {"kr", Value::color(0.1f, 0.1f, 0.1f)},
+                                    {"remap", Value::choice("v3")}}));
             all.push_back(material("paper", "translucent", {{"transmit", Value::color(0.2f, 0.2f, 0.1f)}}));
         }
-        all.push_back(material("both", "mix", {{"first", {.type = RESTAGE_MATERIAL, .material = all[2]}}, {"second", {.type = RESTAGE_MATERIAL, .material = red}}, {"amount", Value::number(0.3f)}}));
+        all.push_back(material("both", "mix",
+                               {{"first", {.type = RESTAGE_MATERIAL, .material = all[2]}},
+                                {"second", {.type = RESTAGE_MATERIAL, .material = red}},
+                                {"amount", Value::number(0.3f)}}));
         all.push_back(material("nothing", "interface", {}));
 
         const auto small = add(Mesh{.name = "tri", .data = grid(1, 0.5f)});
@@ -173,18 +206,52 @@ struct Everything {
         const auto pair = add(Group{.name = "pair"}), pair2 = add(Group{.name = "pair 2"});
         for (const auto& [group, x] : {std::pair{pair, 5.0}, {pair2, 9.0}})
             for (int i = 0; i < 2; ++i)
-                add(Instance{.name = "member", .mesh = big, .material = tiled, .group = group, .object_to_world = place(x, 0.4) * place(i, 0.2 * i)});
-        add(Instance{.name = "lamp", .mesh = once, .material = red, .object_to_world = place(3, 1), .emission = Emission{{17.f / 3, 2, 1}, true}, .reverse_orientation = true});
-        add(Instance{.name = "cup", .mesh = big, .material = all.back(), .object_to_world = place(4, 2, {-1, 1, 2}), .media = MediumInterface{fog, {}}, .alpha_texture = blend_id});
+                add(Instance{.name = "member",
+                             .mesh = big,
+                             .material = tiled,
+                             .group = group,
+                             .object_to_world = place(x, 0.4) * place(i, 0.2 * i)});
+        add(Instance{.name = "lamp",
+                     .mesh = once,
+                     .material = red,
+                     .object_to_world = place(3, 1),
+                     .emission = Emission{{17.f / 3, 2, 1}, true},
+                     .reverse_orientation = true});
+        add(Instance{.name = "cup",
+                     .mesh = big,
+                     .material = all.back(),
+                     .object_to_world = place(4, 2, {-1, 1, 2}),
+                     .media = MediumInterface{fog, {}},
+                     .alpha_texture = blend_id});
         add(Instance{.name = "veil", .mesh = small, .material = red, .object_to_world = place(6, 1), .alpha = 0.4f});
 
         add(Light{.name = "bulb", .value = {1, 2, 3}, .light_to_world = place(2, 1)});
-        add(Light{.name = "spot", .kind = RESTAGE_LIGHT_SPOT, .value = {5, 5, 1}, .light_to_world = place(1, 2), .cone_angle = 25, .cone_delta = 4});
-        add(Light{.name = "sun", .kind = RESTAGE_LIGHT_DISTANT, .value = {1, 1, 0.3f}, .light_to_world = place(0, 0.7)});
-        apply(scene, set_environment(scene, Environment{.name = "sky", .image = v4 ? sky : picture, .mapping = v4 ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT, .scale = glm::vec3(0.7f), .light_to_world = glm::rotate(glm::dmat4(1), 0.3, {1, 0, 0})}));
-        const auto camera = add(Camera{.name = "camera", .camera_to_world = place(-4, 0.5), .fov = 36.4f, .screen_window = glm::vec4(-1.5, 1.5, -1, 1), .lens_radius = 0.01f, .focal_distance = 3.3f});
+        add(Light{.name = "spot",
+                  .kind = RESTAGE_LIGHT_SPOT,
+                  .value = {5, 5, 1},
+                  .light_to_world = place(1, 2),
+                  .cone_angle = 25,
+                  .cone_delta = 4});
+        add(Light{
+            .name = "sun", .kind = RESTAGE_LIGHT_DISTANT, .value = {1, 1, 0.3f}, .light_to_world = place(0, 0.7)});
+        apply(scene, set_environment(scene, Environment{.name = "sky",
+                                                        .image = v4 ? sky : picture,
+                                                        .mapping = v4 ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT,
+                                                        .scale = glm::vec3(0.7f),
+                                                        .light_to_world = glm::rotate(glm::dmat4(1), 0.3, {1, 0, 0})}));
+        const auto camera = add(Camera{.name = "camera",
+                                       .camera_to_world = place(-4, 0.5),
+                                       .fov = 36.4f,
+                                       .screen_window = glm::vec4(-1.5, 1.5, -1, 1),
+                                       .lens_radius = 0.01f,
+                                       .focal_distance = 3.3f});
         apply(scene, *set_active_camera(scene, camera));
-        apply(scene, set_film(scene, Film{.width = 320, .height = 200, .crop = {0.25f, 0.75f, 0, 1}, .filter = {.kind = FilterKind::gaussian, .radius = {1.5f, 2}, .params = {0.4f, 0}}, .exposure = 0.7f}));
+        apply(scene,
+              set_film(scene, Film{.width = 320,
+                                   .height = 200,
+                                   .crop = {0.25f, 0.75f, 0, 1},
+                                   .filter = {.kind = FilterKind::gaussian, .radius = {1.5f, 2}, .params = {0.4f, 0}},
+                                   .exposure = 0.7f}));
         apply(scene, set_settings(scene, Settings{.max_depth = 13, .samples = 48}));
     }
 };
@@ -210,12 +277,10 @@ TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
     for (const auto& entry : report->entries)
         FAIL_CHECK(io::to_string(entry)); // this scene holds nothing that the version lacks
     const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);
-    if (!again)
-        FAIL(again.error().message);
+    if (!again) FAIL(again.error().message);
     CHECK(again->scene.format == std::string("pbrt-") + v);
     for (const auto& entry : again->report.entries)
-        if (entry.fate != RESTAGE_KEPT)
-            FAIL_CHECK(io::to_string(entry));
+        if (entry.fate != RESTAGE_KEPT) FAIL_CHECK(io::to_string(entry));
     CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry)) == "");
     // And once more: what was imported is written and read.
     Folder second((std::string(v) + "_again").c_str());
@@ -235,13 +300,25 @@ TEST_CASE("the comparison of scenes sees what differs", "[export]") {
     };
     CHECK(differences([](Everything&) {}) == "");
     CHECK(differences([](Everything& b) { apply(b.scene, *rename(b.scene, Id<Instance>{1}, "other")); }) == "");
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *set_transform(b.scene, {1}, place(7, 7))); }), ContainsSubstring("no match"));
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *remove_instances(b.scene, std::array{Id<Instance>{2}})); }), ContainsSubstring("no match"));
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *set_param(b.scene, Id<Material>{1}, "reflectance", Value::color(0.7f, 0.1f, 0.34f))); }), ContainsSubstring("0.34"));
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_film(b.scene, Film{})); }), ContainsSubstring("film"));
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_environment(b.scene, {})); }), ContainsSubstring("environment"));
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *remove(b.scene, Id<Light>{1})); }), ContainsSubstring("lights"));
-    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *modify(b.scene, Id<Camera>{1}, "", [](Camera& c) { c.fov = 37; })); }), ContainsSubstring("camera"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *set_transform(b.scene, {1}, place(7, 7))); }),
+               ContainsSubstring("no match"));
+    CHECK_THAT(
+        differences([](Everything& b) { apply(b.scene, *remove_instances(b.scene, std::array{Id<Instance>{2}})); }),
+        ContainsSubstring("no match"));
+    CHECK_THAT(differences([](Everything& b) {
+                   apply(b.scene, *set_param(b.scene, Id<Material>{1}, "reflectance", Value::color(0.7f, 0.1f, 0.34f)));
+               }),
+               ContainsSubstring("0.34"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_film(b.scene, Film{})); }),
+               ContainsSubstring("film"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_environment(b.scene, {})); }),
+               ContainsSubstring("environment"));
+    CHECK_THAT(differences([](Everything& b) { apply(b.scene, *remove(b.scene, Id<Light>{1})); }),
+               ContainsSubstring("lights"));
+    CHECK_THAT(differences([](Everything& b) {
+                   apply(b.scene, *modify(b.scene, Id<Camera>{1}, "", [](Camera& c) { c.fov = 37; }));
+               }),
+               ContainsSubstring("camera"));
 }
 
 TEST_CASE("undo to the start writes the same bytes", "[export]") {
@@ -309,12 +386,13 @@ Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
         return read_file(folder.file("out.pbrt")).value();
     };
     const std::string first = text("v4");
-    for (const char* part : {"Option \"disablepixeljitter\" true", "\"float maxcomponentvalue\" [ 50 ]", "Sampler \"halton\"",
-                             "\"string randomization\" [ \"owen\" ]", "\"integer pixelsamples\" [ 7 ]", "Integrator \"bdpt\"",
-                             "\"bool regularize\" [ true ]", "\"integer maxdepth\" [ 9 ]", "\"spectrum eta\" [ \"metal-Au-eta\" ]",
-                             "\"spectrum k\" [ \"metal-Au-k\" ]", "\"string type\" [ \"subsurface\" ]", "\"string name\" [ \"Skin1\" ]",
-                             "\"spectrum\" \"marble\" \"integer octaves\" [ 5 ]", "Shape \"sphere\" \"float radius\" [ 2 ]",
-                             "Shape \"cylinder\" \"float radius\" [ 2 ] \"float zmin\" [ -3 ]"})
+    for (const char* part :
+         {"Option \"disablepixeljitter\" true", "\"float maxcomponentvalue\" [ 50 ]", "Sampler \"halton\"",
+          "\"string randomization\" [ \"owen\" ]", "\"integer pixelsamples\" [ 7 ]", "Integrator \"bdpt\"",
+          "\"bool regularize\" [ true ]", "\"integer maxdepth\" [ 9 ]", "\"spectrum eta\" [ \"metal-Au-eta\" ]",
+          "\"spectrum k\" [ \"metal-Au-k\" ]", "\"string type\" [ \"subsurface\" ]", "\"string name\" [ \"Skin1\" ]",
+          "\"spectrum\" \"marble\" \"integer octaves\" [ 5 ]", "Shape \"sphere\" \"float radius\" [ 2 ]",
+          "Shape \"cylinder\" \"float radius\" [ 2 ] \"float zmin\" [ -3 ]"})
         CHECK_THAT(first, ContainsSubstring(part));
     const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);
     REQUIRE(again);
@@ -323,10 +401,12 @@ Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
     REQUIRE(session.set_param(session.find<Material>("gold"), "eta", Value::color(1, 2, 3)));
     REQUIRE(session.set_param(session.find<Material>("skin"), "reflectance", Value::color(0.1f, 0.2f, 0.3f)));
     const std::string edited = text("v4");
-    CHECK_THAT(edited, ContainsSubstring("\"rgb eta\" [ 1 2 3 ]") && !ContainsSubstring("metal-Au-eta") && ContainsSubstring("metal-Au-k"));
+    CHECK_THAT(edited, ContainsSubstring("\"rgb eta\" [ 1 2 3 ]") && !ContainsSubstring("metal-Au-eta") &&
+                           ContainsSubstring("metal-Au-k"));
     CHECK_THAT(edited, ContainsSubstring("\"string type\" [ \"coateddiffuse\" ]") && !ContainsSubstring("subsurface"));
     const std::string other = text("v3"); // has no use for v4's lines, but shows them
-    CHECK_THAT(other, ContainsSubstring("# Option \"disablepixeljitter\" true") && ContainsSubstring("\"string type\" [ \"metal\" ]"));
+    CHECK_THAT(other, ContainsSubstring("# Option \"disablepixeljitter\" true") &&
+                          ContainsSubstring("\"string type\" [ \"metal\" ]"));
 }
 
 TEST_CASE("the session holds values to the material's table", "[export]") {
@@ -334,12 +414,15 @@ TEST_CASE("the session holds values to the material's table", "[export]") {
     session::Session session(plugins.registry);
     session.adopt(Everything(true).scene);
     const auto gold = session.find<Material>("gold");
-    const auto refused = [&](const char* param, Value value) { return session.set_param(gold, param, std::move(value)).error().message; };
+    const auto refused = [&](const char* param, Value value) {
+        return session.set_param(gold, param, std::move(value)).error().message;
+    };
     CHECK_THAT(refused("uroughness", Value::number(7)), ContainsSubstring("out of its range"));
     CHECK_THAT(refused("uroughness", Value::color(0, 0, 0)), ContainsSubstring("has another type"));
     CHECK_THAT(refused("remap", Value::choice("v5")), ContainsSubstring("v4|v3|none are possible"));
     CHECK_THAT(refused("sheen", Value::number(0)), ContainsSubstring("is not one of a conductor"));
-    CHECK_THAT(refused("use_reflectance", {.type = RESTAGE_BOOL, .texture = {1}}), ContainsSubstring("takes no texture"));
+    CHECK_THAT(refused("use_reflectance", {.type = RESTAGE_BOOL, .texture = {1}}),
+               ContainsSubstring("takes no texture"));
     CHECK_FALSE(session.modified());
     CHECK_FALSE(session.add_material("x", "unobtainium"));
     CHECK_FALSE(session.open("/no/such/file.pbrt"));
@@ -375,10 +458,12 @@ TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
     Folder folder("copies");
     REQUIRE(session.export_to(folder.file("s.pbrt")));
     const auto files = folder.contents();
-    CHECK(std::count_if(files.begin(), files.end(), [](const auto& f) { return f.first.starts_with("models/cloth"); }) == 1);
+    CHECK(std::count_if(files.begin(), files.end(),
+                        [](const auto& f) { return f.first.starts_with("models/cloth"); }) == 1);
     const std::string& text = files.at("s.pbrt");
     std::size_t placed = 0;
-    for (std::size_t at = text.find("ObjectInstance \"cup\""); at != std::string::npos; at = text.find("ObjectInstance \"cup\"", at + 1))
+    for (std::size_t at = text.find("ObjectInstance \"cup\""); at != std::string::npos;
+         at = text.find("ObjectInstance \"cup\"", at + 1))
         ++placed;
     CHECK(placed == 6);
 }
@@ -424,6 +509,8 @@ TEST_CASE("an export that fails leaves what was there", "[export]") {
     REQUIRE_FALSE(refused);
     CHECK_THAT(refused.error().message, ContainsSubstring("material 99 does not exist"));
     CHECK(folder.contents() == before);
-    CHECK_THAT(io::export_scene(made.scene, folder.file("no/such/s.pbrt"), plugins.registry).error().message, ContainsSubstring("there is no folder"));
-    CHECK_THAT(io::export_scene(made.scene, folder.file("s.blend"), plugins.registry).error().message, ContainsSubstring("no exporter writes files called .blend; known are: pbrt"));
+    CHECK_THAT(io::export_scene(made.scene, folder.file("no/such/s.pbrt"), plugins.registry).error().message,
+               ContainsSubstring("there is no folder"));
+    CHECK_THAT(io::export_scene(made.scene, folder.file("s.blend"), plugins.registry).error().message,
+               ContainsSubstring("no exporter writes files called .blend; known are: pbrt"));
 }

@@ -36,9 +36,10 @@ struct TestImporter { // a registry with the importer and the material of tests/
         fs::create_directories(folder);
         const std::string file = std::string(library) + plugin::Library::extension();
         fs::copy_file(fs::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_bad" / file, folder / file);
-        REQUIRE(write_file_atomic(folder / "plugin.json", std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
-                                                              R"(", "version": "1.0.0", "licence": "MIT", "abi": 1, "library": ")" +
-                                                              library + "\"}"));
+        REQUIRE(write_file_atomic(folder / "plugin.json",
+                                  std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
+                                      R"(", "version": "1.0.0", "licence": "MIT", "abi": 1, "library": ")" + library +
+                                      "\"}"));
         registry.scan(std::vector<plugin::SearchPath>{{path / "plugins", true}});
         REQUIRE(registry.entries().back()->state == plugin::State::loaded);
     }
@@ -55,7 +56,8 @@ struct Pushed { // a writer and a sound triangle to push
     const RestageSceneWriter1& out = writer.table();
     float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     std::uint32_t indices[3] = {0, 1, 2};
-    RestageMesh mesh{.text = {"m", "", ""}, .vertex_count = 3, .triangle_count = 1, .positions = positions, .indices = indices};
+    RestageMesh mesh{
+        .text = {"m", "", ""}, .vertex_count = 3, .triangle_count = 1, .positions = positions, .indices = indices};
     RestageMaterialDesc material{.text = {"gray", "", ""}, .type = "diffuse"};
 
     RestageInstance instance(RestageHandle m, RestageHandle mat) {
@@ -66,9 +68,8 @@ struct Pushed { // a writer and a sound triangle to push
         return i;
     }
     bool noted(std::string_view part) const {
-        return std::any_of(writer.report.entries.begin(), writer.report.entries.end(), [&](const ReportEntry& e) {
-            return to_string(e).find(part) != std::string::npos;
-        });
+        return std::any_of(writer.report.entries.begin(), writer.report.entries.end(),
+                           [&](const ReportEntry& e) { return to_string(e).find(part) != std::string::npos; });
     }
 };
 
@@ -87,7 +88,8 @@ TEST_CASE("an import ends in a scene with a report", "[io]") {
     CHECK(imported->scene.film.value.width == 8);
     CHECK(scene::validate(imported->scene).empty());
     REQUIRE(imported->report.entries.size() == 1);
-    CHECK_THAT(to_string(imported->report.entries[0]), ContainsSubstring("a.test:12: dropped: light \"sun\": not known"));
+    CHECK_THAT(to_string(imported->report.entries[0]),
+               ContainsSubstring("a.test:12: dropped: light \"sun\": not known"));
     CHECK(imported->report.count(RESTAGE_DROPPED) == 1);
 }
 
@@ -95,13 +97,15 @@ TEST_CASE("a file nobody knows is refused with what is known", "[io]") {
     TestImporter test;
     const auto unknown = import_scene(test.file("a.xyz", "something else"), test.registry);
     REQUIRE_FALSE(unknown);
-    CHECK_THAT(unknown.error().message, ContainsSubstring("the format of this file is not known; known are: Test format"));
+    CHECK_THAT(unknown.error().message,
+               ContainsSubstring("the format of this file is not known; known are: Test format"));
     CHECK_FALSE(import_scene(test.file("empty", ""), test.registry));
     CHECK_THAT(import_scene("/no/such/file", test.registry).error().message, ContainsSubstring("No such file"));
     CHECK_THAT(import_scene(test.path.string(), test.registry).error().message, ContainsSubstring("is a folder"));
     CHECK_THAT(import_scene(test.file("b.test", "TEST"), test.registry, {.format = "usd"}).error().message,
                ContainsSubstring("there is no importer \"usd\""));
-    const auto stopped = import_scene(test.file("c.test", "TEST"), test.registry, {.progress = [](float, std::string_view) { return false; }});
+    const auto stopped = import_scene(test.file("c.test", "TEST"), test.registry,
+                                      {.progress = [](float, std::string_view) { return false; }});
     REQUIRE_FALSE(stopped);
     CHECK_THAT(stopped.error().message, ContainsSubstring("stopped on request"));
 }
@@ -208,9 +212,17 @@ TEST_CASE("what cannot be is refused with a line in the report", "[io]") {
     CHECK(p.writer.scene.meshes[{without}].data->normals.empty());
     CHECK(p.noted("done without"));
 
-    CHECK(p.out.instance(p.out.ctx, [&] { static RestageInstance i; i = p.instance(99, material); return &i; }()) == 0);
+    CHECK(p.out.instance(p.out.ctx, [&] {
+        static RestageInstance i;
+        i = p.instance(99, material);
+        return &i;
+    }()) == 0);
     CHECK(p.noted("there is no mesh 99"));
-    CHECK(p.out.instance(p.out.ctx, [&] { static RestageInstance i; i = p.instance(mesh, 0); return &i; }()) == 0);
+    CHECK(p.out.instance(p.out.ctx, [&] {
+        static RestageInstance i;
+        i = p.instance(mesh, 0);
+        return &i;
+    }()) == 0);
     CHECK(p.noted("it has no material"));
     RestageInstance instance = p.instance(mesh, material);
     instance.object_to_world[3] = 1;
@@ -245,7 +257,12 @@ TEST_CASE("what cannot be is refused with a line in the report", "[io]") {
 
 TEST_CASE("an absurd film fails the import, not the machine", "[io]") {
     Pushed p;
-    const RestageFilm film{.width = 4000000, .height = 4000000, .crop = {0, 1, 0, 1}, .filter = "box", .filter_radius = {0.5f, 0.5f}, .exposure = 1};
+    const RestageFilm film{.width = 4000000,
+                           .height = 4000000,
+                           .crop = {0, 1, 0, 1},
+                           .filter = "box",
+                           .filter_radius = {0.5f, 0.5f},
+                           .exposure = 1};
     p.out.film(p.out.ctx, &film);
     Jobs jobs(1);
     const auto finished = p.writer.finish(jobs, true);
@@ -266,7 +283,8 @@ TEST_CASE("a missing image is reported and the rest goes on; one file is one ima
     const unsigned char pfm[] = "Pf\n1 1\n-1.0\n\0\0\0\x3f"; // one pixel, 0.5
     REQUIRE(write_file_atomic(there, std::string_view(reinterpret_cast<const char*>(pfm), sizeof pfm - 1)));
     const RestageImage gone{.path = "/no/such/wood.png", .encoding = RESTAGE_SRGB}, gray{.path = there.c_str()};
-    const RestageHandle a = p.out.image(p.out.ctx, &gone), b = p.out.image(p.out.ctx, &gray), c = p.out.image(p.out.ctx, &gray);
+    const RestageHandle a = p.out.image(p.out.ctx, &gone), b = p.out.image(p.out.ctx, &gray),
+                        c = p.out.image(p.out.ctx, &gray);
     CHECK(b == c);
     Jobs jobs(2);
     REQUIRE(p.writer.finish(jobs, true));
@@ -283,20 +301,28 @@ TEST_CASE("export options are held to the exporter's table", "[io]") {
         {.id = "meshes", .label = "Meshes", .type = RESTAGE_INT, .min = 0, .max = 10},
         {.id = "flat", .label = "Flat", .type = RESTAGE_BOOL},
     };
-    const RestageExporter1 exporter{.size = sizeof exporter, .format = "x", .label = "X", .extensions = "x|xx", .options = options, .option_count = 3};
+    const RestageExporter1 exporter{.size = sizeof exporter,
+                                    .format = "x",
+                                    .label = "X",
+                                    .extensions = "x|xx",
+                                    .options = options,
+                                    .option_count = 3};
     scene::ParamSet values;
     REQUIRE(set_option(exporter, "version=v3", values));
     REQUIRE(set_option(exporter, "meshes=7", values));
     REQUIRE(set_option(exporter, "flat=true", values));
     CHECK(values.choice("version", "") == "v3");
     CHECK(values.number("meshes", 0) == 7);
-    CHECK_THAT(set_option(exporter, "version=v5", values).error().message, ContainsSubstring("cannot be \"v5\"; v4|v3 are possible"));
-    CHECK_THAT(set_option(exporter, "what=1", values).error().message, ContainsSubstring("there is no option \"what\"; there are: version=v4|v3, meshes, flat"));
+    CHECK_THAT(set_option(exporter, "version=v5", values).error().message,
+               ContainsSubstring("cannot be \"v5\"; v4|v3 are possible"));
+    CHECK_THAT(set_option(exporter, "what=1", values).error().message,
+               ContainsSubstring("there is no option \"what\"; there are: version=v4|v3, meshes, flat"));
     CHECK_FALSE(set_option(exporter, "meshes=11", values));
     CHECK_FALSE(set_option(exporter, "meshes=7x", values));
     CHECK_FALSE(set_option(exporter, "flat=1", values));
     CHECK_FALSE(set_option(exporter, "version", values));
     Log log([](LogLevel, std::string_view) {});
     const plugin::Registry none(log);
-    CHECK_THAT(export_scene({}, "a.pbrt", none).error().message, ContainsSubstring("no exporter writes files called .pbrt"));
+    CHECK_THAT(export_scene({}, "a.pbrt", none).error().message,
+               ContainsSubstring("no exporter writes files called .pbrt"));
 }

@@ -54,7 +54,8 @@ struct Folder {
         CHECK(registry.entries()[0]->state == State::refused);
         CHECK(registry.materials().empty());
         const std::string reason = registry.entries()[0]->reason;
-        CHECK(std::any_of(lines.begin(), lines.end(), [&](const auto& l) { return l.find(reason) != std::string::npos; }));
+        CHECK(std::any_of(lines.begin(), lines.end(),
+                          [&](const auto& l) { return l.find(reason) != std::string::npos; }));
         return reason;
     }
     std::string refusal_of(const std::string& json, const char* library) {
@@ -103,10 +104,12 @@ TEST_CASE("the manifest is judged before the library is opened", "[plugin]") {
     CHECK_THAT(refused(manifest("material", "{\"min\": 2}")), ContainsSubstring("\"abi\" has no \"max\""));
     CHECK_THAT(refused(manifest("material", "{\"min\": 3, \"max\": 2}")), ContainsSubstring("min is greater than max"));
     CHECK_THAT(refused(manifest("material", "{\"min\": 2, \"max\": 9}")), ContainsSubstring("the plugin is too new"));
-    const std::string body = R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)";
+    const std::string body =
+        R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)";
     CHECK_THAT(refused(body + R"("library":"../velvet"})"), ContainsSubstring("not a path inside the plugin's folder"));
     CHECK_THAT(refused(body + R"("library":"/lib/libc.so.6"})"), ContainsSubstring("not a path inside"));
-    CHECK_THAT(refused(body + R"("library":"velvet","files":["gone.glsl"]})"), ContainsSubstring("gone.glsl is missing"));
+    CHECK_THAT(refused(body + R"("library":"velvet","files":["gone.glsl"]})"),
+               ContainsSubstring("gone.glsl is missing"));
     CHECK_THAT(refused(body + R"("library":"velvet","files":"velvet.glsl"})"), ContainsSubstring("must be a list"));
     CHECK(std::none_of(folder.lines.begin(), folder.lines.end(),
                        [](const auto& line) { return line.find("velvet is here") != std::string::npos; }));
@@ -208,7 +211,8 @@ TEST_CASE("identifiers and tables are held to GLSL's rules", "[plugin]") {
     CHECK(is_glsl_identifier("_x9"));
     for (const char* bad : {"", "9x", "a-b", "gl_x", "a__b", "sample", "vec3", "a b", "ä"})
         CHECK_FALSE(is_glsl_identifier(bad));
-    const RestageParam twice[] = {{.id = "a", .label = "A", .type = RESTAGE_BOOL}, {.id = "a", .label = "A", .type = RESTAGE_BOOL}};
+    const RestageParam twice[] = {{.id = "a", .label = "A", .type = RESTAGE_BOOL},
+                                  {.id = "a", .label = "A", .type = RESTAGE_BOOL}};
     CHECK(check_params(twice, 2) == "parameter \"a\" is there twice");
     CHECK(check_params(nullptr, 1) == "its parameter table is missing");
     const RestageParam texturable{.id = "a", .label = "A", .type = RESTAGE_INT, .flags = RESTAGE_PARAM_TEXTURABLE};

@@ -70,8 +70,7 @@ std::vector<AnyChange> contents(const Scene& scene) {
 
 bool same(const Scene& a, const Scene& b) {
     const auto x = contents(a), y = contents(b);
-    if (x.size() != y.size())
-        return false;
+    if (x.size() != y.size()) return false;
     for (std::size_t i = 0; i < x.size(); ++i)
         if (x[i].index() != y[i].index() || !std::visit(
                                                 [&]<class C>(const C& c) {
@@ -130,8 +129,13 @@ TEST_CASE("choices and defaults come from the table line", "[scene]") {
     CHECK(choice_index("v4|v3|none", "v4") == 0);
     CHECK(choice_index("v4|v3|none", "none") == 2);
     CHECK_FALSE(choice_index("v4|v3|none", "v"));
-    const RestageParam line{
-        .id = "remap", .label = "", .type = RESTAGE_ENUM, .def = {2}, .unit = "", .choices = "v4|v3|none", .tooltip = ""};
+    const RestageParam line{.id = "remap",
+                            .label = "",
+                            .type = RESTAGE_ENUM,
+                            .def = {2},
+                            .unit = "",
+                            .choices = "v4|v3|none",
+                            .tooltip = ""};
     CHECK(default_value(line).text == "none");
     RestageParam beyond = line;
     beyond.def[0] = 9;
@@ -183,7 +187,8 @@ TEST_CASE("a drag is one edit, and one that returns is none", "[scene]") {
     History history;
     const Scene start = r.scene;
     for (int i = 1; i <= 10; ++i)
-        REQUIRE(history.push(r.scene, *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {i, 0, 0})), "drag"));
+        REQUIRE(
+            history.push(r.scene, *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {i, 0, 0})), "drag"));
     CHECK(history.size() == 1);
     CHECK(r.scene.instances[r.chair].object_to_world[3].x == 10);
     history.end_gesture();
@@ -273,7 +278,8 @@ TEST_CASE("removing the last of a group removes the group", "[scene]") {
 TEST_CASE("a duplicate shares geometry, moves in world space and takes whole groups along", "[scene]") {
     Room r;
     apply(r.scene, *set_transform(r.scene, r.chair, glm::scale(glm::dmat4(1), {2, 2, 2})));
-    const auto copies = duplicate_instances(r.scene, std::array{r.chair, r.chair2}, glm::translate(glm::dmat4(1), {3, 0, 0}));
+    const auto copies =
+        duplicate_instances(r.scene, std::array{r.chair, r.chair2}, glm::translate(glm::dmat4(1), {3, 0, 0}));
     REQUIRE(copies);
     apply(r.scene, copies->edit);
     const Instance& copy = r.scene.instances[copies->copies[0]];
@@ -306,7 +312,8 @@ TEST_CASE("builders refuse what cannot be", "[scene]") {
 
 TEST_CASE("what stood for a value goes when the value is edited", "[scene]") {
     Room r;
-    const std::string kept = "\"float x\" [ 1 ]\n=eta \"spectrum eta\" [ \"metal-Au-eta\" ]\n=k \"spectrum k\" [ \"metal-Au-k\" ]\n";
+    const std::string kept =
+        "\"float x\" [ 1 ]\n=eta \"spectrum eta\" [ \"metal-Au-eta\" ]\n=k \"spectrum k\" [ \"metal-Au-k\" ]\n";
     apply(r.scene, *modify(r.scene, r.steel, "", [&](Material& m) { m.origin = {kept, "pbrt-v4"}; }));
     History history;
     history.push(r.scene, *set_param(r.scene, r.steel, "roughness", Value::number(1)));
@@ -344,14 +351,13 @@ TEST_CASE("validate is silent about a sound scene and names what is wrong with a
         change(broken);
         return validate(broken.scene);
     };
-    const auto change = [](Room& b, auto id, auto&& f) {
-        apply(b.scene, *modify(b.scene, id, "", f));
-    };
+    const auto change = [](Room& b, auto id, auto&& f) { apply(b.scene, *modify(b.scene, id, "", f)); };
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.material = {9}; }); }), error,
                    "instance \"chair\": material 9 does not exist"));
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.mesh = {}; }); }), error, "has no mesh"));
-    CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1][1] = not_a_number; }); }),
-                   error, "not a finite number"));
+    CHECK(mentions(
+        with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1][1] = not_a_number; }); }), error,
+        "not a finite number"));
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1][3] = 1; }); }), error,
                    "projective"));
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1] = {}; }); }), warning,
@@ -371,14 +377,15 @@ TEST_CASE("validate is silent about a sound scene and names what is wrong with a
                        change(b, u, [&](Texture& x) { x.params.set("tex", {.type = RESTAGE_COLOR, .texture = t}); });
                    }),
                    error, "texture \"u\" contains itself through texture \"t\""));
-    CHECK(mentions(with([&](Room& b) { change(b, b.camera, [](Camera& c) { c.fov = 180; }); }), error, "field of view"));
+    CHECK(
+        mentions(with([&](Room& b) { change(b, b.camera, [](Camera& c) { c.fov = 180; }); }), error, "field of view"));
     CHECK(mentions(with([&](Room& b) { apply(b.scene, set_film(b.scene, Film{.width = 1000000, .height = 1000000})); }),
                    error, "the film has 1000000x1000000 pixels"));
-    CHECK(mentions(with([&](Room& b) { apply(b.scene, set_film(b.scene, Film{.width = 0})); }), error, "the film has 0x"));
-    CHECK(mentions(with([&](Room& b) {
-                       change(b, b.oak, [](Material& m) { m.params.set("x", Value::number(not_a_number)); });
-                   }),
-                   error, "parameter \"x\" is not a finite number"));
+    CHECK(mentions(with([&](Room& b) { apply(b.scene, set_film(b.scene, Film{.width = 0})); }), error,
+                   "the film has 0x"));
+    CHECK(mentions(
+        with([&](Room& b) { change(b, b.oak, [](Material& m) { m.params.set("x", Value::number(not_a_number)); }); }),
+        error, "parameter \"x\" is not a finite number"));
     CHECK(mentions(with([&](Room& b) {
                        PixelData pixels{.width = 2, .height = 2, .channels = 3, .values = std::vector<float>(11)};
                        b.add(Image{.name = "i", .data = std::make_shared<PixelData>(pixels)});

@@ -54,7 +54,7 @@ std::array<double, 2> to_equirect(Direction w) {
 }
 
 class Picture {
-public:
+  public:
     explicit Picture(const RestageImage& image, bool wraps) : i_(image), wraps_(wraps) {}
     void add_bilinear(double u, double v, double weight, float out[3]) const {
         const double x = u * i_.width - 0.5, y = v * i_.height - 0.5;
@@ -69,7 +69,7 @@ public:
             }
     }
 
-private:
+  private:
     const float* at(long x, long y) const {
         const auto width = static_cast<long>(i_.width), height = static_cast<long>(i_.height);
         x = wraps_ ? (x % width + width) % width : std::clamp(x, 0l, width - 1);
@@ -84,12 +84,13 @@ private:
 
 std::string Exporter::environment_file(const RestageEnvironment& e) {
     RestageImage image{};
-    if (!in_.image(in_.ctx, e.image, &image) || !image.pixels || image.width == 0)
-        return "";
+    if (!in_.image(in_.ctx, e.image, &image) || !image.pixels || image.width == 0) return "";
     const bool to_oct = !v3();
     // About as many pixels as before; four samples a side of each, so that narrow lights keep their energy.
-    const auto side = std::max(2u, static_cast<std::uint32_t>(std::lround(std::sqrt(double(image.width) * image.height))));
-    const std::uint32_t width = to_oct ? side : std::max(2u, static_cast<std::uint32_t>(std::lround(double(side) * std::sqrt(2.0))));
+    const auto side =
+        std::max(2u, static_cast<std::uint32_t>(std::lround(std::sqrt(double(image.width) * image.height))));
+    const std::uint32_t width =
+        to_oct ? side : std::max(2u, static_cast<std::uint32_t>(std::lround(double(side) * std::sqrt(2.0))));
     const std::uint32_t height = to_oct ? side : std::max(1u, width / 2);
     const Picture from(image, to_oct);
     constexpr int samples = 4;
@@ -97,17 +98,21 @@ std::string Exporter::environment_file(const RestageEnvironment& e) {
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x)
             for (int s = 0; s < samples * samples; ++s) {
-                const double u = (x + (s % samples + 0.5) / samples) / width, v = (y + (s / samples + 0.5) / samples) / height;
+                const double u = (x + (s % samples + 0.5) / samples) / width,
+                             v = (y + (s / samples + 0.5) / samples) / height;
                 const auto at = to_oct ? to_equirect(from_octahedral(u, v)) : to_octahedral(from_equirect(u, v));
                 from.add_bilinear(at[0], at[1], 1.0 / (samples * samples), &pixels[(std::size_t{y} * width + x) * 3]);
             }
     std::string bytes = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1\n";
     for (std::uint32_t row = height; row-- > 0;)
-        bytes.append(reinterpret_cast<const char*>(&pixels[std::size_t{row} * width * 3]), std::size_t{width} * 3 * sizeof(float));
-    const std::string file = out_.unique_file("textures", plain_name(e.text.name) + (to_oct ? "_octahedral" : "_equirect"), ".pfm");
+        bytes.append(reinterpret_cast<const char*>(&pixels[std::size_t{row} * width * 3]),
+                     std::size_t{width} * 3 * sizeof(float));
+    const std::string file =
+        out_.unique_file("textures", plain_name(e.text.name) + (to_oct ? "_octahedral" : "_equirect"), ".pfm");
     out_.write(file, bytes);
     approximated(std::string("environment \"") + e.text.name + "\"",
-                 std::string("its picture was resampled to ") + (to_oct ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");
+                 std::string("its picture was resampled to ") +
+                     (to_oct ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");
     return file;
 }
 

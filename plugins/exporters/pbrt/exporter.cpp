@@ -9,8 +9,7 @@ namespace restage::pbrt_out {
 
 const RestageValue* Values::find(std::string_view id) const {
     for (std::uint32_t i = 0; i < count_; ++i)
-        if (values_[i].id == id)
-            return &values_[i];
+        if (values_[i].id == id) return &values_[i];
     return nullptr;
 }
 
@@ -26,10 +25,8 @@ std::string Values::choice(std::string_view id, const char* otherwise) const {
 
 std::array<float, 3> Values::color(std::string_view id, std::array<float, 3> otherwise) const {
     const RestageValue* v = find(id);
-    if (!v)
-        return otherwise;
-    if (v->type == RESTAGE_FLOAT)
-        return {v->v[0], v->v[0], v->v[0]};
+    if (!v) return otherwise;
+    if (v->type == RESTAGE_FLOAT) return {v->v[0], v->v[0], v->v[0]};
     return {v->v[0], v->v[1], v->v[2]};
 }
 
@@ -71,8 +68,7 @@ void Exporter::comment(const std::vector<std::string>& comment_lines, const char
 
 std::string Exporter::unique_name(const char* kind, const char* name) {
     std::string base = plain_name(name);
-    if (base.empty())
-        base = kind;
+    if (base.empty()) base = kind;
     std::string result = base;
     for (unsigned i = 2; !names_[kind].insert(result).second; ++i)
         result = base + " " + std::to_string(i);
@@ -87,35 +83,29 @@ void Exporter::flag(Params& params, const char* name, bool value) const {
 bool Exporter::run(const std::string& scene_name) {
     const auto go_on = [&](float done, const char* what) { return in_.progress(in_.ctx, done, what) != 0; };
     text_ = std::string("# ") + (v3() ? "pbrt-v3" : "pbrt-v4") + " scene, written by Restage\n";
-    if (!go_on(0, "settings"))
-        return false;
+    if (!go_on(0, "settings")) return false;
     head();
     text_ += "WorldBegin\n";
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_MEDIUM); ++h)
         medium(h);
     environment();
     lights();
-    if (!go_on(0.1f, "materials"))
-        return false;
+    if (!go_on(0.1f, "materials")) return false;
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_TEXTURE); ++h)
         texture(h);
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_MATERIAL); ++h)
         material(h);
-    if (!go_on(0.3f, "shapes"))
-        return false;
+    if (!go_on(0.3f, "shapes")) return false;
     shapes();
-    if (v3())
-        text_ += "\nWorldEnd\n";
-    if (!go_on(0.9f, "writing"))
-        return false;
+    if (v3()) text_ += "\nWorldEnd\n";
+    if (!go_on(0.9f, "writing")) return false;
     out_.write(scene_name, text_);
     return true;
 }
 
 bool is_identity(const double m[16]) {
     for (int i = 0; i < 16; ++i)
-        if (m[i] != (i % 5 == 0 ? 1.0 : 0.0))
-            return false;
+        if (m[i] != (i % 5 == 0 ? 1.0 : 0.0)) return false;
     return true;
 }
 
@@ -136,8 +126,7 @@ std::optional<std::array<double, 16>> inverse(const double m[16]) {
         return at(r1, c1) * at(r2, c2) - at(r1, c2) * at(r2, c1);
     };
     const double determinant = at(0, 0) * cofactor(0, 0) + at(0, 1) * cofactor(0, 1) + at(0, 2) * cofactor(0, 2);
-    if (determinant == 0 || !std::isfinite(1 / determinant))
-        return std::nullopt;
+    if (determinant == 0 || !std::isfinite(1 / determinant)) return std::nullopt;
     std::array<double, 16> out{};
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)

@@ -6,9 +6,9 @@
 #include "output.hpp"
 #include "text.hpp"
 
+#include <restage/scene_io.h>
 #include <map>
 #include <optional>
-#include <restage/scene_io.h>
 #include <set>
 #include <string>
 
@@ -25,7 +25,7 @@ struct Options {
 
 // The values of a material or texture, by id, with the defaults of the plugins' tables where nothing is set.
 class Values {
-public:
+  public:
     Values(const RestageValue* values, std::uint32_t count) : values_(values), count_(count) {}
     const RestageValue* find(std::string_view id) const;
     float number(std::string_view id, float otherwise) const;
@@ -34,7 +34,7 @@ public:
     std::array<float, 3> color(std::string_view id, std::array<float, 3> otherwise) const;
     RestageHandle ref(std::string_view id) const;
 
-private:
+  private:
     const RestageValue* values_;
     std::uint32_t count_;
 };
@@ -48,12 +48,12 @@ struct Kept {
 };
 
 class Exporter {
-public:
+  public:
     Exporter(const RestageSceneReader1& reader, Options options, Output& output)
         : in_(reader), options_(options), out_(output) {}
     bool run(const std::string& scene_name); // false = stopped by the user
 
-private:
+  private:
     bool v3() const { return options_.version == Version::v3; }
     const char* format() const { return v3() ? "pbrt-v3" : "pbrt-v4"; }
     std::string point(const char* name) const { return (v3() ? "point " : "point3 ") + std::string(name); }
@@ -85,9 +85,10 @@ private:
     // write_materials*.cpp
     std::string material(RestageHandle);
     void put_float(Params&, const Values&, const char* id, const char* name, float otherwise);
-    void put_color(Params&, const Values&, const char* id, const char* name, std::array<float, 3> otherwise, bool albedo = true);
-    void put_roughness(Params&, const Values&, const std::string& what, const char* u_id, const char* v_id, const char* u_name,
-                       const char* v_name, bool zero_is_smooth, float otherwise = 0);
+    void put_color(Params&, const Values&, const char* id, const char* name, std::array<float, 3> otherwise,
+                   bool albedo = true);
+    void put_roughness(Params&, const Values&, const std::string& what, const char* u_id, const char* v_id,
+                       const char* u_name, const char* v_name, bool zero_is_smooth, float otherwise = 0);
     void put_common(Params&, const Values&, const std::string& what);
     std::string material_v4(Params&, const RestageMaterialDesc&, const Values&, const std::string& what); // pbrt's type
     std::string material_v3(Params&, const RestageMaterialDesc&, const Values&, const std::string& what);
@@ -96,7 +97,8 @@ private:
     std::string medium(RestageHandle);
     void lights();
     void environment();
-    std::string environment_file(const RestageEnvironment&); // its picture in the other mapping, "" = there are no pixels
+    std::string environment_file(
+        const RestageEnvironment&); // its picture in the other mapping, "" = there are no pixels
 
     // write_shapes.cpp
     struct Placement { // one Shape in the file, or one ObjectInstance
@@ -118,10 +120,10 @@ private:
     std::set<std::string> reported_;
     std::map<std::string, std::set<std::string>> names_; // by kind
     std::map<RestageHandle, std::string> textures_, materials_, media_, meshes_, images_;
-    std::map<RestageHandle, unsigned> mesh_uses_;       // Shape lines that will name it
-    std::map<RestageHandle, std::string> object_of_;    // by group: the object it is an instance of
+    std::map<RestageHandle, unsigned> mesh_uses_; // Shape lines that will name it
+    std::map<RestageHandle, std::string> object_of_; // by group: the object it is an instance of
     std::map<std::string, std::vector<RestageHandle>> objects_; // members, of the first group
-    std::map<RestageHandle, std::string> object_of_instance_;   // ungrouped instances that share everything
+    std::map<RestageHandle, std::string> object_of_instance_; // ungrouped instances that share everything
 };
 
 bool is_identity(const double m[16]);

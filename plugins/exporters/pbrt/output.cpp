@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -54,8 +55,7 @@ fs::path Output::stage(const std::string& relative) {
     std::error_code code;
     if (const fs::path parent = target.parent_path(); !fs::exists(parent, code)) {
         fs::create_directory(parent, code);
-        if (code)
-            throw ExportError(parent.string(), "cannot be created: " + code.message());
+        if (code) throw ExportError(parent.string(), "cannot be created: " + code.message());
         made_folders_.push_back(parent);
     }
     fs::path temporary = target;
@@ -73,8 +73,7 @@ void Output::write(const std::string& relative, std::string_view bytes) {
     const auto failed = [&]() -> ExportError {
         return ExportError((folder_ / relative).string(), std::string("cannot be written: ") + std::strerror(errno));
     };
-    if (!file)
-        throw failed();
+    if (!file) throw failed();
     bool good = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
 #if !defined(_WIN32)
     good = good && fsync(fileno(file)) == 0;
@@ -84,8 +83,7 @@ void Output::write(const std::string& relative, std::string_view bytes) {
         std::fclose(file);
         throw error;
     }
-    if (std::fclose(file) != 0)
-        throw failed();
+    if (std::fclose(file) != 0) throw failed();
 }
 
 void Output::copy(const fs::path& from, const std::string& relative) {
@@ -93,14 +91,14 @@ void Output::copy(const fs::path& from, const std::string& relative) {
     std::error_code code;
     fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, code);
     if (code)
-        throw ExportError(from.string(), "cannot be copied to " + (folder_ / relative).string() + ": " + code.message());
+        throw ExportError(from.string(),
+                          "cannot be copied to " + (folder_ / relative).string() + ": " + code.message());
 }
 
 std::string Output::inside(const fs::path& file) const {
     std::error_code code;
     const fs::path relative = fs::weakly_canonical(file, code).lexically_relative(fs::weakly_canonical(folder_, code));
-    if (code || relative.empty() || *relative.begin() == ".." || relative == ".")
-        return "";
+    if (code || relative.empty() || *relative.begin() == ".." || relative == ".") return "";
     return relative.generic_string();
 }
 
@@ -110,8 +108,7 @@ void Output::commit() {
     std::error_code code;
     for (const Staged& file : staged_) {
         fs::rename(file.temporary, file.target, code);
-        if (code)
-            throw ExportError(file.target.string(), "cannot be replaced: " + code.message());
+        if (code) throw ExportError(file.target.string(), "cannot be replaced: " + code.message());
     }
     staged_.clear();
     made_folders_.clear();

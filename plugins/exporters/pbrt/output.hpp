@@ -19,7 +19,7 @@ struct ExportError : std::runtime_error { // file and sentence, for error() of t
 };
 
 class Output {
-public:
+  public:
     explicit Output(const std::filesystem::path& scene_file);
     ~Output(); // what was not committed is removed
     Output(const Output&) = delete;
@@ -34,7 +34,7 @@ public:
     std::string inside(const std::filesystem::path& file) const;
     void commit(); // the scene file must have been written
 
-private:
+  private:
     std::filesystem::path stage(const std::string& relative);
     struct Staged {
         std::filesystem::path temporary, target;

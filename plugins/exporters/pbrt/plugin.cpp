@@ -10,9 +10,25 @@ namespace {
 
 const RestageParam options[] = {
     {"version", "pbrt version", RESTAGE_ENUM, 0, 0, 0, {0}, "", "v4|v3", "Which pbrt the file is for."},
-    {"textures", "Textures", RESTAGE_ENUM, 0, 0, 0, {0}, "", "copy|relative|absolute",
+    {"textures",
+     "Textures",
+     RESTAGE_ENUM,
+     0,
+     0,
+     0,
+     {0},
+     "",
+     "copy|relative|absolute",
      "Copy image files beside the scene, or name them where they are."},
-    {"meshes", "Meshes", RESTAGE_ENUM, 0, 0, 0, {0}, "", "write|reference",
+    {"meshes",
+     "Meshes",
+     RESTAGE_ENUM,
+     0,
+     0,
+     0,
+     {0},
+     "",
+     "write|reference",
      "Write heavy meshes beside the scene, or name the PLY files they came from."},
 };
 
@@ -30,8 +46,7 @@ int save(const char* path, const RestageSceneReader1* in, const RestageValue* va
     try {
         const std::filesystem::path target(path);
         Output output(target);
-        if (!Exporter(*in, read_options(values, count), output).run(target.filename().string()))
-            return 0; // stopped
+        if (!Exporter(*in, read_options(values, count), output).run(target.filename().string())) return 0; // stopped
         output.commit();
         in->progress(in->ctx, 1, "done");
         return 1;
@@ -43,7 +58,7 @@ int save(const char* path, const RestageSceneReader1* in, const RestageValue* va
     return 0;
 }
 
-const RestageExporter1 table = {sizeof(RestageExporter1), "pbrt",    "pbrt scene (v4, v3)", "pbrt", options,
+const RestageExporter1 table = {sizeof(RestageExporter1),           "pbrt", "pbrt scene (v4, v3)", "pbrt", options,
                                 sizeof options / sizeof options[0], save};
 
 const void* query(const char* id, std::uint32_t index) {
@@ -56,6 +71,7 @@ const void* query(const char* id, std::uint32_t index) {
 
 extern "C" {
 RESTAGE_EXPORT extern const RestagePlugin restage_plugin;
-const RestagePlugin restage_plugin = {RESTAGE_ABI, sizeof(RestagePlugin), "org.restage.exporter.pbrt", "0.1.0", nullptr, nullptr,
-                                      restage::pbrt_out::query};
+const RestagePlugin restage_plugin = {
+    RESTAGE_ABI, sizeof(RestagePlugin),   "org.restage.exporter.pbrt", "0.1.0", nullptr,
+    nullptr,     restage::pbrt_out::query};
 }

@@ -26,8 +26,7 @@ std::size_t skip_space(std::string_view s, std::size_t i) {
 // The index behind the quoted string that starts at i.
 std::size_t skip_string(std::string_view s, std::size_t i) {
     for (++i; i < s.size() && s[i] != '"'; ++i)
-        if (s[i] == '\\')
-            ++i;
+        if (s[i] == '\\') ++i;
     return std::min(i + 1, s.size());
 }
 
@@ -40,22 +39,22 @@ std::string quote(std::string_view text) {
     std::string out = "\"";
     for (const char c : text)
         switch (c) {
-        case '"':
-        case '\\':
-            out += '\\';
-            out += c;
-            break;
-        case '\n':
-            out += "\\n";
-            break;
-        case '\t':
-            out += "\\t";
-            break;
-        case '\r':
-            out += "\\r";
-            break;
-        default:
-            out += c;
+            case '"':
+            case '\\':
+                out += '\\';
+                out += c;
+                break;
+            case '\n':
+                out += "\\n";
+                break;
+            case '\t':
+                out += "\\t";
+                break;
+            case '\r':
+                out += "\\r";
+                break;
+            default:
+                out += c;
         }
     return out + '"';
 }
@@ -63,8 +62,8 @@ std::string quote(std::string_view text) {
 std::string plain_name(std::string_view text) {
     std::string out(text);
     for (char& c : out)
-        if (static_cast<unsigned char>(c) < 32 || c == '"' || c == '/' || c == '\\' || c == ':' || c == '*' || c == '?' ||
-            c == '<' || c == '>' || c == '|')
+        if (static_cast<unsigned char>(c) < 32 || c == '"' || c == '/' || c == '\\' || c == ':' || c == '*' ||
+            c == '?' || c == '<' || c == '>' || c == '|')
             c = '_';
     return out;
 }
@@ -73,8 +72,7 @@ std::vector<std::string> lines(std::string_view text) {
     std::vector<std::string> out;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
-        if (end > 0)
-            out.emplace_back(text.substr(0, end));
+        if (end > 0) out.emplace_back(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return out;
@@ -119,11 +117,9 @@ Params& Params::add_raw(std::string_view s) {
             value.pop_back();
         declaration.remove_prefix(std::min(skip_space(declaration, 0), declaration.size()));
         const std::size_t space = declaration.find_first_of(" \t");
-        if (space == std::string_view::npos)
-            return *this; // no parameter: the rest is not understood either
+        if (space == std::string_view::npos) return *this; // no parameter: the rest is not understood either
         const std::string_view name = declaration.substr(std::min(skip_space(declaration, space), declaration.size()));
-        if (!has(name))
-            add(declaration.substr(0, space), name, value);
+        if (!has(name)) add(declaration.substr(0, space), name, value);
     }
     return *this;
 }
@@ -158,16 +154,14 @@ bool Params::stands_alone() const {
 
 std::string Params::value(std::string_view name) const {
     for (const Entry& e : entries_)
-        if (e.name == name)
-            return e.value;
+        if (e.name == name) return e.value;
     return "";
 }
 
 std::string Params::text(std::string_view separator) const {
     std::string out;
     for (const Entry& e : entries_) {
-        if (!out.empty())
-            out += separator;
+        if (!out.empty()) out += separator;
         out += "\"" + e.type + " " + e.name + "\" [ " + e.value + " ]";
     }
     return out;
@@ -185,8 +179,8 @@ KeptLine split_directive(std::string_view line) {
         const std::string_view first = line.substr(i + 1, end - i - 2);
         // `Film "float iso" [..]`: the first string declares a parameter already.
         const std::size_t next = skip_space(line, end);
-        const bool declares = first.find(' ') != std::string_view::npos && next < line.size() &&
-                              (line[next] == '[' || line[next] != '"');
+        const bool declares =
+            first.find(' ') != std::string_view::npos && next < line.size() && (line[next] == '[' || line[next] != '"');
         if (!declares) {
             out.name = first;
             i = next;

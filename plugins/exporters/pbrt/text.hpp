@@ -13,13 +13,13 @@ namespace restage::pbrt_out {
 
 std::string number(float);
 std::string number(double);
-std::string quote(std::string_view);       // with pbrt's escapes
-std::string plain_name(std::string_view);   // fit for a comment and a file: no quotes, slashes or control characters
+std::string quote(std::string_view); // with pbrt's escapes
+std::string plain_name(std::string_view); // fit for a comment and a file: no quotes, slashes or control characters
 std::vector<std::string> lines(std::string_view text); // without empty ones
 
 // A list of parameters as text: `"float radius" [ 1 ]` each.
 class Params {
-public:
+  public:
     Params& add(std::string_view type, std::string_view name, std::string_view value); // value as it stands in brackets
     Params& add_float(std::string_view name, double value) { return add("float", name, number(value)); }
     Params& add_float(std::string_view name, float value) { return add("float", name, number(value)); }
@@ -29,7 +29,7 @@ public:
     Params& add_raw(std::string_view parameters); // one or more, as kept verbatim; names that are there already win
     void remove(std::string_view name);
     void remove_all_of(const Params& others); // by name
-    void retype(bool for_v3);                 // point and vector for v3, point3 and vector3 for v4
+    void retype(bool for_v3); // point and vector for v3, point3 and vector3 for v4
     bool has(std::string_view name) const;
     // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no names of files.
     bool stands_alone() const;
@@ -37,7 +37,7 @@ public:
     bool empty() const { return entries_.empty(); }
     std::string text(std::string_view separator = " ") const;
 
-private:
+  private:
     struct Entry {
         std::string type, name, value;
     };

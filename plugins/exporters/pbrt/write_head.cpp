@@ -12,15 +12,15 @@ namespace {
 // The kept line of a directive ("Integrator", with v3's "SurfaceIntegrator"), if there is one.
 std::optional<KeptLine> find_line(const Kept& kept, std::string_view word, std::string_view other = "") {
     for (const std::string& line : kept.lines)
-        if (const KeptLine l = split_directive(line); (l.word == word || (!other.empty() && l.word == other)) && !l.name.empty())
+        if (const KeptLine l = split_directive(line);
+            (l.word == word || (!other.empty() && l.word == other)) && !l.name.empty())
             return l;
     return std::nullopt;
 }
 
 void add_kept_params(Params& params, const Kept& kept, std::string_view word) { // `Film "float whitebalance" [ 5000 ]`
     for (const std::string& line : kept.lines)
-        if (const KeptLine l = split_directive(line); l.word == word && l.name.empty())
-            params.add_raw(l.rest);
+        if (const KeptLine l = split_directive(line); l.word == word && l.name.empty()) params.add_raw(l.rest);
 }
 
 } // namespace
@@ -32,7 +32,8 @@ void Exporter::head() {
     comment(kept_settings.foreign);
     for (const std::string& line : kept_settings.lines) {
         const std::string word = split_directive(line).word;
-        if (word != "Film" && word != "PixelFilter" && word != "Integrator" && word != "SurfaceIntegrator" && word != "Sampler")
+        if (word != "Film" && word != "PixelFilter" && word != "Integrator" && word != "SurfaceIntegrator" &&
+            word != "Sampler")
             text_ += line + "\n"; // Option, Accelerator, TransformTimes
     }
     camera(kept_settings);
@@ -45,7 +46,8 @@ void Exporter::head() {
 double Exporter::shutter_time() const {
     RestageCamera camera{};
     const RestageHandle active = in_.active_camera(in_.ctx);
-    if (v3() || !active || !in_.camera(in_.ctx, active, &camera) || std::string_view(camera.text.verbatim_format) != format())
+    if (v3() || !active || !in_.camera(in_.ctx, active, &camera) ||
+        std::string_view(camera.text.verbatim_format) != format())
         return 1;
     Params params;
     for (const std::string& line : lines(camera.text.verbatim))
@@ -58,16 +60,15 @@ double Exporter::shutter_time() const {
 void Exporter::camera(const Kept&) {
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_CAMERA); ++h)
         if (RestageCamera other{}; h != in_.active_camera(in_.ctx) && in_.camera(in_.ctx, h, &other))
-            dropped(std::string("camera \"") + other.text.name + "\"", "pbrt has one camera: the active one is written");
+            dropped(std::string("camera \"") + other.text.name + "\"",
+                    "pbrt has one camera: the active one is written");
     RestageCamera camera{};
-    if (!in_.camera(in_.ctx, in_.active_camera(in_.ctx), &camera))
-        return;
+    if (!in_.camera(in_.ctx, in_.active_camera(in_.ctx), &camera)) return;
     const std::string what = std::string("camera \"") + camera.text.name + "\"";
     const Kept k = kept(camera.text, what);
     comment(k.foreign);
     const auto to_camera = inverse(camera.camera_to_world);
-    if (!to_camera)
-        throw ExportError("", what + " has a transform that cannot be inverted");
+    if (!to_camera) throw ExportError("", what + " has a transform that cannot be inverted");
     if (const RestageHandle around = in_.camera_medium(in_.ctx)) {
         const std::string name = medium(around);
         text_ += "MediumInterface \"\" " + quote(name) + "\n";
@@ -82,11 +83,11 @@ void Exporter::camera(const Kept&) {
     } else if (camera.focal_distance != 1e6f) {
         params.add_float("focaldistance", camera.focal_distance);
     }
-    if (camera.frame_aspect > 0)
-        params.add_float("frameaspectratio", camera.frame_aspect);
+    if (camera.frame_aspect > 0) params.add_float("frameaspectratio", camera.frame_aspect);
     const float* w = camera.screen_window;
     if (w[0] != 0 || w[1] != 0 || w[2] != 0 || w[3] != 0)
-        params.add("float", "screenwindow", number(w[0]) + " " + number(w[1]) + " " + number(w[2]) + " " + number(w[3]));
+        params.add("float", "screenwindow",
+                   number(w[0]) + " " + number(w[1]) + " " + number(w[2]) + " " + number(w[3]));
     for (const std::string& line : k.lines) {
         const KeptLine l = split_directive(line);
         if (l.word == "Camera" && !l.name.empty()) { // another kind of camera: only its place is ours
@@ -110,14 +111,12 @@ void Exporter::film(const Kept& k, double time) {
     const float* c = film.crop;
     if (c[0] != 0 || c[1] != 1 || c[2] != 0 || c[3] != 1)
         params.add("float", "cropwindow", number(c[0]) + " " + number(c[1]) + " " + number(c[2]) + " " + number(c[3]));
-    if (v3() && film.exposure != 1)
-        params.add_float("scale", film.exposure);
+    if (v3() && film.exposure != 1) params.add_float("scale", film.exposure);
     if (!v3() && (film.exposure != 1 || time != 1)) // imaging ratio = exposure time * ISO / 100
         params.add_float("iso", static_cast<double>(film.exposure) * 100 / time);
     add_kept_params(params, k, "Film");
     std::string type = v3() ? "image" : "rgb";
-    if (const auto line = find_line(k, "Film"))
-        type = line->name;
+    if (const auto line = find_line(k, "Film")) type = line->name;
     text_ += "Film " + quote(type) + " " + params.text() + "\n";
 }
 
@@ -146,10 +145,8 @@ void Exporter::sampler_and_integrator(const Kept& k) {
     in_.settings(in_.ctx, &settings);
     Params sampler, integrator;
     KeptLine s{"Sampler", v3() ? "sobol" : "zsobol", ""}, i{"Integrator", v3() ? "path" : "volpath", ""};
-    if (const auto line = find_line(k, "Sampler"))
-        s = *line;
-    if (const auto line = find_line(k, "Integrator", "SurfaceIntegrator"))
-        i = *line;
+    if (const auto line = find_line(k, "Sampler")) s = *line;
+    if (const auto line = find_line(k, "Integrator", "SurfaceIntegrator")) i = *line;
     sampler.add_raw(s.rest);
     const std::uint32_t samples = settings.samples ? settings.samples : 16;
     if (s.name == "stratified") {
@@ -172,7 +169,8 @@ void Exporter::sampler_and_integrator(const Kept& k) {
     integrator.remove("maxdepth");
     integrator.add_int("maxdepth", settings.max_depth);
     text_ += "Sampler " + quote(s.name) + " " + sampler.text() + "\n";
-    text_ += (i.word == "SurfaceIntegrator" ? "SurfaceIntegrator " : "Integrator ") + quote(i.name) + " " + integrator.text() + "\n";
+    text_ += (i.word == "SurfaceIntegrator" ? "SurfaceIntegrator " : "Integrator ") + quote(i.name) + " " +
+             integrator.text() + "\n";
 }
 
 } // namespace restage::pbrt_out

@@ -53,12 +53,13 @@ void Exporter::put_roughness(Params& params, const Values& values, const std::st
             return;
         }
         const double roughness = values.number(id, otherwise);
-        const double alpha = zero_is_smooth && roughness == 0 ? 0 : remap == "v3" ? alpha_v3(roughness) : alpha_v4(roughness);
+        const double alpha = zero_is_smooth && roughness == 0 ? 0
+                             : remap == "v3"                  ? alpha_v3(roughness)
+                                                              : alpha_v4(roughness);
         params.add_float(name, static_cast<float>(alpha));
     };
     put(u_id, u_name);
-    if (v_id)
-        put(v_id, v_name);
+    if (v_id) put(v_id, v_name);
     const bool textured = values.ref(u_id) || (v_id && values.ref(v_id));
     if ((remap == "none" || (convert && !textured)) && !params.has("remaproughness"))
         flag(params, "remaproughness", false);
@@ -85,11 +86,9 @@ void Exporter::put_common(Params& params, const Values& values, const std::strin
 }
 
 std::string Exporter::material(RestageHandle handle) {
-    if (const auto it = materials_.find(handle); it != materials_.end())
-        return it->second;
+    if (const auto it = materials_.find(handle); it != materials_.end()) return it->second;
     RestageMaterialDesc m{};
-    if (!in_.material(in_.ctx, handle, &m))
-        return "";
+    if (!in_.material(in_.ctx, handle, &m)) return "";
     materials_[handle] = ""; // a circle finds nothing
     const std::string what = std::string("material \"") + m.text.name + "\"";
     const Kept k = kept(m.text, what);
@@ -106,14 +105,14 @@ std::string Exporter::material(RestageHandle handle) {
             Params original;
             original.add_raw(line);
             if (!original.stands_alone()) {
-                approximated(what, "its \"" + id + "\" was given by a file or in another colour space; its colour is written");
+                approximated(
+                    what, "its \"" + id + "\" was given by a file or in another colour space; its colour is written");
                 continue;
             }
             own.remove_all_of(original);
             params.add_raw(line);
         }
-        if (type != "interface" && type != "none")
-            put_common(own, values, what);
+        if (type != "interface" && type != "none") put_common(own, values, what);
         params.add_raw(own.text());
     }
     for (const std::string& line : k.lines)

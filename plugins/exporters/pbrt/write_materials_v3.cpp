@@ -26,8 +26,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         put_color(p, v, "eta", "eta", {0.200438f, 0.924033f, 1.10221f}, false);
         put_color(p, v, "k", "k", {3.91295f, 2.45285f, 2.14219f}, false);
         rough("uroughness", "vroughness", false);
-        if (v.choice("distribution", "ggx") != "ggx")
-            unlike("pbrt-v3's metal has GGX microfacets");
+        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v3's metal has GGX microfacets");
         return "metal";
     }
     if (type == "conductor" || type == "coatedconductor") {
@@ -35,7 +34,8 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         unlike(coated ? "pbrt-v3 has no coats on metal; the metal alone is written"
                       : "pbrt-v3 gives metal by its optical constants; others of that reflectance are written");
         if (colored) { // eta = 1: R = k^2 / (k^2 + 4), as pbrt-v4 does it (ConductorMaterial::GetBxDF)
-            const auto r = v.ref("reflectance") ? average(v.ref("reflectance")) : v.color("reflectance", {0.9f, 0.9f, 0.9f});
+            const auto r =
+                v.ref("reflectance") ? average(v.ref("reflectance")) : v.color("reflectance", {0.9f, 0.9f, 0.9f});
             std::array<float, 3> k{};
             for (std::size_t i = 0; i < 3; ++i) {
                 const double x = std::clamp(static_cast<double>(r[i]), 0.0, 0.9999);
@@ -53,10 +53,8 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         color("reflectance", "Kr", 1);
         color("transmittance", "Kt", 1);
         put_float(p, v, "eta", "eta", 1.5f);
-        if (v.boolean("thin", false))
-            unlike("pbrt-v3 has no thin glass; solid glass is written");
-        if (v.choice("distribution", "ggx") != "ggx")
-            unlike("pbrt-v3's glass has GGX microfacets");
+        if (v.boolean("thin", false)) unlike("pbrt-v3 has no thin glass; solid glass is written");
+        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v3's glass has GGX microfacets");
         rough("uroughness", "vroughness", true);
         return "glass";
     }
@@ -64,7 +62,8 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         unlike("pbrt-v3 has no layered materials; an Ashikhmin-Shirley substrate stands for it");
         color("reflectance", "Kd", 0.5f);
         const double eta = std::max(static_cast<double>(v.ref("eta") ? 1.5f : v.number("eta", 1.5f)), 1.0);
-        const auto f0 = static_cast<float>((eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1))); // Fresnel at normal incidence
+        const auto f0 =
+            static_cast<float>((eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1))); // Fresnel at normal incidence
         p.add_rgb("Ks", {f0, f0, f0});
         rough("uroughness", "vroughness", false);
         return "substrate";
@@ -111,7 +110,8 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         return "translucent";
     }
     if (type == "mix") { // v3's amount is the weight of the first: the two change places
-        p.add_string("namedmaterial1", material(v.ref("second"))).add_string("namedmaterial2", material(v.ref("first")));
+        p.add_string("namedmaterial1", material(v.ref("second")))
+            .add_string("namedmaterial2", material(v.ref("first")));
         if (v.ref("amount")) {
             unlike("pbrt-v3 mixes by a colour texture; the mean of its scalar texture is written");
             const float mean = average(v.ref("amount"))[0];
@@ -122,8 +122,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         }
         return "mix";
     }
-    if (type == "interface")
-        return "none";
+    if (type == "interface") return "none";
     dropped(what + " (" + type + ")", "pbrt-v3 has no such material; a grey matte one stands for it");
     p.add_rgb("Kd", {0.5f, 0.5f, 0.5f});
     return "matte";

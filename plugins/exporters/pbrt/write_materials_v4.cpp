@@ -36,18 +36,15 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
     if (type == "conductor") {
         metal("eta", "k", "eta", "k");
         put_roughness(p, v, what, "uroughness", "vroughness", "uroughness", "vroughness", false);
-        if (v.choice("distribution", "ggx") != "ggx")
-            unlike("pbrt-v4 knows GGX microfacets only");
+        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v4 knows GGX microfacets only");
         return "conductor";
     }
     if (type == "dielectric") {
         put_float(p, v, "eta", "eta", 1.5f);
         if (!white("reflectance") || !white("transmittance"))
             unlike("pbrt-v4's glass has no colour of its own; clear glass is written");
-        if (v.choice("distribution", "ggx") != "ggx")
-            unlike("pbrt-v4 knows GGX microfacets only");
-        if (v.boolean("thin", false))
-            return "thindielectric";
+        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v4 knows GGX microfacets only");
+        if (v.boolean("thin", false)) return "thindielectric";
         put_roughness(p, v, what, "uroughness", "vroughness", "uroughness", "vroughness", true);
         return "dielectric";
     }
@@ -59,10 +56,12 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         return "coateddiffuse";
     }
     if (type == "coatedconductor") {
-        put_roughness(p, v, what, "interface_uroughness", "interface_vroughness", "interface.uroughness", "interface.vroughness", true);
+        put_roughness(p, v, what, "interface_uroughness", "interface_vroughness", "interface.uroughness",
+                      "interface.vroughness", true);
         put_float(p, v, "interface_eta", "interface.eta", 1.5f);
         metal("conductor_eta", "conductor_k", "conductor.eta", "conductor.k");
-        put_roughness(p, v, what, "conductor_uroughness", "conductor_vroughness", "conductor.uroughness", "conductor.vroughness", true);
+        put_roughness(p, v, what, "conductor_uroughness", "conductor_vroughness", "conductor.uroughness",
+                      "conductor.vroughness", true);
         layer();
         return "coatedconductor";
     }
@@ -77,17 +76,16 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         put_float(p, v, "amount", "amount", 0.5f);
         return "mix";
     }
-    if (type == "interface")
-        return "interface";
+    if (type == "interface") return "interface";
     if (type == "substrate" || type == "plastic" || type == "uber") {
         unlike("pbrt-v4 does not have it; a coated diffuse material of its colour and roughness stands for it");
-        put_color(p, v, "kd", "reflectance", type == "substrate" ? std::array{0.5f, 0.5f, 0.5f} : std::array{0.25f, 0.25f, 0.25f});
+        put_color(p, v, "kd", "reflectance",
+                  type == "substrate" ? std::array{0.5f, 0.5f, 0.5f} : std::array{0.25f, 0.25f, 0.25f});
         if (type == "plastic")
             put_roughness(p, v, what, "roughness", nullptr, "roughness", nullptr, true, 0.1f);
         else
             put_roughness(p, v, what, "uroughness", "vroughness", "uroughness", "vroughness", true, 0.1f);
-        if (type == "uber")
-            put_float(p, v, "eta", "eta", 1.5f);
+        if (type == "uber") put_float(p, v, "eta", "eta", 1.5f);
         return "coateddiffuse";
     }
     if (type == "mirror") {

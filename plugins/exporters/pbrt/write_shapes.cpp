@@ -14,10 +14,9 @@ constexpr std::uint32_t most_inline_triangles = 100;
 
 // Everything but the place; equal = may share an object.
 std::string signature(const RestageInstance& i) {
-    std::string key = std::to_string(i.mesh) + " " + std::to_string(i.material) + " " + std::to_string(i.alpha_texture) + " " +
-                      number(i.alpha) + " " + std::to_string(i.flags);
-    if (i.has_medium_interface)
-        key += " " + std::to_string(i.interior) + "|" + std::to_string(i.exterior);
+    std::string key = std::to_string(i.mesh) + " " + std::to_string(i.material) + " " +
+                      std::to_string(i.alpha_texture) + " " + number(i.alpha) + " " + std::to_string(i.flags);
+    if (i.has_medium_interface) key += " " + std::to_string(i.interior) + "|" + std::to_string(i.exterior);
     return key + " " + i.text.verbatim_format + i.text.verbatim;
 }
 
@@ -35,8 +34,7 @@ bool close(const std::array<double, 16>& a, const std::array<double, 16>& b) {
 } // namespace
 
 void Exporter::transform(const double m[16], const char* indent) {
-    if (is_identity(m))
-        return;
+    if (is_identity(m)) return;
     std::string line = std::string(indent) + "Transform [";
     for (int i = 0; i < 16; ++i)
         line += " " + number(m[i]);
@@ -46,13 +44,13 @@ void Exporter::transform(const double m[16], const char* indent) {
 void Exporter::plan_objects() {
     std::map<RestageHandle, std::vector<RestageHandle>> members; // by group
     std::set<RestageHandle> unfit;
-    const std::uint32_t instances = in_.count(in_.ctx, RESTAGE_KIND_INSTANCE), groups = in_.count(in_.ctx, RESTAGE_KIND_GROUP);
+    const std::uint32_t instances = in_.count(in_.ctx, RESTAGE_KIND_INSTANCE),
+                        groups = in_.count(in_.ctx, RESTAGE_KIND_GROUP);
     RestageInstance i{};
     for (RestageHandle h = 1; h <= instances; ++h)
         if (in_.instance(in_.ctx, h, &i) && i.group) {
             members[i.group].push_back(h);
-            if (!shareable(i))
-                unfit.insert(i.group);
+            if (!shareable(i)) unfit.insert(i.group);
         }
     bool nested = false;
     for (RestageHandle g = 1; g <= groups; ++g)
@@ -62,7 +60,8 @@ void Exporter::plan_objects() {
             nested = true;
         }
     if (nested || std::any_of(unfit.begin(), unfit.end(), [&](RestageHandle g) { return members.count(g) > 0; }))
-        approximated("groups", "pbrt has none but objects without emitters in one level; the others are written as comments");
+        approximated("groups",
+                     "pbrt has none but objects without emitters in one level; the others are written as comments");
 
     // Groups: the same things at the same places relative to the first.
     struct Made {
@@ -71,15 +70,13 @@ void Exporter::plan_objects() {
     };
     std::map<std::string, std::vector<Made>> made; // by what is in them
     for (const auto& [group, handles] : members) {
-        if (unfit.count(group))
-            continue;
+        if (unfit.count(group)) continue;
         std::string key;
         std::vector<std::array<double, 16>> relative;
         RestageInstance first{};
         in_.instance(in_.ctx, handles[0], &first);
         const auto from_first = inverse(first.object_to_world);
-        if (!from_first)
-            continue;
+        if (!from_first) continue;
         for (const RestageHandle h : handles) {
             in_.instance(in_.ctx, h, &i);
             key += signature(i) + "\n";
@@ -109,8 +106,7 @@ void Exporter::plan_objects() {
                 alone[signature(i)].push_back(h);
     std::map<RestageHandle, const std::vector<RestageHandle>*> in_order; // of the first of each
     for (const auto& [key, handles] : alone)
-        if (handles.size() > 1)
-            in_order[handles[0]] = &handles;
+        if (handles.size() > 1) in_order[handles[0]] = &handles;
     for (const auto& [first, handles] : in_order) {
         in_.instance(in_.ctx, first, &i);
         const std::string name = unique_name("object", i.text.name);
@@ -128,8 +124,7 @@ void Exporter::shapes() {
     for (const auto& [name, handles] : objects_) {
         first_of[handles[0]] = name;
         for (const RestageHandle h : handles)
-            if (in_.instance(in_.ctx, h, &i))
-                ++mesh_uses_[i.mesh];
+            if (in_.instance(in_.ctx, h, &i)) ++mesh_uses_[i.mesh];
     }
     for (RestageHandle h = 1; h <= instances; ++h)
         if (in_.instance(in_.ctx, h, &i) && !object_of_.count(i.group) && !object_of_instance_.count(h))
@@ -137,12 +132,13 @@ void Exporter::shapes() {
 
     std::set<RestageHandle> placed_groups;
     for (RestageHandle h = 1; h <= instances; ++h) {
-        if (!in_.instance(in_.ctx, h, &i))
-            continue;
-        if (h % 64 == 0 && !in_.progress(in_.ctx, 0.3f + 0.6f * static_cast<float>(h) / static_cast<float>(instances), "shapes"))
+        if (!in_.instance(in_.ctx, h, &i)) continue;
+        if (h % 64 == 0 &&
+            !in_.progress(in_.ctx, 0.3f + 0.6f * static_cast<float>(h) / static_cast<float>(instances), "shapes"))
             return;
         if (i.flags & RESTAGE_INSTANCE_HIDDEN) {
-            dropped(std::string("instance \"") + i.text.name + "\"", "it is hidden: pbrt would show it, so it is left out");
+            dropped(std::string("instance \"") + i.text.name + "\"",
+                    "it is hidden: pbrt would show it, so it is left out");
             continue;
         }
         const auto grouped = object_of_.find(i.group);
@@ -155,8 +151,7 @@ void Exporter::shapes() {
         if (const auto first = first_of.find(h); first != first_of.end())
             write_object(first->second, objects_[first->second]);
         const bool by_group = grouped != object_of_.end();
-        if (by_group && !placed_groups.insert(i.group).second)
-            continue; // the group was placed with its first member
+        if (by_group && !placed_groups.insert(i.group).second) continue; // the group was placed with its first member
         const std::string& object = by_group ? grouped->second : shared->second;
         text_ += "\nAttributeBegin\n";
         comment({plain_name(i.text.name)}, "    ");
@@ -188,8 +183,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     else
         comment({plain_name(i.text.name)}, deep.c_str());
     comment(k.foreign, deep.c_str());
-    if (i.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION)
-        text_ += deep + "ReverseOrientation\n";
+    if (i.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION) text_ += deep + "ReverseOrientation\n";
     if (!relative_to) {
         transform(i.object_to_world, deep.c_str());
     } else if (!std::equal(relative_to, relative_to + 16, i.object_to_world)) {
@@ -200,8 +194,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
         Params light;
         light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
-        if (i.flags & RESTAGE_INSTANCE_TWO_SIDED)
-            flag(light, "twosided", true);
+        if (i.flags & RESTAGE_INSTANCE_TWO_SIDED) flag(light, "twosided", true);
         text_ += deep + "AreaLightSource \"diffuse\" " + light.text() + "\n";
     }
     text_ += deep + "NamedMaterial " + quote(material(i.material)) + "\n";
@@ -209,8 +202,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
 }
 
 std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
-    if (const auto it = meshes_.find(handle); it != meshes_.end())
-        return it->second;
+    if (const auto it = meshes_.find(handle); it != meshes_.end()) return it->second;
     std::string& file = meshes_[handle];
     std::error_code code;
     const std::filesystem::path source = mesh.source_file;
@@ -220,7 +212,8 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
         if (const std::string inside = out_.inside(source); !inside.empty())
             return file = inside; // beside the scene already
         if (!options_.write_meshes) {
-            file = options_.textures == Files::absolute ? "" : source.lexically_relative(out_.folder()).generic_string();
+            file =
+                options_.textures == Files::absolute ? "" : source.lexically_relative(out_.folder()).generic_string();
             return file = file.empty() ? source.generic_string() : file;
         }
     }
@@ -252,8 +245,7 @@ std::string Exporter::shape_line(RestageHandle handle, const RestageInstance& i,
         const auto list = [](const auto* values, std::size_t count) {
             std::string out;
             for (std::size_t n = 0; n < count; ++n) {
-                if (n > 0)
-                    out += ' ';
+                if (n > 0) out += ' ';
                 if constexpr (std::is_same_v<decltype(*values), const float&>)
                     out += number(values[n]);
                 else
@@ -264,10 +256,8 @@ std::string Exporter::shape_line(RestageHandle handle, const RestageInstance& i,
         const std::size_t vertices = mesh.vertex_count;
         params.add("integer", "indices", list(mesh.indices, std::size_t{mesh.triangle_count} * 3));
         params.add(v3() ? "point" : "point3", "P", list(mesh.positions, 3 * vertices));
-        if (mesh.normals)
-            params.add("normal", "N", list(mesh.normals, 3 * vertices));
-        if (mesh.uvs)
-            params.add(v3() ? "float" : "point2", "uv", list(mesh.uvs, 2 * vertices));
+        if (mesh.normals) params.add("normal", "N", list(mesh.normals, 3 * vertices));
+        if (mesh.uvs) params.add(v3() ? "float" : "point2", "uv", list(mesh.uvs, 2 * vertices));
     } else if (type.empty()) {
         type = "plymesh";
         params.add_string("filename", ply_file(handle, mesh));

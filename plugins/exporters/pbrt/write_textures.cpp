@@ -12,7 +12,8 @@ namespace {
 
 std::string pfm_bytes(const RestageImage& image) { // rows from the bottom, little-endian; alpha is left out
     const std::uint32_t channels = image.channels == 1 ? 1 : 3;
-    std::string out = (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1\n";
+    std::string out =
+        (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1\n";
     for (std::uint32_t row = image.height; row-- > 0;)
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const float* pixel = image.pixels + (std::size_t{row} * image.width + x) * image.channels;
@@ -28,16 +29,16 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-bool is_float_file(const std::string& extension) { return extension == ".exr" || extension == ".pfm" || extension == ".hdr"; }
+bool is_float_file(const std::string& extension) {
+    return extension == ".exr" || extension == ".pfm" || extension == ".hdr";
+}
 
 } // namespace
 
 std::string Exporter::image_file(RestageHandle handle) {
-    if (const auto it = images_.find(handle); it != images_.end())
-        return it->second;
+    if (const auto it = images_.find(handle); it != images_.end()) return it->second;
     RestageImage image{};
-    if (!in_.image(in_.ctx, handle, &image))
-        return "";
+    if (!in_.image(in_.ctx, handle, &image)) return "";
     std::string& file = images_[handle];
     std::error_code code;
     const bool on_disk = *image.path && fs::exists(image.path, code);
@@ -53,8 +54,7 @@ std::string Exporter::image_file(RestageHandle handle) {
         file = inside; // is beside the scene already
     } else if (options_.textures == Files::relative) {
         file = fs::path(image.path).lexically_relative(out_.folder()).generic_string();
-        if (file.empty())
-            file = fs::path(image.path).generic_string(); // on another drive
+        if (file.empty()) file = fs::path(image.path).generic_string(); // on another drive
     } else {
         const fs::path source(image.path);
         for (const auto& [other, name] : images_) // the same file with another encoding
@@ -67,7 +67,8 @@ std::string Exporter::image_file(RestageHandle handle) {
 }
 
 // `"rgb tex" [..]`, `"float tex" ..` or `"texture tex" "name"`.
-void Exporter::put_argument(Params& params, const Values& values, const char* id, const char* name, bool is_float, float otherwise) {
+void Exporter::put_argument(Params& params, const Values& values, const char* id, const char* name, bool is_float,
+                            float otherwise) {
     if (const RestageHandle handle = values.ref(id)) {
         RestageTexture t{};
         const bool fits = in_.texture(in_.ctx, handle, &t) && (t.is_float != 0) == is_float;
@@ -88,7 +89,8 @@ void Exporter::put_argument(Params& params, const Values& values, const char* id
         params.add_rgb(name, values.color(id, {otherwise, otherwise, otherwise}));
 }
 
-void Exporter::put_image_texture(Params& params, const RestageTexture& t, const Values& values, const std::string& what) {
+void Exporter::put_image_texture(Params& params, const RestageTexture& t, const Values& values,
+                                 const std::string& what) {
     params.add_string("filename", image_file(t.image));
     RestageImage image{};
     in_.image(in_.ctx, t.image, &image);
@@ -97,29 +99,26 @@ void Exporter::put_image_texture(Params& params, const RestageTexture& t, const 
     if (is_float_file(extension)) {
         // linear whatever is said
     } else if (v3()) {
-        if (image.encoding == RESTAGE_GAMMA)
-            approximated(what, "pbrt-v3 has no gamma but sRGB; that is written");
-        if (linear == (png || extension == ".tga"))
-            flag(params, "gamma", !linear);
+        if (image.encoding == RESTAGE_GAMMA) approximated(what, "pbrt-v3 has no gamma but sRGB; that is written");
+        if (linear == (png || extension == ".tga")) flag(params, "gamma", !linear);
     } else if (png && image.encoding != RESTAGE_SRGB) {
         params.add_string("encoding", linear ? "linear" : "gamma " + number(image.gamma));
     } else if (!png && image.encoding != RESTAGE_SRGB) {
         approximated(what, "pbrt-v4 reads " + extension + " files as sRGB always; this one is taken as linear here");
     }
-    if (const float scale = values.number("scale", 1); scale != 1)
-        params.add_float("scale", scale);
+    if (const float scale = values.number("scale", 1); scale != 1) params.add_float("scale", scale);
     if (values.boolean("invert", false)) {
         if (v3())
             approximated(what, "pbrt-v3 cannot invert a picture; it is written as it is");
         else
             flag(params, "invert", true);
     }
-    if (const std::string wrap = values.choice("wrap", "repeat"); wrap != "repeat")
-        params.add_string("wrap", wrap);
+    if (const std::string wrap = values.choice("wrap", "repeat"); wrap != "repeat") params.add_string("wrap", wrap);
 }
 
 // v3: tex1 * tex2, both of the texture's kind. v4: tex * scale, the scale a scalar.
-void Exporter::put_scale_texture(Params& params, const RestageTexture& t, const Values& values, const std::string& what) {
+void Exporter::put_scale_texture(Params& params, const RestageTexture& t, const Values& values,
+                                 const std::string& what) {
     const bool is_float = t.is_float != 0;
     if (v3()) {
         put_argument(params, values, "tex", "tex1", is_float, 1);
@@ -128,14 +127,12 @@ void Exporter::put_scale_texture(Params& params, const RestageTexture& t, const 
     }
     const auto scalar = [&](const char* id) { // constant grey, or a float texture
         RestageTexture other{};
-        if (const RestageHandle h = values.ref(id))
-            return in_.texture(in_.ctx, h, &other) && other.is_float;
+        if (const RestageHandle h = values.ref(id)) return in_.texture(in_.ctx, h, &other) && other.is_float;
         const auto c = values.color(id, {1, 1, 1});
         return c[0] == c[1] && c[1] == c[2];
     };
     const char *tex = "tex", *scale = "scale";
-    if (!scalar(scale) && scalar(tex))
-        std::swap(tex, scale); // a product: the order does not matter
+    if (!scalar(scale) && scalar(tex)) std::swap(tex, scale); // a product: the order does not matter
     if (!scalar(scale))
         approximated(what, "pbrt-v4 multiplies a texture by a scalar only; the mean of the second factor is written");
     put_argument(params, values, tex, "tex", is_float, 1);
@@ -143,22 +140,22 @@ void Exporter::put_scale_texture(Params& params, const RestageTexture& t, const 
         put_argument(params, values, scale, "scale", true, 1);
     } else {
         const auto c = values.ref(scale) ? average(values.ref(scale)) : values.color(scale, {1, 1, 1});
-        params.add_float("scale", c[0] == c[1] && c[1] == c[2] ? c[0] : 0.212639f * c[0] + 0.715169f * c[1] + 0.072192f * c[2]);
+        params.add_float("scale",
+                         c[0] == c[1] && c[1] == c[2] ? c[0] : 0.212639f * c[0] + 0.715169f * c[1] + 0.072192f * c[2]);
     }
 }
 
 std::array<float, 3> Exporter::average(RestageHandle handle, int depth) {
     RestageTexture t{};
     std::array<float, 3> grey{0.5f, 0.5f, 0.5f};
-    if (depth > 16 || !in_.texture(in_.ctx, handle, &t))
-        return grey;
+    if (depth > 16 || !in_.texture(in_.ctx, handle, &t)) return grey;
     const Values values(t.values, t.value_count);
     const auto part = [&](const char* id, float otherwise) {
-        return values.ref(id) ? average(values.ref(id), depth + 1) : values.color(id, {otherwise, otherwise, otherwise});
+        return values.ref(id) ? average(values.ref(id), depth + 1)
+                              : values.color(id, {otherwise, otherwise, otherwise});
     };
     const std::string type = t.type;
-    if (type == "constant")
-        return part("value", 1);
+    if (type == "constant") return part("value", 1);
     if (type == "scale") {
         const auto a = part("tex", 1), b = part("scale", 1);
         return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
@@ -173,11 +170,9 @@ std::array<float, 3> Exporter::average(RestageHandle handle, int depth) {
 }
 
 std::string Exporter::texture(RestageHandle handle) {
-    if (const auto it = textures_.find(handle); it != textures_.end())
-        return it->second;
+    if (const auto it = textures_.find(handle); it != textures_.end()) return it->second;
     RestageTexture t{};
-    if (!in_.texture(in_.ctx, handle, &t))
-        return "";
+    if (!in_.texture(in_.ctx, handle, &t)) return "";
     textures_[handle] = ""; // a circle finds nothing
     const std::string what = std::string("texture \"") + t.text.name + "\"", type = t.type;
     const Kept k = kept(t.text, what);
@@ -203,18 +198,20 @@ std::string Exporter::texture(RestageHandle handle) {
         mapped = true;
     } else if (k.lines.empty() && !k.foreign.empty()) {
         written = "constant"; // of the other version: its average is the best there is
-        approximated(what + " (" + type + ")", std::string("its parameters are not ") + format() + "'s; its average is written");
+        approximated(what + " (" + type + ")",
+                     std::string("its parameters are not ") + format() + "'s; its average is written");
         put_argument(params, values, "average", "value", is_float, 0.5f);
     }
     if (mapped)
-        for (const auto& [id, otherwise] : {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
-            if (const float value = values.number(id, otherwise); value != otherwise)
-                params.add_float(id, value);
+        for (const auto& [id, otherwise] :
+             {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
+            if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
     for (const std::string& line : k.lines)
         params.add_raw(line);
     comment(k.foreign);
     const std::string name = unique_name("texture", t.text.name);
-    text_ += "Texture " + quote(name) + (is_float ? " \"float\" " : " \"spectrum\" ") + quote(written) + " " + params.text() + "\n";
+    text_ += "Texture " + quote(name) + (is_float ? " \"float\" " : " \"spectrum\" ") + quote(written) + " " +
+             params.text() + "\n";
     return textures_[handle] = name;
 }
 

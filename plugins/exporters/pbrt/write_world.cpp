@@ -5,19 +5,16 @@
 namespace restage::pbrt_out {
 
 std::string Exporter::medium(RestageHandle handle) {
-    if (const auto it = media_.find(handle); it != media_.end())
-        return it->second;
+    if (const auto it = media_.find(handle); it != media_.end()) return it->second;
     RestageMedium m{};
-    if (!in_.medium(in_.ctx, handle, &m))
-        return "";
+    if (!in_.medium(in_.ctx, handle, &m)) return "";
     const std::string what = std::string("medium \"") + m.text.name + "\"";
     const Kept k = kept(m.text, what);
     Params params;
     params.add_string("type", "homogeneous");
     params.add_rgb("sigma_a", {m.sigma_a[0], m.sigma_a[1], m.sigma_a[2]});
     params.add_rgb("sigma_s", {m.sigma_s[0], m.sigma_s[1], m.sigma_s[2]});
-    if (m.g != 0)
-        params.add_float("g", m.g);
+    if (m.g != 0) params.add_float("g", m.g);
     for (const std::string& line : k.lines) {
         Params one;
         one.add_raw(line);
@@ -32,8 +29,7 @@ std::string Exporter::medium(RestageHandle handle) {
 
 void Exporter::environment() {
     RestageEnvironment e{};
-    if (!in_.environment(in_.ctx, &e))
-        return;
+    if (!in_.environment(in_.ctx, &e)) return;
     const std::string what = std::string("environment \"") + e.text.name + "\"";
     const Kept k = kept(e.text, what);
     std::array<float, 3> scale{e.scale[0], e.scale[1], e.scale[2]};
@@ -44,8 +40,9 @@ void Exporter::environment() {
     } else if (e.image) {
         file = environment_file(e);
         if (file.empty())
-            dropped(what, v3() ? "pbrt-v3 reads equirectangular pictures, this one is octahedral; a constant stands for it"
-                               : "pbrt-v4 reads octahedral pictures, this one is equirectangular; a constant stands for it");
+            dropped(what,
+                    v3() ? "pbrt-v3 reads equirectangular pictures, this one is octahedral; a constant stands for it"
+                         : "pbrt-v4 reads octahedral pictures, this one is equirectangular; a constant stands for it");
     }
     if (file.empty()) {
         params.add_rgb("L", scale);
@@ -54,7 +51,8 @@ void Exporter::environment() {
         const bool grey = scale[0] == scale[1] && scale[1] == scale[2];
         if (!grey && !v3()) {
             const float y = 0.212639f * scale[0] + 0.715169f * scale[1] + 0.072192f * scale[2];
-            approximated(what, "pbrt-v4 scales a picture by one number: the luminance of its coloured scale is written");
+            approximated(what,
+                         "pbrt-v4 scales a picture by one number: the luminance of its coloured scale is written");
             scale = {y, y, y};
         }
         if (v3() && (!grey || scale[0] != 1))
@@ -74,8 +72,7 @@ void Exporter::environment() {
 void Exporter::lights() {
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_LIGHT); ++h) {
         RestageLight light{};
-        if (!in_.light(in_.ctx, h, &light))
-            continue;
+        if (!in_.light(in_.ctx, h, &light)) continue;
         const std::string what = std::string("light \"") + light.text.name + "\"";
         const Kept k = kept(light.text, what);
         const std::array<float, 3> value{light.value[0], light.value[1], light.value[2]};
@@ -83,20 +80,22 @@ void Exporter::lights() {
         const char* type = "point";
         Params params;
         switch (light.kind) {
-        case RESTAGE_LIGHT_POINT:
-            params.add_rgb("I", value);
-            break;
-        case RESTAGE_LIGHT_SPOT:
-            type = "spot";
-            params.add_rgb("I", value).add_float("coneangle", light.cone_angle).add_float("conedeltaangle", light.cone_delta);
-            params.add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
-            break;
-        case RESTAGE_LIGHT_DISTANT:
-            type = "distant";
-            params.add_rgb("L", value).add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
-            break;
-        default:
-            continue;
+            case RESTAGE_LIGHT_POINT:
+                params.add_rgb("I", value);
+                break;
+            case RESTAGE_LIGHT_SPOT:
+                type = "spot";
+                params.add_rgb("I", value)
+                    .add_float("coneangle", light.cone_angle)
+                    .add_float("conedeltaangle", light.cone_delta);
+                params.add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
+                break;
+            case RESTAGE_LIGHT_DISTANT:
+                type = "distant";
+                params.add_rgb("L", value).add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
+                break;
+            default:
+                continue;
         }
         std::string line = std::string("LightSource ") + quote(type) + " ";
         for (const std::string& text : k.lines) {
