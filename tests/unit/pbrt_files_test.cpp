@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files: every broken one of tests/data/pbrt/broken gives the message and place its first line names; files cut or
-// damaged anywhere never crash; the scenes and corpora of the environment variables load or say why not.
+// Whole files: every broken one of tests/data/pbrt/broken gives the message and place its first line names; files cut
+// or damaged anywhere never crash; the scenes and corpora of the environment variables load or say why not.
 #include "pbrt_writer.hpp"
 
 #include <algorithm>
@@ -56,7 +56,8 @@ TEST_CASE("pbrt broken files: message and place", "[pbrt]") {
 
 TEST_CASE("pbrt broken files: what is no file", "[pbrt]") {
     const Folder folder;
-    for (const std::string& path : {folder.path().string(), (folder.path() / "none.pbrt").string(), std::string("/dev/null"), std::string()}) {
+    for (const std::string& path :
+         {folder.path().string(), (folder.path() / "none.pbrt").string(), std::string("/dev/null"), std::string()}) {
         Recorder r;
         CHECK(r.load_file(path) == 0);
         CHECK(r.error.message.find("cannot be read") != std::string::npos);
@@ -73,7 +74,8 @@ TEST_CASE("pbrt broken files: what is no file", "[pbrt]") {
 TEST_CASE("pbrt broken files: cut and damaged anywhere", "[pbrt]") {
     const std::string good = read(data / "everything.pbrt");
     const Folder folder;
-    for (const char* name : {"part.pbrt", "tri.ply", "eta.spd"}) folder.file(name, read(data / name));
+    for (const char* name : {"part.pbrt", "tri.ply", "eta.spd"})
+        folder.file(name, read(data / name));
     {
         Recorder r;
         REQUIRE(r.load_file(folder.file("s.pbrt", good)) == 1);
@@ -88,7 +90,8 @@ TEST_CASE("pbrt broken files: cut and damaged anywhere", "[pbrt]") {
             failed += r.error.set;
     };
     std::size_t runs = 0;
-    for (std::size_t n = 0; n < good.size(); n += 7, ++runs) run(good.substr(0, n));
+    for (std::size_t n = 0; n < good.size(); n += 7, ++runs)
+        run(good.substr(0, n));
     for (std::size_t n = 0; n < good.size(); n += 5, ++runs) { // a character is replaced
         std::string damaged = good;
         damaged[n] = "\"[]9-#x\0 "[n % 9];
@@ -118,9 +121,10 @@ TEST_CASE("pbrt scenes: all of RESTAGE_SCENES load", "[pbrt]") {
         const char* name;
         std::size_t instances;
         bool has_v3;
-    } scenes[] = {{"coffee", 23, true},           {"cornell-box", 8, true},  {"dining-room", 53, false}, {"kitchen", 299, true},
-                  {"living-room", 65, true},      {"material-testball", 4, true}, {"staircase2", 32, false},  {"teapot-full", 5, true},
-                  {"veach-bidir", 14, false},     {"veach-mis", 9, true},    {"water-caustic", 10, false}};
+    } scenes[] = {{"coffee", 23, true},      {"cornell-box", 8, true},    {"dining-room", 53, false},
+                  {"kitchen", 299, true},    {"living-room", 65, true},   {"material-testball", 4, true},
+                  {"staircase2", 32, false}, {"teapot-full", 5, true},    {"veach-bidir", 14, false},
+                  {"veach-mis", 9, true},    {"water-caustic", 10, false}};
     for (const auto& scene : scenes)
         for (const bool old : {false, true}) {
             if (old && !scene.has_v3) continue;
@@ -138,15 +142,19 @@ TEST_CASE("pbrt scenes: all of RESTAGE_SCENES load", "[pbrt]") {
             CHECK(r.raw_cameras.size() == 1);
             bool lit = !r.environments.empty() || !r.lights.empty();
             std::size_t triangles = 0;
-            for (const auto& instance : r.instances) lit |= (instance.raw.flags & RESTAGE_INSTANCE_EMITS) != 0;
-            for (const auto& mesh : r.meshes) triangles += mesh.indices.size() / 3;
+            for (const auto& instance : r.instances)
+                lit |= (instance.raw.flags & RESTAGE_INSTANCE_EMITS) != 0;
+            for (const auto& mesh : r.meshes)
+                triangles += mesh.indices.size() / 3;
             CHECK(lit);
             for (const auto& line : r.lines) { // nothing of these scenes is missing
                 INFO(line.what << ": " << line.note);
                 CHECK(line.fate != RESTAGE_DROPPED);
             }
-            std::printf("%-18s %s: %3zu meshes, %8zu triangles, %2zu materials, %2zu textures, %zu report lines, %.3f s\n", scene.name,
-                        old ? "v3" : "v4", r.meshes.size(), triangles, r.materials.size(), r.textures.size(), r.lines.size(), seconds);
+            std::printf(
+                "%-18s %s: %3zu meshes, %8zu triangles, %2zu materials, %2zu textures, %zu report lines, %.3f s\n",
+                scene.name, old ? "v3" : "v4", r.meshes.size(), triangles, r.materials.size(), r.textures.size(),
+                r.lines.size(), seconds);
         }
 }
 
@@ -173,5 +181,6 @@ TEST_CASE("pbrt scenes: a corpus in RESTAGE_CORPORA loads or says why not", "[pb
         }
     }
     CHECK(loaded > 100);
-    std::printf("corpus: %zu files load, %zu are fragments without WorldBegin, %zu report lines\n", loaded, fragments, lines);
+    std::printf("corpus: %zu files load, %zu are fragments without WorldBegin, %zu report lines\n", loaded, fragments,
+                lines);
 }

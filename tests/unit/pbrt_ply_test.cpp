@@ -3,11 +3,11 @@
 #include "mesh.hpp"
 #include "pbrt_writer.hpp"
 
+#include <zlib.h>
 #include <bit>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cstring>
-#include <zlib.h>
 
 using namespace restage::pbrt;
 using restage::pbrt::test::Recorder;
@@ -25,36 +25,43 @@ void put(std::string& out, Form form, T value) {
     char bytes[sizeof(T)];
     std::memcpy(bytes, &value, sizeof(T));
     const bool swap = (form == Form::big) == (std::endian::native == std::endian::little);
-    for (std::size_t i = 0; i < sizeof(T); ++i) out += bytes[swap ? sizeof(T) - 1 - i : i];
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+        out += bytes[swap ? sizeof(T) - 1 - i : i];
 }
 
 // Two triangles and a quad over five vertices, with normals, uv, and things to skip.
 std::string sample(Form form, const std::string& index_name = "vertex_indices") {
     const char* names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-    std::string out = std::string("ply\nformat ") + names[static_cast<int>(form)] +
-                      " 1.0\ncomment made by a test\nelement vertex 6\nproperty double x\nproperty float y\nproperty float z\n"
-                      "property uchar red\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\n"
-                      "element extra 2\nproperty list uchar short stuff\n"
-                      "element face 3\nproperty uchar flags\nproperty list uchar int " + index_name + "\nend_header\n";
+    std::string out =
+        std::string("ply\nformat ") + names[static_cast<int>(form)] +
+        " 1.0\ncomment made by a test\nelement vertex 6\nproperty double x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float "
+        "t\n"
+        "element extra 2\nproperty list uchar short stuff\n"
+        "element face 3\nproperty uchar flags\nproperty list uchar int " +
+        index_name + "\nend_header\n";
     for (int i = 0; i < 6; ++i) {
         put(out, form, double(i % 3));
         put(out, form, float(i / 3));
         put(out, form, 0.5f);
         put(out, form, std::uint8_t(7));
-        for (const float n : {0.f, 0.f, 1.f}) put(out, form, n);
+        for (const float n : {0.f, 0.f, 1.f})
+            put(out, form, n);
         put(out, form, float(i) / 8);
         put(out, form, 0.25f);
         if (form == Form::ascii) out += "\n";
     }
     for (int i = 0; i < 2; ++i) {
         put(out, form, std::uint8_t(i));
-        for (int k = 0; k < i; ++k) put(out, form, std::int16_t(-5));
+        for (int k = 0; k < i; ++k)
+            put(out, form, std::int16_t(-5));
     }
     const std::vector<std::vector<int>> faces = {{0, 1, 3}, {1, 4, 3}, {1, 2, 5, 4}};
     for (const auto& face : faces) {
         put(out, form, std::uint8_t(1));
         put(out, form, static_cast<std::uint8_t>(face.size()));
-        for (const int v : face) put(out, form, v);
+        for (const int v : face)
+            put(out, form, v);
         if (form == Form::ascii) out += "\n";
     }
     return out;
@@ -104,9 +111,10 @@ TEST_CASE("pbrt ply: gzip, one mesh for one file, two instances", "[pbrt]") {
     const test::Folder folder;
     folder.file("m.ply", sample(Form::little));
     folder.file("z.ply.gz", gzip(sample(Form::big)));
-    const std::string scene = folder.file("s.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n"
-                                                    "Translate 1 0 0 Shape \"plymesh\" \"string filename\" \"m.ply\"\n"
-                                                    "Shape \"plymesh\" \"string filename\" \"z.ply.gz\"\n");
+    const std::string scene = folder.file("s.pbrt",
+                                          "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n"
+                                          "Translate 1 0 0 Shape \"plymesh\" \"string filename\" \"m.ply\"\n"
+                                          "Shape \"plymesh\" \"string filename\" \"z.ply.gz\"\n");
     Recorder r;
     REQUIRE(r.load_file(scene) == 1);
     REQUIRE(r.meshes.size() == 2);
@@ -120,9 +128,10 @@ TEST_CASE("pbrt ply: gzip, one mesh for one file, two instances", "[pbrt]") {
 }
 
 TEST_CASE("pbrt ply: bent polygons and normals without direction", "[pbrt]") {
-    const std::string head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                             "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
-                             "property list uchar int vertex_indices\nend_header\n";
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n";
     Mesh mesh = read_ply("m.ply", head + "0 0 0 0 0 0\n1 0 0 nan 0 0\n1 1 1 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n", {});
     CHECK(mesh.has_bent_quads);
     CHECK(repair_normals(mesh) == 2);
@@ -144,12 +153,15 @@ TEST_CASE("pbrt ply: broken files", "[pbrt]") {
     CHECK_THAT(failure("ply\nformat hex 1.0\nend_header\n"), ContainsSubstring("'hex'"));
     CHECK_THAT(failure("ply\nend_header\n"), ContainsSubstring("no format"));
     CHECK_THAT(failure("ply\nformat ascii 1.0\nend_header\n"), ContainsSubstring("no vertices"));
-    CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 99999999999999999999\nend_header\n"), ContainsSubstring("not readable"));
+    CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 99999999999999999999\nend_header\n"),
+               ContainsSubstring("not readable"));
     CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex -1\nend_header\n"), ContainsSubstring("not readable"));
-    CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n"), ContainsSubstring("unknown type"));
+    CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n"),
+               ContainsSubstring("unknown type"));
     const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
     for (const char* form : {"ascii", "binary_little_endian"})
-        CHECK_THAT(failure(std::string("ply\nformat ") + form + " 1.0\nelement vertex 1000000000\n" + xyz + "end_header\n0 0 0\n"),
+        CHECK_THAT(failure(std::string("ply\nformat ") + form + " 1.0\nelement vertex 1000000000\n" + xyz +
+                           "end_header\n0 0 0\n"),
                    ContainsSubstring("truncated"));
     const std::string three = "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz;
     const std::string list = "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0\n";
@@ -160,7 +172,9 @@ TEST_CASE("pbrt ply: broken files", "[pbrt]") {
     CHECK_THAT(failure(three + list + "200 0 1 2\n"), ContainsSubstring("truncated"));
     CHECK_THAT(failure(three + list + "-3 0 1 2\n"), ContainsSubstring("-3 entries"));
     CHECK_THAT(failure(three + list + "3 0 1 x\n"), ContainsSubstring("no number"));
-    CHECK_THAT(failure(three + "element face 1\nproperty list uchar int faces\nend_header\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n"), ContainsSubstring("vertex_indices"));
+    CHECK_THAT(
+        failure(three + "element face 1\nproperty list uchar int faces\nend_header\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n"),
+        ContainsSubstring("vertex_indices"));
     CHECK_THAT(failure(three + "end_header\n0 0 0 1 0 0 nan 1 0\n"), ContainsSubstring("vertex 2 is not finite"));
     CHECK_THAT(failure(three + "end_header\n0 0 0 1 0 0 0 1 0\n"), ContainsSubstring("no faces"));
     // Cut at each byte: a message or, behind the last face, the whole mesh; never a crash.

@@ -60,7 +60,9 @@ TEST_CASE("pbrt transforms: in double, in pbrt's order", "[pbrt]") {
     CHECK_FALSE(look_at({0, 0, 0}, {0, 2, 0}, {0, 1, 0}));
     const auto back = inverse(any * translation({1e6, 2, 3}) * scaling({1, -2, 1e-3}));
     REQUIRE(back);
-    check_vec(transform_point(*back, transform_point(any * translation({1e6, 2, 3}) * scaling({1, -2, 1e-3}), {4, 5, 6})), {4, 5, 6}, 1e-6);
+    check_vec(
+        transform_point(*back, transform_point(any * translation({1e6, 2, 3}) * scaling({1, -2, 1e-3}), {4, 5, 6})),
+        {4, 5, 6}, 1e-6);
     CHECK_FALSE(inverse(scaling({1, 0, 1})));
     for (const Vec3 z : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{-0.3, 2, 1}}) {
         const Matrix frame = frame_along(z);
@@ -68,8 +70,9 @@ TEST_CASE("pbrt transforms: in double, in pbrt's order", "[pbrt]") {
         CHECK(determinant3(frame) == Catch::Approx(1).epsilon(1e-12));
     }
 
-    const Recorder s = loaded("Translate 1 2 3 Scale 2 2 2 Translate 1 0 0" + sphere + "Identity Rotate 90 0 0 1 Translate 1 0 0" + sphere +
-                              "Transform [1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 1 1 1 1]" + sphere);
+    const Recorder s = loaded(
+        "Translate 1 2 3 Scale 2 2 2 Translate 1 0 0" + sphere + "Identity Rotate 90 0 0 1 Translate 1 0 0" + sphere +
+        "Transform [1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1] ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 1 1 1 1]" + sphere);
     check_vec(origin_of(s, 0), {3, 2, 3});
     check_vec(origin_of(s, 1), {0, 1, 0}, 1e-15);
     check_vec(origin_of(s, 2), {8, 9, 10});
@@ -80,12 +83,15 @@ TEST_CASE("pbrt transforms: in double, in pbrt's order", "[pbrt]") {
 
 TEST_CASE("pbrt scoping: attributes, transforms, names", "[pbrt]") {
     const std::string v4 = "Film \"rgb\"", v3 = "Film \"image\"";
-    const std::string body = "MakeNamedMaterial \"a\" \"string type\" \"TYPE\"\nNamedMaterial \"a\"\nAttributeBegin Translate 1 0 0\n"
-                             "MakeNamedMaterial \"b\" \"string type\" \"TYPE\" NamedMaterial \"b\" ReverseOrientation" + sphere +
-                             "AttributeEnd" + sphere + "TransformBegin Translate 0 1 0 NamedMaterial \"b\"" + sphere + "TransformEnd" + sphere;
+    const std::string body =
+        "MakeNamedMaterial \"a\" \"string type\" \"TYPE\"\nNamedMaterial \"a\"\nAttributeBegin Translate 1 0 0\n"
+        "MakeNamedMaterial \"b\" \"string type\" \"TYPE\" NamedMaterial \"b\" ReverseOrientation" +
+        sphere + "AttributeEnd" + sphere + "TransformBegin Translate 0 1 0 NamedMaterial \"b\"" + sphere +
+        "TransformEnd" + sphere;
     const auto with = [&](const std::string& type) {
         std::string out = body;
-        for (auto at = out.find("TYPE"); at != out.npos; at = out.find("TYPE")) out.replace(at, 4, type);
+        for (auto at = out.find("TYPE"); at != out.npos; at = out.find("TYPE"))
+            out.replace(at, 4, type);
         return out;
     };
     const Recorder four = loaded(with("diffuse"), v4);
@@ -109,10 +115,12 @@ TEST_CASE("pbrt scoping: attributes, transforms, names", "[pbrt]") {
 }
 
 TEST_CASE("pbrt scoping: a name used before it is made (v4), textures shadowed (v3)", "[pbrt]") {
-    const Recorder r = loaded("NamedMaterial \"late\"" + sphere + "MakeNamedMaterial \"late\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]\n"
-                              "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [ \"late\" \"last\" ]\n"
-                              "MakeNamedMaterial \"last\" \"string type\" \"conductor\"\n",
-                              "Film \"rgb\"");
+    const Recorder r =
+        loaded("NamedMaterial \"late\"" + sphere +
+                   "MakeNamedMaterial \"late\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]\n"
+                   "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [ \"late\" \"last\" ]\n"
+                   "MakeNamedMaterial \"last\" \"string type\" \"conductor\"\n",
+               "Film \"rgb\"");
     REQUIRE(r.materials.size() == 3);
     CHECK(material_of(r, 0) == "late");
     CHECK(r.materials[0].values.at("reflectance").v[1] == 0.2f);
@@ -120,19 +128,22 @@ TEST_CASE("pbrt scoping: a name used before it is made (v4), textures shadowed (
     CHECK(r.materials[2].values.at("first").ref == 1);
     CHECK(r.materials[2].values.at("second").ref == 2);
 
-    const Recorder s = loaded("Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [ 1 0 0 ]\nAttributeBegin\n"
-                              "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [ 0 1 0 ]\nMaterial \"matte\" \"texture Kd\" \"t\"" + sphere +
-                              "AttributeEnd\nMaterial \"matte\" \"texture Kd\" \"t\"" + sphere + "WorldEnd",
-                              "Film \"image\"");
+    const Recorder s = loaded(
+        "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [ 1 0 0 ]\nAttributeBegin\n"
+        "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [ 0 1 0 ]\nMaterial \"matte\" \"texture Kd\" \"t\"" +
+            sphere + "AttributeEnd\nMaterial \"matte\" \"texture Kd\" \"t\"" + sphere + "WorldEnd",
+        "Film \"image\"");
     REQUIRE(s.materials.size() == 2); // the same words, but not the same texture
     CHECK(s.materials[s.instances[0].raw.material - 1].values.at("reflectance").ref == 2);
     CHECK(s.materials[s.instances[1].raw.material - 1].values.at("reflectance").ref == 1);
 }
 
 TEST_CASE("pbrt scoping: coordinate systems, active transforms, Attribute, color spaces", "[pbrt]") {
-    const Recorder r = loaded("Translate 1 0 0 CoordinateSystem \"here\" Identity" + sphere + "CoordSysTransform \"here\"" + sphere +
-                                  "CoordSysTransform \"camera\"" + sphere + "CoordSysTransform \"nowhere\"\n"
-                                  "Identity ActiveTransform EndTime Translate 0 0 5 ActiveTransform All" + sphere,
+    const Recorder r = loaded("Translate 1 0 0 CoordinateSystem \"here\" Identity" + sphere +
+                                  "CoordSysTransform \"here\"" + sphere + "CoordSysTransform \"camera\"" + sphere +
+                                  "CoordSysTransform \"nowhere\"\n"
+                                  "Identity ActiveTransform EndTime Translate 0 0 5 ActiveTransform All" +
+                                  sphere,
                               "Translate 0 -2 0 Camera \"perspective\"");
     check_vec(origin_of(r, 0), {0, 0, 0});
     check_vec(origin_of(r, 1), {1, 0, 0});
@@ -142,12 +153,16 @@ TEST_CASE("pbrt scoping: coordinate systems, active transforms, Attribute, color
     CHECK(r.reports("Shape in motion"));
     CHECK(r.raw_cameras.at(0).camera_to_world[13] == 2);
 
-    const Recorder a = loaded("AttributeBegin Attribute \"shape\" \"float radius\" 2 Attribute \"material\" \"rgb reflectance\" [ .1 .1 .1 ]\n"
-                              "Material \"diffuse\"" + sphere + sphere + "\"float radius\" 3 AttributeEnd Material \"diffuse\"" + sphere);
+    const Recorder a = loaded(
+        "AttributeBegin Attribute \"shape\" \"float radius\" 2 Attribute \"material\" \"rgb reflectance\" [ .1 .1 .1 "
+        "]\n"
+        "Material \"diffuse\"" +
+        sphere + sphere + "\"float radius\" 3 AttributeEnd Material \"diffuse\"" + sphere);
     REQUIRE(a.meshes.size() == 3);
     const auto radius = [](const restage::pbrt::test::MeshRecord& mesh) { // of the equator
         float top = 0;
-        for (const float x : mesh.positions) top = std::max(top, x);
+        for (const float x : mesh.positions)
+            top = std::max(top, x);
         return top;
     };
     CHECK(radius(a.meshes[0]) == Catch::Approx(2).epsilon(1e-3));
@@ -156,8 +171,9 @@ TEST_CASE("pbrt scoping: coordinate systems, active transforms, Attribute, color
     CHECK(a.materials[a.instances[0].raw.material - 1].values.at("reflectance").v[0] == 0.1f);
     CHECK(a.materials[a.instances[2].raw.material - 1].values.at("reflectance").v[0] == 0.5f);
 
-    const Recorder c = loaded("AttributeBegin ColorSpace \"rec2020\" Material \"diffuse\" \"rgb reflectance\" [ .2 .5 .2 ]" + sphere +
-                              "AttributeEnd Material \"diffuse\" \"rgb reflectance\" [ .2 .5 .2 ]" + sphere);
+    const Recorder c =
+        loaded("AttributeBegin ColorSpace \"rec2020\" Material \"diffuse\" \"rgb reflectance\" [ .2 .5 .2 ]" + sphere +
+               "AttributeEnd Material \"diffuse\" \"rgb reflectance\" [ .2 .5 .2 ]" + sphere);
     const auto& wide = c.materials[c.instances[0].raw.material - 1];
     const auto& narrow = c.materials[c.instances[1].raw.material - 1];
     CHECK(wide.values.at("reflectance").v[1] > 0.5f); // rec2020's green is more saturated
@@ -166,8 +182,9 @@ TEST_CASE("pbrt scoping: coordinate systems, active transforms, Attribute, color
 }
 
 TEST_CASE("pbrt scoping: objects", "[pbrt]") {
-    const Recorder r = loaded("ObjectBegin \"pair\" Translate 1 0 0" + sphere + "Translate 1 0 0" + sphere + "ObjectEnd" + sphere +
-                              "Scale 2 2 2 ObjectInstance \"pair\" Translate 0 1 0 ObjectInstance \"pair\" ObjectInstance \"none\"");
+    const Recorder r =
+        loaded("ObjectBegin \"pair\" Translate 1 0 0" + sphere + "Translate 1 0 0" + sphere + "ObjectEnd" + sphere +
+               "Scale 2 2 2 ObjectInstance \"pair\" Translate 0 1 0 ObjectInstance \"pair\" ObjectInstance \"none\"");
     CHECK(r.meshes.size() == 1); // a unit sphere is a unit sphere
     REQUIRE(r.instances.size() == 5);
     REQUIRE(r.groups.size() == 2);
@@ -181,16 +198,19 @@ TEST_CASE("pbrt scoping: objects", "[pbrt]") {
     CHECK(r.groups[0].name == "pair");
     CHECK(r.reports("ObjectInstance \"none\": no ObjectBegin"));
 
-    const Recorder lit = loaded("AreaLightSource \"diffuse\" ObjectBegin \"o\"" + sphere + "ObjectEnd ObjectInstance \"o\"");
+    const Recorder lit =
+        loaded("AreaLightSource \"diffuse\" ObjectBegin \"o\"" + sphere + "ObjectEnd ObjectInstance \"o\"");
     CHECK(lit.instances.at(0).raw.flags == 0);
     CHECK(lit.reports("AreaLightSource in ObjectBegin"));
 }
 
 TEST_CASE("pbrt scoping: WorldBegin resets, media", "[pbrt]") {
-    const Recorder r = loaded(sphere + "MediumInterface \"in\" \"\"" + sphere + "MediumInterface \"in\"" + sphere,
-                              "MakeNamedMedium \"in\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 0 0 0 ] \"float scale\" 2\n"
-                              "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MakeNamedMedium \"cloud\" \"string type\" \"cloud\"\n"
-                              "Translate 5 5 5 MediumInterface \"\" \"fog\" Camera \"perspective\" MediumInterface \"\" \"\"");
+    const Recorder r = loaded(
+        sphere + "MediumInterface \"in\" \"\"" + sphere + "MediumInterface \"in\"" + sphere,
+        "MakeNamedMedium \"in\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 0 0 0 ] "
+        "\"float scale\" 2\n"
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MakeNamedMedium \"cloud\" \"string type\" \"cloud\"\n"
+        "Translate 5 5 5 MediumInterface \"\" \"fog\" Camera \"perspective\" MediumInterface \"\" \"\"");
     check_vec(origin_of(r, 0), {0, 0, 0});
     REQUIRE(r.raw_media.size() == 2);
     CHECK(r.raw_media[0].sigma_a[2] == 6);
@@ -208,8 +228,9 @@ TEST_CASE("pbrt files: Include continues the state, Import has its own, missing 
     const Folder folder;
     folder.file("sub/inner.pbrt", "Translate 1 0 0\n" + sphere + "Include \"sibling.pbrt\"\n");
     folder.file("sub/sibling.pbrt", sphere);
-    const std::string scene = folder.file("s.pbrt", "WorldBegin\nInclude \"sub/inner.pbrt\"" + sphere + "\nIdentity Import \"sub/inner.pbrt\"" + sphere +
-                                                        "\nInclude \"gone.pbrt\"" + sphere);
+    const std::string scene =
+        folder.file("s.pbrt", "WorldBegin\nInclude \"sub/inner.pbrt\"" + sphere +
+                                  "\nIdentity Import \"sub/inner.pbrt\"" + sphere + "\nInclude \"gone.pbrt\"" + sphere);
     Recorder r;
     REQUIRE(r.load_file(scene) == 1);
     REQUIRE(r.instances.size() == 7);
@@ -224,7 +245,8 @@ TEST_CASE("pbrt files: Include continues the state, Import has its own, missing 
 
 TEST_CASE("pbrt files: the user stops an import", "[pbrt]") {
     std::string world;
-    for (int i = 0; i < 200; ++i) world += sphere;
+    for (int i = 0; i < 200; ++i)
+        world += sphere;
     Recorder r;
     r.stop_after = 3;
     CHECK(r.load_text("WorldBegin" + world) == 0);

@@ -25,7 +25,9 @@ Recorder loaded(const std::string& world) {
     return r;
 }
 
-Vec3 vec(const std::vector<float>& from, std::size_t i) { return {double(from[3 * i]), double(from[3 * i + 1]), double(from[3 * i + 2])}; }
+Vec3 vec(const std::vector<float>& from, std::size_t i) {
+    return {double(from[3 * i]), double(from[3 * i + 1]), double(from[3 * i + 2])};
+}
 
 struct Measure {
     double area = 0, volume = 0; // volume: by the divergence theorem, > 0 when the winding is outward
@@ -39,11 +41,15 @@ Measure measure(const MeshRecord& m) {
     std::vector<int> id;
     for (std::size_t i = 0; i < m.positions.size() / 3; ++i) {
         const Vec3 p = vec(m.positions, i);
-        id.push_back(ids.emplace(std::array<long, 3>{std::lround(p.x * 1e5), std::lround(p.y * 1e5), std::lround(p.z * 1e5)}, int(ids.size())).first->second);
+        id.push_back(
+            ids.emplace(std::array<long, 3>{std::lround(p.x * 1e5), std::lround(p.y * 1e5), std::lround(p.z * 1e5)},
+                        int(ids.size()))
+                .first->second);
     }
     std::map<std::pair<int, int>, int> edges;
     for (std::size_t t = 0; t < m.indices.size(); t += 3) {
-        const Vec3 a = vec(m.positions, m.indices[t]), b = vec(m.positions, m.indices[t + 1]), c = vec(m.positions, m.indices[t + 2]);
+        const Vec3 a = vec(m.positions, m.indices[t]), b = vec(m.positions, m.indices[t + 1]),
+                   c = vec(m.positions, m.indices[t + 2]);
         const Vec3 n = cross(b - a, c - a);
         out.area += length(n) / 2;
         out.volume += dot(a, cross(b, c)) / 6;
@@ -121,18 +127,22 @@ TEST_CASE("pbrt shapes: orientation of instances follows ReverseOrientation alon
     // by the flag.
     for (const bool mirrored : {false, true})
         for (const bool reversed : {false, true}) {
-            const Recorder r = loaded(std::string(mirrored ? "Scale -1 1 1 " : "") + (reversed ? "ReverseOrientation " : "") +
-                                      "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]");
+            const Recorder r =
+                loaded(std::string(mirrored ? "Scale -1 1 1 " : "") + (reversed ? "ReverseOrientation " : "") +
+                       "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]");
             const MeshRecord& mesh = r.meshes[0];
             Matrix to_world;
             std::copy(r.instances[0].raw.object_to_world, r.instances[0].raw.object_to_world + 16, to_world.m.begin());
-            const auto world = [&](std::size_t i) { return transform_point(to_world, vec(mesh.positions, mesh.indices[i])); };
+            const auto world = [&](std::size_t i) {
+                return transform_point(to_world, vec(mesh.positions, mesh.indices[i]));
+            };
             Vec3 pbrt = cross(world(1) - world(0), world(2) - world(0));
             if (reversed != (determinant3(to_world) < 0)) pbrt = pbrt * -1;
             const auto object = [&](std::size_t i) { return vec(mesh.positions, mesh.indices[i]); };
             const Vec3 n = cross(object(1) - object(0), object(2) - object(0));
             const Matrix inv = *inverse(to_world);
-            Vec3 ours{inv.at(0, 0) * n.x + inv.at(1, 0) * n.y + inv.at(2, 0) * n.z, inv.at(0, 1) * n.x + inv.at(1, 1) * n.y + inv.at(2, 1) * n.z,
+            Vec3 ours{inv.at(0, 0) * n.x + inv.at(1, 0) * n.y + inv.at(2, 0) * n.z,
+                      inv.at(0, 1) * n.x + inv.at(1, 1) * n.y + inv.at(2, 1) * n.z,
                       inv.at(0, 2) * n.x + inv.at(1, 2) * n.y + inv.at(2, 2) * n.z};
             if (r.instances[0].raw.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION) ours = ours * -1;
             CHECK(dot(normalize(pbrt), normalize(ours)) == Catch::Approx(1));
@@ -140,9 +150,11 @@ TEST_CASE("pbrt shapes: orientation of instances follows ReverseOrientation alon
 }
 
 TEST_CASE("pbrt shapes: trianglemesh", "[pbrt]") {
-    const Recorder r = loaded("Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] \"integer indices\" [ 0 1 2 2 1 3 ]\n"
-                              "\"normal N\" [ 0 0 1 0 0 1 0 0 1 0 0 1 ] \"float st\" [ 0 0 1 0 0 1 1 1 ] \"integer faceIndices\" [ 4 5 ] \"float foo\" 3\n"
-                              "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"point2 uv\" [ 0 0 1 0 ] \"float alpha\" 0.25");
+    const Recorder r = loaded(
+        "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] \"integer indices\" [ 0 1 2 2 1 3 ]\n"
+        "\"normal N\" [ 0 0 1 0 0 1 0 0 1 0 0 1 ] \"float st\" [ 0 0 1 0 0 1 1 1 ] \"integer faceIndices\" [ 4 5 ] "
+        "\"float foo\" 3\n"
+        "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"point2 uv\" [ 0 0 1 0 ] \"float alpha\" 0.25");
     CHECK(r.meshes[0].indices == std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3});
     CHECK(r.meshes[0].normals.size() == 12);
     CHECK(r.meshes[0].uvs == std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1});
@@ -164,7 +176,8 @@ TEST_CASE("pbrt shapes: bilinear patches, flat and bent", "[pbrt]") {
     CHECK(flat.normals[2] == 1);
     CHECK(flat.uvs == std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1});
     // z = xy over the unit square: area = integral of sqrt(1 + x^2 + y^2) = 1.280789.
-    const MeshRecord bent = one("\"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 1 ] \"integer indices\" [ 0 1 2 3 ]");
+    const MeshRecord bent =
+        one("\"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 1 ] \"integer indices\" [ 0 1 2 3 ]");
     CHECK(measure(bent).area == Catch::Approx(1.280789).epsilon(1e-3));
     CHECK(measure(bent).against == 0);
     for (std::size_t i = 0; i < bent.positions.size() / 3; ++i) {
@@ -174,23 +187,26 @@ TEST_CASE("pbrt shapes: bilinear patches, flat and bent", "[pbrt]") {
 }
 
 TEST_CASE("pbrt shapes: loop subdivision reaches the limit surface", "[pbrt]") {
-    const std::string octahedron = "\"point3 P\" [ 1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1 ]\n"
-                                   "\"integer indices\" [ 0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5 ]";
+    const std::string octahedron =
+        "\"point3 P\" [ 1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1 ]\n"
+        "\"integer indices\" [ 0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5 ]";
     const MeshRecord mesh = one("\"loopsubdiv\" \"integer levels\" 4 " + octahedron);
     CHECK(mesh.indices.size() / 3 == 8 * 256);
     const Measure m = measure(mesh);
     CHECK(m.open_edges == 0);
-    CHECK(m.against == 0);  // normals and faces agree,
-    CHECK(m.volume < 0);    // and point against the input's winding, as pbrt's do
+    CHECK(m.against == 0); // normals and faces agree,
+    CHECK(m.volume < 0); // and point against the input's winding, as pbrt's do
     // A vertex of valence 4 of the octahedron: limit = (1 - 4 g) p, with g = 1 / (4 + 3 / (8 beta)), beta = 3/32.
     const double g = 1.0 / (4 + 3.0 / (8 * 3.0 / 32));
     double top = 0;
-    for (std::size_t i = 0; i < mesh.positions.size() / 3; ++i) top = std::max(top, double(mesh.positions[3 * i + 2]));
+    for (std::size_t i = 0; i < mesh.positions.size() / 3; ++i)
+        top = std::max(top, double(mesh.positions[3 * i + 2]));
     CHECK(top == Catch::Approx(1 - 4 * g).epsilon(1e-6));
     // Levels do not move the limit: the same vertex after one level.
     const MeshRecord coarse = one("\"loopsubdiv\" \"integer nlevels\" 1 " + octahedron);
     double coarse_top = 0;
-    for (std::size_t i = 0; i < coarse.positions.size() / 3; ++i) coarse_top = std::max(coarse_top, double(coarse.positions[3 * i + 2]));
+    for (std::size_t i = 0; i < coarse.positions.size() / 3; ++i)
+        coarse_top = std::max(coarse_top, double(coarse.positions[3 * i + 2]));
     CHECK(coarse_top == Catch::Approx(top).epsilon(1e-6));
     for (std::size_t i = 0; i < mesh.positions.size() / 3; ++i) {
         const Vec3 p = vec(mesh.positions, i), n = vec(mesh.normals, i);
@@ -198,20 +214,26 @@ TEST_CASE("pbrt shapes: loop subdivision reaches the limit surface", "[pbrt]") {
         CHECK(dot(normalize(p), n) < -0.9); // smooth and round
     }
     // A flat sheet keeps flat, and its straight borders straight.
-    const MeshRecord sheet = one("\"loopsubdiv\" \"integer levels\" 3 \"point3 P\" [ 0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0 0 2 0 1 2 0 2 2 0 ]\n"
-                                 "\"integer indices\" [ 0 1 4 0 4 3 1 2 5 1 5 4 3 4 7 3 7 6 4 5 8 4 8 7 ]");
+    const MeshRecord sheet = one(
+        "\"loopsubdiv\" \"integer levels\" 3 \"point3 P\" [ 0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0 0 2 0 1 2 0 2 2 0 ]\n"
+        "\"integer indices\" [ 0 1 4 0 4 3 1 2 5 1 5 4 3 4 7 3 7 6 4 5 8 4 8 7 ]");
     CHECK(measure(sheet).against == 0);
-    for (std::size_t i = 0; i < sheet.positions.size() / 3; ++i) CHECK(sheet.positions[3 * i + 2] == 0);
-    for (std::size_t i = 0; i < sheet.normals.size() / 3; ++i) CHECK(std::abs(sheet.normals[3 * i + 2] + 1) < 1e-5f);
+    for (std::size_t i = 0; i < sheet.positions.size() / 3; ++i)
+        CHECK(sheet.positions[3 * i + 2] == 0);
+    for (std::size_t i = 0; i < sheet.normals.size() / 3; ++i)
+        CHECK(std::abs(sheet.normals[3 * i + 2] + 1) < 1e-5f);
 }
 
 TEST_CASE("pbrt shapes: what is no shape is dropped, what is flat is dropped", "[pbrt]") {
-    const Recorder r = loaded("Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\nShape \"teapot\"\nScale 1 0 1 Shape \"sphere\"\nIdentity Shape \"sphere\"");
+    const Recorder r = loaded(
+        "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\nShape \"teapot\"\nScale 1 0 1 Shape "
+        "\"sphere\"\nIdentity Shape \"sphere\"");
     CHECK(r.instances.size() == 1);
     CHECK(r.reports("Shape \"curve\": curves are not made into triangles"));
     CHECK(r.reports("Shape \"teapot\": there is no such shape"));
     CHECK(r.reports("flattens it to nothing"));
-    const Recorder h = loaded("Shape \"heightfield\" \"integer nu\" 3 \"integer nv\" 2 \"float Pz\" [ 0 1 2 3 4 5 ]\nWorldEnd");
+    const Recorder h =
+        loaded("Shape \"heightfield\" \"integer nu\" 3 \"integer nv\" 2 \"float Pz\" [ 0 1 2 3 4 5 ]\nWorldEnd");
     CHECK(h.meshes.at(0).indices.size() == 12);
     CHECK(h.meshes[0].positions[3 * 5 + 2] == 5);
 }

@@ -45,8 +45,9 @@ TEST_CASE("pbrt spectra: the observer and its whites", "[pbrt]") {
     struct {
         const char* name;
         double x, y;
-    } whites[] = {{"stdillum-A", 0.44758, 0.40745}, {"stdillum-D50", 0.33682, 0.35799}, {"stdillum-D65", 0.31272, 0.32903},
-                  {"stdillum-F2", 0.3721, 0.3751},  {"stdillum-F7", 0.3129, 0.3292},    {"stdillum-F11", 0.3805, 0.3769},
+    } whites[] = {{"stdillum-A", 0.44758, 0.40745},   {"stdillum-D50", 0.33682, 0.35799},
+                  {"stdillum-D65", 0.31272, 0.32903}, {"stdillum-F2", 0.3721, 0.3751},
+                  {"stdillum-F7", 0.3129, 0.3292},    {"stdillum-F11", 0.3805, 0.3769},
                   {"illum-acesD60", 0.32168, 0.33767}};
     for (const auto& white : whites) {
         INFO(white.name);
@@ -54,8 +55,8 @@ TEST_CASE("pbrt spectra: the observer and its whites", "[pbrt]") {
         CHECK(std::abs(x - white.x) < 1e-3);
         CHECK(std::abs(y - white.y) < 1e-3);
     }
-    for (const char* name : {"stdillum-F1", "stdillum-F3", "stdillum-F4", "stdillum-F5", "stdillum-F6", "stdillum-F8", "stdillum-F9",
-                             "stdillum-F10", "stdillum-F12"})
+    for (const char* name : {"stdillum-F1", "stdillum-F3", "stdillum-F4", "stdillum-F5", "stdillum-F6", "stdillum-F8",
+                             "stdillum-F9", "stdillum-F10", "stdillum-F12"})
         CHECK(to_xyz(named(name))[1] > 0);
     CHECK_FALSE(named_spectrum("stdillum-F13"));
 }
@@ -108,15 +109,18 @@ TEST_CASE("pbrt spectra: metals keep their reflectance", "[pbrt]") {
         const Spectrum eta = named(("metal-" + std::string(metal) + "-eta").c_str());
         const Spectrum k = named(("metal-" + std::string(metal) + "-k").c_str());
         Spectrum reflectance;
-        for (std::size_t i = 0; i < eta.size(); ++i) reflectance[i] = fresnel_normal(eta[i], k[i]);
+        for (std::size_t i = 0; i < eta.size(); ++i)
+            reflectance[i] = fresnel_normal(eta[i], k[i]);
         const Rgb want = rgb_of_reflectance(reflectance);
         const ComplexIndex index = rgb_of_metal(eta, k);
-        const Rgb got{fresnel_normal(index.eta.r, index.k.r), fresnel_normal(index.eta.g, index.k.g), fresnel_normal(index.eta.b, index.k.b)};
+        const Rgb got{fresnel_normal(index.eta.r, index.k.r), fresnel_normal(index.eta.g, index.k.g),
+                      fresnel_normal(index.eta.b, index.k.b)};
         check_near(got, {std::min(want.r, 0.999), want.g, want.b}, 1e-9);
     }
     const ComplexIndex gold = rgb_of_metal(named("metal-Au-eta"), named("metal-Au-k"));
     // Gold: F0 about (1.0, 0.77, 0.34) in linear sRGB (Hoffman, SIGGRAPH 2010 course; Lagarde's tables).
-    check_near({fresnel_normal(gold.eta.r, gold.k.r), fresnel_normal(gold.eta.g, gold.k.g), fresnel_normal(gold.eta.b, gold.k.b)},
+    check_near({fresnel_normal(gold.eta.r, gold.k.r), fresnel_normal(gold.eta.g, gold.k.g),
+                fresnel_normal(gold.eta.b, gold.k.b)},
                {1.0, 0.77, 0.34}, 0.03);
     // pbrt-v3's own averages for copper and aluminium, as exporters write them into scenes.
     check_near(rgb_equal_energy(named("metal-Cu-eta")), {0.200438, 0.924033, 1.102212}, 5e-3);

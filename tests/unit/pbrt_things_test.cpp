@@ -34,7 +34,8 @@ void check_value(const Named& m, const char* id, std::initializer_list<double> e
     INFO(m.type << "." << id);
     REQUIRE(m.values.count(id));
     std::size_t i = 0;
-    for (const double value : expected) CHECK(m.values.at(id).v[i++] == Catch::Approx(value).margin(1e-6));
+    for (const double value : expected)
+        CHECK(m.values.at(id).v[i++] == Catch::Approx(value).margin(1e-6));
 }
 
 void check_choice(const Named& m, const char* id, const char* expected) {
@@ -74,7 +75,9 @@ TEST_CASE("pbrt materials: v4 defaults and roughness", "[pbrt]") {
     m = material(v4, "\"diffusetransmission\" \"float scale\" 2");
     check_value(m, "reflectance", {0.5, 0.5, 0.5});
     check_value(m, "transmittance", {0.5, 0.5, 0.5});
-    m = material(v4, "\"coatedconductor\" \"float interface.roughness\" 0.1 \"rgb conductor.eta\" [ 1 2 3 ] \"rgb conductor.k\" [ 3 2 1 ]");
+    m = material(v4,
+                 "\"coatedconductor\" \"float interface.roughness\" 0.1 \"rgb conductor.eta\" [ 1 2 3 ] \"rgb "
+                 "conductor.k\" [ 3 2 1 ]");
     check_value(m, "interface_uroughness", {0.1});
     check_value(m, "conductor_eta", {1, 2, 3});
     check_value(m, "conductor_k", {3, 2, 1});
@@ -108,27 +111,34 @@ TEST_CASE("pbrt materials: v3 names, defaults and meanings", "[pbrt]") {
     check_value(m, "opacity", {0.2, 0.2, 0.2});
     check_value(material(v3, "\"translucent\""), "transmit", {0.5, 0.5, 0.5});
     // v3's amount weighs the first, the host's the second: they change places.
-    const Recorder r = loaded(v3 + "MakeNamedMaterial \"a\" \"string type\" \"matte\" MakeNamedMaterial \"b\" \"string type\" \"mirror\"\n"
-                                   "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\" \"rgb amount\" [ .25 .25 .25 ]");
+    const Recorder r =
+        loaded(v3 +
+               "MakeNamedMaterial \"a\" \"string type\" \"matte\" MakeNamedMaterial \"b\" \"string type\" \"mirror\"\n"
+               "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\" \"rgb amount\" [ .25 "
+               ".25 .25 ]");
     CHECK(r.materials[2].values.at("first").ref == 2);
     CHECK(r.materials[2].values.at("second").ref == 1);
     CHECK(r.materials[2].values.at("amount").v[0] == Catch::Approx(0.25).margin(1e-6));
 }
 
 TEST_CASE("pbrt materials: approximated ones go back out whole, unknown parameters are kept", "[pbrt]") {
-    const Recorder r = loaded(v4 + "MakeNamedMaterial \"skin\" \"string type\" \"subsurface\" \"float mfp\" 3 \"rgb reflectance\" [ .7 .4 .3 ]\n"
-                                   "MakeNamedMaterial \"odd\" \"string type\" \"diffuse\" \"float wetness\" 0.5\nMaterial \"velvet\"\n"
-                                   "MakeNamedMaterial \"paint\" \"string type\" \"measured\" \"string filename\" \"p.bsdf\"");
+    const Recorder r = loaded(
+        v4 +
+        "MakeNamedMaterial \"skin\" \"string type\" \"subsurface\" \"float mfp\" 3 \"rgb reflectance\" [ .7 .4 .3 ]\n"
+        "MakeNamedMaterial \"odd\" \"string type\" \"diffuse\" \"float wetness\" 0.5\nMaterial \"velvet\"\n"
+        "MakeNamedMaterial \"paint\" \"string type\" \"measured\" \"string filename\" \"p.bsdf\"");
     CHECK(r.materials[0].type == "coateddiffuse");
     CHECK(r.materials[0].values.at("reflectance").v[0] == 0.7f);
-    CHECK(r.materials[0].verbatim == "=* \"string type\" [ \"subsurface\" ]\n=* \"float mfp\" [ 3 ]\n=* \"rgb reflectance\" [ 0.7 0.4 0.3 ]\n");
+    CHECK(r.materials[0].verbatim ==
+          "=* \"string type\" [ \"subsurface\" ]\n=* \"float mfp\" [ 3 ]\n=* \"rgb reflectance\" [ 0.7 0.4 0.3 ]\n");
     CHECK(r.materials[1].verbatim == "\"float wetness\" [ 0.5 ]\n");
     CHECK(r.reports("material \"odd\": parameter \"float wetness\""));
     CHECK(r.materials[2].type == "diffuse");
     CHECK(r.reports("Material \"velvet\" (velvet): there is no such material"));
     CHECK(r.reports("material \"skin\" (subsurface)"));
     bool dropped = false;
-    for (const auto& line : r.lines) dropped |= line.fate == RESTAGE_DROPPED && line.what.find("paint") != std::string::npos;
+    for (const auto& line : r.lines)
+        dropped |= line.fate == RESTAGE_DROPPED && line.what.find("paint") != std::string::npos;
     CHECK(dropped);
     for (const auto& line : r.lines)
         if (line.what.find("odd") != std::string::npos) CHECK(line.line == 4);
@@ -136,17 +146,24 @@ TEST_CASE("pbrt materials: approximated ones go back out whole, unknown paramete
 
 TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
     const Folder folder;
-    for (const char* name : {"a.png", "a.tga", "a.exr", "a.jpg"}) folder.file(name, "x");
+    for (const char* name : {"a.png", "a.tga", "a.exr", "a.jpg"})
+        folder.file(name, "x");
     const auto run = [&](const std::string& text) {
         Recorder r;
         REQUIRE(r.load_file(folder.file("s.pbrt", text)) == 1);
         return r;
     };
     const std::string map = "\"imagemap\" \"string filename\" ";
-    Recorder r = run(v4 + "Texture \"a\" \"spectrum\" " + map + "\"a.png\"\nTexture \"b\" \"float\" " + map + "\"a.png\" \"string encoding\" \"linear\" \"bool invert\" true\n"
-                          "Texture \"c\" \"spectrum\" " + map + "\"a.tga\" \"string encoding\" \"linear\"\nTexture \"d\" \"spectrum\" " + map +
-                     "\"a.png\" \"string encoding\" \"gamma 1.8\" \"float scale\" 2 \"string wrap\" \"clamp\" \"float uscale\" 3 \"float vdelta\" 0.5\n"
-                     "Texture \"e\" \"spectrum\" " + map + "\"missing.png\" Material \"diffuse\" \"texture reflectance\" \"e\" \"texture displacement\" \"b\" \"string normalmap\" \"a.png\"");
+    Recorder r = run(v4 + "Texture \"a\" \"spectrum\" " + map + "\"a.png\"\nTexture \"b\" \"float\" " + map +
+                     "\"a.png\" \"string encoding\" \"linear\" \"bool invert\" true\n"
+                     "Texture \"c\" \"spectrum\" " +
+                     map + "\"a.tga\" \"string encoding\" \"linear\"\nTexture \"d\" \"spectrum\" " + map +
+                     "\"a.png\" \"string encoding\" \"gamma 1.8\" \"float scale\" 2 \"string wrap\" \"clamp\" \"float "
+                     "uscale\" 3 \"float vdelta\" 0.5\n"
+                     "Texture \"e\" \"spectrum\" " +
+                     map +
+                     "\"missing.png\" Material \"diffuse\" \"texture reflectance\" \"e\" \"texture displacement\" "
+                     "\"b\" \"string normalmap\" \"a.png\"");
     REQUIRE(r.textures.size() == 6);
     CHECK(r.images[0].encoding == RESTAGE_SRGB);
     CHECK(r.images[1].encoding == RESTAGE_LINEAR);
@@ -164,8 +181,10 @@ TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
     const Named& normal = r.textures[r.materials[0].values.at("normalmap").ref - 1];
     CHECK(r.images[normal.image - 1].encoding == RESTAGE_LINEAR);
 
-    r = run(v3 + "Texture \"a\" \"color\" " + map + "\"a.tga\"\nTexture \"b\" \"spectrum\" " + map + "\"a.tga\" \"bool gamma\" \"false\"\nTexture \"c\" \"float\" " + map +
-            "\"a.jpg\"\nTexture \"s\" \"spectrum\" \"scale\" \"texture tex1\" \"a\" \"rgb tex2\" [ .5 .5 .5 ]\nTexture \"k\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"s\" \"float uscale\" 8\n"
+    r = run(v3 + "Texture \"a\" \"color\" " + map + "\"a.tga\"\nTexture \"b\" \"spectrum\" " + map +
+            "\"a.tga\" \"bool gamma\" \"false\"\nTexture \"c\" \"float\" " + map +
+            "\"a.jpg\"\nTexture \"s\" \"spectrum\" \"scale\" \"texture tex1\" \"a\" \"rgb tex2\" [ .5 .5 .5 ]\nTexture "
+            "\"k\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"s\" \"float uscale\" 8\n"
             "Texture \"m\" \"float\" \"mix\" \"float tex1\" 1 \"texture tex2\" \"c\" \"float amount\" .25");
     CHECK(r.images[0].encoding == RESTAGE_SRGB);
     CHECK(r.images[1].encoding == RESTAGE_LINEAR);
@@ -178,8 +197,10 @@ TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
     CHECK(r.textures[5].values.at("tex2").ref == 3);
     CHECK(r.textures[5].values.at("amount").v[0] == 0.25f);
 
-    r = run(v4 + "Texture \"d\" \"spectrum\" \"dots\" \"rgb inside\" [ 1 0 0 ] \"rgb outside\" [ 0 0 1 ]\nTexture \"p\" \"spectrum\" \"checkerboard\" \"string mapping\" \"planar\"\n"
-                 "Material \"diffuse\" \"texture reflectance\" \"d\" \"texture displacement\" \"d\"");
+    r = run(v4 +
+            "Texture \"d\" \"spectrum\" \"dots\" \"rgb inside\" [ 1 0 0 ] \"rgb outside\" [ 0 0 1 ]\nTexture \"p\" "
+            "\"spectrum\" \"checkerboard\" \"string mapping\" \"planar\"\n"
+            "Material \"diffuse\" \"texture reflectance\" \"d\" \"texture displacement\" \"d\"");
     CHECK(r.textures[0].type == "dots");
     CHECK(r.textures[0].values.at("average").v[0] == 0.5f);
     CHECK(r.textures[0].verbatim == "\"rgb inside\" [ 1 0 0 ]\n\"rgb outside\" [ 0 0 1 ]\n");
@@ -192,11 +213,14 @@ TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
 
 TEST_CASE("pbrt lights: values in both versions", "[pbrt]") {
     using std::numbers::pi;
-    Recorder r = loaded(v4 + "LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"float scale\" 2 \"point3 from\" [ 1 2 3 ]\n"
-                             "LightSource \"point\" \"blackbody I\" 6500 \"float scale\" 10\nLightSource \"point\" \"float power\" 100\n"
-                             "LightSource \"distant\" \"rgb L\" [ 1 1 1 ] \"float illuminance\" 5 \"point3 from\" [ 0 0 0 ] \"point3 to\" [ 2 0 0 ]\n"
-                             "Translate 0 0 7 LightSource \"spot\" \"rgb I\" [ 4 4 4 ] \"float coneangle\" 40 \"point3 to\" [ 0 -1 0 ]\n"
-                             "LightSource \"goniometric\" LightSource \"projection\" \"float fov\" 60 LightSource \"laser\"");
+    Recorder r = loaded(
+        v4 +
+        "LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"float scale\" 2 \"point3 from\" [ 1 2 3 ]\n"
+        "LightSource \"point\" \"blackbody I\" 6500 \"float scale\" 10\nLightSource \"point\" \"float power\" 100\n"
+        "LightSource \"distant\" \"rgb L\" [ 1 1 1 ] \"float illuminance\" 5 \"point3 from\" [ 0 0 0 ] \"point3 to\" [ "
+        "2 0 0 ]\n"
+        "Translate 0 0 7 LightSource \"spot\" \"rgb I\" [ 4 4 4 ] \"float coneangle\" 40 \"point3 to\" [ 0 -1 0 ]\n"
+        "LightSource \"goniometric\" LightSource \"projection\" \"float fov\" 60 LightSource \"laser\"");
     REQUIRE(r.raw_lights.size() == 7);
     CHECK(r.raw_lights[0].value[1] == 4);
     CHECK(r.raw_lights[0].light_to_world[12] == 1);
@@ -215,7 +239,9 @@ TEST_CASE("pbrt lights: values in both versions", "[pbrt]") {
     CHECK(r.reports("LightSource \"goniometric\""));
     CHECK(r.reports("LightSource \"laser\": there is no such light"));
 
-    r = loaded(v3 + "LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"rgb scale\" [ 2 3 4 ] LightSource \"point\" \"blackbody I\" [ 6500 2 ]");
+    r = loaded(v3 +
+               "LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"rgb scale\" [ 2 3 4 ] LightSource \"point\" \"blackbody "
+               "I\" [ 6500 2 ]");
     CHECK(r.raw_lights[0].value[2] == 12);
     CHECK(r.raw_lights[1].value[1] > 1.7f); // relative to a peak of 1 at 446 nm
     CHECK(r.raw_lights[1].value[1] < 2);
@@ -224,9 +250,11 @@ TEST_CASE("pbrt lights: values in both versions", "[pbrt]") {
 TEST_CASE("pbrt lights: area lights", "[pbrt]") {
     using std::numbers::pi;
     const std::string square = "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 2 0 0 0 2 0 2 2 0 ]\n";
-    Recorder r = loaded(v4 + "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2 \"bool twosided\" true\n" + square +
-                        "AttributeEnd\n" + square + "AreaLightSource \"diffuse\" \"float power\" 50 Scale 3 3 3\n" + square +
-                        "AreaLightSource \"\"\n" + square + "AreaLightSource \"diffuse\" Material \"interface\"\n" + square);
+    Recorder r = loaded(
+        v4 +
+        "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2 \"bool twosided\" true\n" +
+        square + "AttributeEnd\n" + square + "AreaLightSource \"diffuse\" \"float power\" 50 Scale 3 3 3\n" + square +
+        "AreaLightSource \"\"\n" + square + "AreaLightSource \"diffuse\" Material \"interface\"\n" + square);
     REQUIRE(r.instances.size() == 5);
     CHECK(r.instances[0].raw.flags == (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_TWO_SIDED));
     CHECK(r.instances[0].raw.emission[2] == 6);
@@ -235,7 +263,9 @@ TEST_CASE("pbrt lights: area lights", "[pbrt]") {
     CHECK(r.instances[3].raw.flags == 0);
     CHECK(r.instances[4].raw.flags == 0);
     CHECK(r.reports("AreaLightSource on an interface"));
-    r = loaded(v3 + "AreaLightSource \"area\" \"rgb L\" [ 1 1 1 ] \"rgb scale\" [ 1 2 3 ] \"integer nsamples\" 4 Shape \"sphere\"");
+    r = loaded(
+        v3 +
+        "AreaLightSource \"area\" \"rgb L\" [ 1 1 1 ] \"rgb scale\" [ 1 2 3 ] \"integer nsamples\" 4 Shape \"sphere\"");
     CHECK(r.instances[0].raw.emission[1] == 2);
     CHECK_FALSE(r.reports("nsamples")); // changes nothing in the picture
 }
@@ -248,7 +278,9 @@ TEST_CASE("pbrt lights: environments", "[pbrt]") {
         REQUIRE(r.load_file(folder.file("s.pbrt", text)) == 1);
         return r;
     };
-    Recorder r = run(v4 + "Rotate 90 0 0 1 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]");
+    Recorder r = run(v4 +
+                     "Rotate 90 0 0 1 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 "
+                     "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]");
     REQUIRE(r.environments.size() == 1);
     CHECK(r.environments[0].mapping == RESTAGE_OCTAHEDRAL);
     CHECK(r.environments[0].scale[0] == 3);
@@ -258,7 +290,9 @@ TEST_CASE("pbrt lights: environments", "[pbrt]") {
     CHECK(r.environments[0].mapping == RESTAGE_EQUIRECT);
     CHECK(r.environments[0].scale[2] == 6);
     CHECK(r.images[0].encoding == RESTAGE_LINEAR);
-    r = run(v4 + "LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] LightSource \"infinite\" \"float illuminance\" 3.14159265 LightSource \"infinite\" \"string filename\" \"gone.exr\"");
+    r = run(v4 +
+            "LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] LightSource \"infinite\" \"float illuminance\" 3.14159265 "
+            "LightSource \"infinite\" \"string filename\" \"gone.exr\"");
     REQUIRE(r.environments.size() == 1);
     CHECK(r.environments[0].image == 0);
     CHECK(r.environments[0].scale[0] == Catch::Approx(2).epsilon(1e-5));
@@ -269,10 +303,14 @@ TEST_CASE("pbrt lights: environments", "[pbrt]") {
 }
 
 TEST_CASE("pbrt camera, film and settings", "[pbrt]") {
-    Recorder r = loaded("LookAt 1 2 3 1 2 0 0 1 0\nCamera \"perspective\" \"float fov\" 30 \"float lensradius\" 0.1 \"float focaldistance\" 4 \"float screenwindow\" [ -1 2 -3 4 ]\n"
-                        "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20 \"integer pixelbounds\" [ 3 15 0 10 ] \"float iso\" 200 \"float maxcomponentvalue\" 10 \"string sensor\" \"nikon_d850\"\n"
-                        "PixelFilter \"mitchell\" \"float xradius\" 3 Integrator \"path\" \"integer maxdepth\" 9 \"bool regularize\" true\n"
-                        "Sampler \"stratified\" \"integer xsamples\" 3 Option \"disablepixeljitter\" true WorldBegin");
+    Recorder r = loaded(
+        "LookAt 1 2 3 1 2 0 0 1 0\nCamera \"perspective\" \"float fov\" 30 \"float lensradius\" 0.1 \"float "
+        "focaldistance\" 4 \"float screenwindow\" [ -1 2 -3 4 ]\n"
+        "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20 \"integer pixelbounds\" [ 3 15 0 10 ] "
+        "\"float iso\" 200 \"float maxcomponentvalue\" 10 \"string sensor\" \"nikon_d850\"\n"
+        "PixelFilter \"mitchell\" \"float xradius\" 3 Integrator \"path\" \"integer maxdepth\" 9 \"bool regularize\" "
+        "true\n"
+        "Sampler \"stratified\" \"integer xsamples\" 3 Option \"disablepixeljitter\" true WorldBegin");
     const RestageCamera& c = r.raw_cameras.at(0);
     CHECK(c.camera_to_world[14] == 3);
     CHECK(c.camera_to_world[10] == -1); // looks along -z of the world
@@ -288,8 +326,9 @@ TEST_CASE("pbrt camera, film and settings", "[pbrt]") {
     CHECK(r.film.filter_radius[1] == 2);
     CHECK(r.settings.max_depth == 9);
     CHECK(r.settings.samples == 12);
-    for (const char* part : {"Integrator \"path\" \"integer maxdepth\" [ 9 ] \"bool regularize\" [ true ]", "Sampler \"stratified\"",
-                             "Option \"disablepixeljitter\" true", "Film \"float maxcomponentvalue\" [ 10 ]"})
+    for (const char* part :
+         {"Integrator \"path\" \"integer maxdepth\" [ 9 ] \"bool regularize\" [ true ]", "Sampler \"stratified\"",
+          "Option \"disablepixeljitter\" true", "Film \"float maxcomponentvalue\" [ 10 ]"})
         CHECK(r.settings_text.find(part) != std::string::npos);
     CHECK(r.reports("Film sensor \"nikon_d850\""));
 
@@ -302,7 +341,9 @@ TEST_CASE("pbrt camera, film and settings", "[pbrt]") {
     CHECK(r.settings.max_depth == 5);
     CHECK(r.raw_cameras.at(0).fov == 90);
     CHECK(r.reports("Camera: the file has none"));
-    r = loaded("Film \"image\" \"float scale\" 3 \"float cropwindow\" [ 0.5 0 0 1 ] PixelFilter \"gaussian\" Camera \"perspective\" \"float halffov\" 20 Sampler \"random\" WorldBegin WorldEnd");
+    r = loaded(
+        "Film \"image\" \"float scale\" 3 \"float cropwindow\" [ 0.5 0 0 1 ] PixelFilter \"gaussian\" Camera "
+        "\"perspective\" \"float halffov\" 20 Sampler \"random\" WorldBegin WorldEnd");
     CHECK(r.film.exposure == 3);
     CHECK(r.film.crop[0] == 0);
     CHECK(r.film.crop[1] == 0.5f);
@@ -312,12 +353,14 @@ TEST_CASE("pbrt camera, film and settings", "[pbrt]") {
     CHECK(r.settings.samples == 4);
     CHECK(loaded("Film \"image\" WorldBegin WorldEnd").film_filter == "box");
     for (const char* kind : {"orthographic", "spherical", "realistic", "fisheye"})
-        CHECK(loaded("Camera \"" + std::string(kind) + "\" WorldBegin").reports("Camera \"" + std::string(kind) + "\""));
+        CHECK(
+            loaded("Camera \"" + std::string(kind) + "\" WorldBegin").reports("Camera \"" + std::string(kind) + "\""));
 }
 
 TEST_CASE("pbrt report: the same thing is one line with a count and the first place", "[pbrt]") {
     std::string text = v4;
-    for (int i = 0; i < 5; ++i) text += "Shape \"curve\" \"point3 P\" [ 0 0 0 ]\n";
+    for (int i = 0; i < 5; ++i)
+        text += "Shape \"curve\" \"point3 P\" [ 0 0 0 ]\n";
     const Recorder r = loaded(text + "NamedMaterial \"x\"\nNamedMaterial \"y\"\n");
     int curves = 0;
     for (const auto& line : r.lines)

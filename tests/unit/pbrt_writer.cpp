@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pbrt_writer.hpp"
 
-#include <atomic>
 #include <unistd.h>
+#include <atomic>
 
 namespace restage::pbrt::test {
 
@@ -17,7 +17,8 @@ ValueMap copy(const RestageValue* values, std::uint32_t count) {
         Value& to = out[value.id];
         to.type = value.type;
         to.ref = value.ref;
-        for (std::size_t k = 0; k < 4; ++k) to.v[k] = value.v[k];
+        for (std::size_t k = 0; k < 4; ++k)
+            to.v[k] = value.v[k];
         if (value.text) to.text = value.text;
     }
     return out;
@@ -49,13 +50,20 @@ RestageSceneWriter1 Recorder::table() {
         return handle(self(c).images);
     };
     w.texture = [](void* c, const RestageTexture* t) {
-        Named n{.name = t->text.name, .type = t->type, .verbatim = t->text.verbatim, .values = copy(t->values, t->value_count),
-                .image = t->image, .is_float = t->is_float != 0};
+        Named n{.name = t->text.name,
+                .type = t->type,
+                .verbatim = t->text.verbatim,
+                .values = copy(t->values, t->value_count),
+                .image = t->image,
+                .is_float = t->is_float != 0};
         self(c).textures.push_back(std::move(n));
         return handle(self(c).textures);
     };
     w.material = [](void* c, const RestageMaterialDesc* m) {
-        Named n{.name = m->text.name, .type = m->type, .verbatim = m->text.verbatim, .values = copy(m->values, m->value_count)};
+        Named n{.name = m->text.name,
+                .type = m->type,
+                .verbatim = m->text.verbatim,
+                .values = copy(m->values, m->value_count)};
         self(c).materials.push_back(std::move(n));
         return handle(self(c).materials);
     };
@@ -115,7 +123,8 @@ int Recorder::load_text(const std::string& text, const std::string& name) {
 
 Folder::Folder() {
     static std::atomic<int> number{0};
-    path_ = std::filesystem::temp_directory_path() / ("restage_pbrt_" + std::to_string(getpid()) + "_" + std::to_string(number++));
+    path_ = std::filesystem::temp_directory_path() /
+            ("restage_pbrt_" + std::to_string(getpid()) + "_" + std::to_string(number++));
     std::filesystem::create_directories(path_);
 }
 

@@ -75,7 +75,8 @@ class Recorder {
     std::string all_reports() const {
         std::string out;
         for (const ReportLine& line : lines)
-            out += std::to_string(line.fate) + " " + std::to_string(line.line) + " " + line.what + ": " + line.note + "\n";
+            out +=
+                std::to_string(line.fate) + " " + std::to_string(line.line) + " " + line.what + ": " + line.note + "\n";
         return out;
     }
     bool reports(const std::string& part) const { return all_reports().find(part) != std::string::npos; }

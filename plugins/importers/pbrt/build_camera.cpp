@@ -13,13 +13,15 @@ void Builder::camera(const Directive& d) {
     const std::string what = "Camera " + quote(d.name);
     RestageCamera out{};
     const auto to_world = inverse(ctm(d));
-    if (!to_world) throw ImportError{d.at, what + ": its transformation cannot be inverted; check LookAt and Scale before it"};
+    if (!to_world)
+        throw ImportError{d.at, what + ": its transformation cannot be inverted; check LookAt and Scale before it"};
     std::memcpy(out.camera_to_world, to_world->m.data(), sizeof out.camera_to_world);
     double fov = d.params.number("fov", 90);
     const double half = d.params.number("halffov", -1); // v3, for exporters that give half of it
     if (half > 0) fov = 2 * half;
     if (d.name == "perspective") {
-        if (!(fov > 0 && fov < 180)) throw ImportError{d.at, what + ": fov is " + shortest(fov) + "; it must be in (0, 180) degrees"};
+        if (!(fov > 0 && fov < 180))
+            throw ImportError{d.at, what + ": fov is " + shortest(fov) + "; it must be in (0, 180) degrees"};
     } else if (d.name == "orthographic") {
         // Nearly parallel from farther back; the frame is that of the original at its own place. What stands between
         // hides it: the original sees nothing behind itself.
@@ -43,13 +45,16 @@ void Builder::camera(const Directive& d) {
     out.focal_distance = static_cast<float>(d.params.number("focaldistance", 1e6));
     out.frame_aspect = static_cast<float>(d.params.number("frameaspectratio", 0));
     if (!(out.lens_radius >= 0) || !(out.focal_distance > 0) || !(out.frame_aspect >= 0))
-        throw ImportError{d.at, what + ": lensradius must not be negative, focaldistance and frameaspectratio must be positive"};
+        throw ImportError{
+            d.at, what + ": lensradius must not be negative, focaldistance and frameaspectratio must be positive"};
     if (const std::vector<double>* window = d.params.numbers("screenwindow")) {
         if (window->size() != 4 || !((*window)[0] < (*window)[1]) || !((*window)[2] < (*window)[3]))
             throw ImportError{d.at, what + ": screenwindow needs x0 < x1 and y0 < y1"};
-        for (std::size_t i = 0; i < 4; ++i) out.screen_window[i] = static_cast<float>((*window)[i]);
+        for (std::size_t i = 0; i < 4; ++i)
+            out.screen_window[i] = static_cast<float>((*window)[i]);
     }
-    for (const char* name : {"shutteropen", "shutterclose"}) d.params.find(name); // the film asks for them
+    for (const char* name : {"shutteropen", "shutterclose"})
+        d.params.find(name); // the film asks for them
     std::string verbatim;
     if (d.name != "perspective") {
         verbatim = "Camera " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
@@ -71,13 +76,15 @@ void Builder::film_and_settings() {
     constexpr int largest = 65536;
     if (width < 1 || height < 1 || width > largest || height > largest || double(width) * height > double(1u << 29))
         throw ImportError{film.at, "Film: a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                                       " pixels; each side must be in 1.." + std::to_string(largest) + " and the whole below 2^29"};
+                                       " pixels; each side must be in 1.." + std::to_string(largest) +
+                                       " and the whole below 2^29"};
     out.width = static_cast<std::uint32_t>(width);
     out.height = static_cast<std::uint32_t>(height);
     out.crop[1] = out.crop[3] = 1;
     if (const std::vector<double>* crop = p.numbers("cropwindow")) {
         if (crop->size() != 4) throw ImportError{film.at, "Film: cropwindow needs four numbers x0 x1 y0 y1"};
-        for (std::size_t i = 0; i < 4; ++i) out.crop[i] = static_cast<float>(std::clamp((*crop)[i], 0.0, 1.0));
+        for (std::size_t i = 0; i < 4; ++i)
+            out.crop[i] = static_cast<float>(std::clamp((*crop)[i], 0.0, 1.0));
         if (out.crop[0] > out.crop[1]) std::swap(out.crop[0], out.crop[1]);
         if (out.crop[2] > out.crop[3]) std::swap(out.crop[2], out.crop[3]);
     } else if (const std::vector<double>* bounds = p.numbers("pixelbounds")) { // v4: x0 x1 y0 y1
@@ -98,34 +105,47 @@ void Builder::film_and_settings() {
         if (camera_) time = camera_->params.number("shutterclose", 1) - camera_->params.number("shutteropen", 0);
         exposure = iso / 100 * time;
         const std::string sensor = p.string("sensor", "cie1931");
-        if (sensor != "cie1931") import_.approximated(film.at, "Film sensor " + quote(sensor), "the CIE 1931 observer stands for it");
-        if (p.number("whitebalance", 0) != 0) import_.approximated(film.at, "Film whitebalance", "colours are not balanced");
+        if (sensor != "cie1931")
+            import_.approximated(film.at, "Film sensor " + quote(sensor), "the CIE 1931 observer stands for it");
+        if (p.number("whitebalance", 0) != 0)
+            import_.approximated(film.at, "Film whitebalance", "colours are not balanced");
     }
     out.exposure = static_cast<float>(exposure);
-    if (!(exposure >= 0) || !std::isfinite(out.exposure)) throw ImportError{film.at, "Film: its exposure is " + shortest(exposure) + "; it must not be negative"};
+    if (!(exposure >= 0) || !std::isfinite(out.exposure))
+        throw ImportError{film.at, "Film: its exposure is " + shortest(exposure) + "; it must not be negative"};
 
-    static const std::map<std::string, std::array<double, 2>> filters = { // default radius in v3 and v4
-        {"box", {0.5, 0.5}}, {"gaussian", {2, 1.5}}, {"mitchell", {2, 2}}, {"sinc", {4, 4}}, {"triangle", {2, 2}}};
+    static const std::map<std::string, std::array<double, 2>> filters = {// default radius in v3 and v4
+                                                                         {"box", {0.5, 0.5}},
+                                                                         {"gaussian", {2, 1.5}},
+                                                                         {"mitchell", {2, 2}},
+                                                                         {"sinc", {4, 4}},
+                                                                         {"triangle", {2, 2}}};
     Directive default_filter{};
     default_filter.name = import_.v3() ? "box" : "gaussian";
     const Directive& filter = filter_ ? *filter_ : default_filter;
     auto known = filters.find(filter.name);
     if (known == filters.end()) {
-        import_.approximated(filter.at, "PixelFilter " + quote(filter.name), "there is no such filter in pbrt; a box stands for it");
+        import_.approximated(filter.at, "PixelFilter " + quote(filter.name),
+                             "there is no such filter in pbrt; a box stands for it");
         known = filters.find("box");
     }
     out.filter = known->first.c_str();
     const char* names[2][2] = {{"xradius", "xwidth"}, {"yradius", "ywidth"}}; // v4, v3: both are the radius
     for (std::size_t i = 0; i < 2; ++i) {
         const double otherwise = known->second[import_.v3() ? 0 : 1];
-        const double radius = filter.params.number(filter.params.has(names[i][0]) ? names[i][0] : names[i][1], otherwise);
-        if (!(radius > 0 && radius < 1000)) throw ImportError{filter.at, "PixelFilter: its radius is " + shortest(radius) + " pixels; it must be positive"};
+        const double radius =
+            filter.params.number(filter.params.has(names[i][0]) ? names[i][0] : names[i][1], otherwise);
+        if (!(radius > 0 && radius < 1000))
+            throw ImportError{filter.at,
+                              "PixelFilter: its radius is " + shortest(radius) + " pixels; it must be positive"};
         out.filter_radius[i] = static_cast<float>(radius);
     }
     if (known->first == "gaussian") { // v3's alpha: exp(-alpha x^2)
         const double alpha = filter.params.number("alpha", 2);
-        out.filter_params[0] = static_cast<float>(filter.params.number("sigma", alpha > 0 ? 1 / std::sqrt(2 * alpha) : 0.5));
-        if (!(out.filter_params[0] > 0)) throw ImportError{filter.at, "PixelFilter \"gaussian\": sigma must be positive"};
+        out.filter_params[0] =
+            static_cast<float>(filter.params.number("sigma", alpha > 0 ? 1 / std::sqrt(2 * alpha) : 0.5));
+        if (!(out.filter_params[0] > 0))
+            throw ImportError{filter.at, "PixelFilter \"gaussian\": sigma must be positive"};
     } else if (known->first == "mitchell") {
         out.filter_params[0] = static_cast<float>(filter.params.number("B", 1.0 / 3));
         out.filter_params[1] = static_cast<float>(filter.params.number("C", 1.0 / 3));
@@ -134,9 +154,12 @@ void Builder::film_and_settings() {
     }
     std::string kept = option_lines_;
     if (p.has("maxcomponentvalue") || p.has("maxsampleluminance"))
-        import_.approximated(film.at, "Film", "its limit on bright samples is not applied: it is biased; written back as it is");
-    for (const char* name : {"maxcomponentvalue", "maxsampleluminance"}) p.find(name);
-    for (const char* name : {"maxcomponentvalue", "maxsampleluminance", "sensor", "whitebalance", "diagonal", "savefp16"})
+        import_.approximated(film.at, "Film",
+                             "its limit on bright samples is not applied: it is biased; written back as it is");
+    for (const char* name : {"maxcomponentvalue", "maxsampleluminance"})
+        p.find(name);
+    for (const char* name :
+         {"maxcomponentvalue", "maxsampleluminance", "sensor", "whitebalance", "diagonal", "savefp16"})
         if (p.has(name)) kept += "Film " + to_text(*p.find(name)) + "\n";
     if (film_ && film.name != "rgb" && film.name != "image") {
         kept += "Film " + quote(film.name) + "\n";
@@ -151,27 +174,33 @@ void Builder::film_and_settings() {
     RestageSettings settings{};
     settings.max_depth = 5; // pbrt's default
     if (integrator_) {
-        settings.max_depth = static_cast<std::uint32_t>(std::clamp(integrator_->params.integer("maxdepth", 5), 0, 1 << 20));
+        settings.max_depth =
+            static_cast<std::uint32_t>(std::clamp(integrator_->params.integer("maxdepth", 5), 0, 1 << 20));
         kept += integrator_->word + " " + quote(integrator_->name) + " " + to_text(integrator_->params, " ") + "\n";
         if (integrator_->name != "path" && integrator_->name != "volpath")
-            import_.approximated(integrator_->at, "Integrator " + quote(integrator_->name), "the picture is path-traced; written back as it is");
+            import_.approximated(integrator_->at, "Integrator " + quote(integrator_->name),
+                                 "the picture is path-traced; written back as it is");
     }
     if (sampler_) {
         const ParamList& s = sampler_->params;
         const bool stratified = sampler_->name == "stratified";
-        const int samples = stratified ? s.integer("xsamples", 4) * std::max(1, s.integer("ysamples", 4))
-                                       : s.integer("pixelsamples", sampler_->name == "random" || sampler_->name == "independent" ? 4 : 16);
+        const int samples =
+            stratified
+                ? s.integer("xsamples", 4) * std::max(1, s.integer("ysamples", 4))
+                : s.integer("pixelsamples", sampler_->name == "random" || sampler_->name == "independent" ? 4 : 16);
         settings.samples = static_cast<std::uint32_t>(std::clamp(samples, 0, 1 << 24));
         kept += sampler_->word + " " + quote(sampler_->name) + " " + to_text(s, " ") + "\n";
     }
     settings.text = import_.text("", kept.c_str());
     import_.out.settings(import_.out.ctx, &settings);
     if (!camera_exterior_.empty() && camera_)
-        if (const RestageHandle around = medium_named(camera_exterior_, *camera_)) import_.out.camera_medium(import_.out.ctx, around);
+        if (const RestageHandle around = medium_named(camera_exterior_, *camera_))
+            import_.out.camera_medium(import_.out.ctx, around);
     if (!camera_) {
         import_.approximated(film.at, "Camera", "the file has none; pbrt's default looks along +z from the origin");
         RestageCamera camera{};
-        for (int i = 0; i < 4; ++i) camera.camera_to_world[5 * i] = 1;
+        for (int i = 0; i < 4; ++i)
+            camera.camera_to_world[5 * i] = 1;
         camera.fov = 90;
         camera.focal_distance = 1e6f;
         camera.text = import_.text("camera", "");

@@ -32,7 +32,8 @@ void Builder::light(const Directive& d) {
     const auto from = d.params.triple("from", {0, 0, 0}), to = d.params.triple("to", {0, 0, 1});
     const Vec3 origin{from[0], from[1], from[2]}, direction = Vec3{to[0], to[1], to[2]} - origin;
     const bool aims = d.name == "spot" || is_distant;
-    if (aims && !(length(direction) > 0)) throw ImportError{d.at, what + ": \"from\" and \"to\" are the same point; move one"};
+    if (aims && !(length(direction) > 0))
+        throw ImportError{d.at, what + ": \"from\" and \"to\" are the same point; move one"};
     if (d.name == "spot" || d.name == "projection") {
         out.kind = RESTAGE_LIGHT_SPOT;
         to_world = to_world * translation(origin);
@@ -47,7 +48,8 @@ void Builder::light(const Directive& d) {
         out.cone_angle = static_cast<float>(cone);
         out.cone_delta = static_cast<float>(delta);
         if (power > 0) { // pbrt-v4 SpotLight::Create: the smooth edge counts half
-            const double end = std::cos(cone * std::numbers::pi / 180), start = std::cos((cone - delta) * std::numbers::pi / 180);
+            const double end = std::cos(cone * std::numbers::pi / 180),
+                         start = std::cos((cone - delta) * std::numbers::pi / 180);
             scale *= power / (2 * std::numbers::pi * ((1 - start) + (start - end) / 2));
         }
     } else if (is_distant) {
@@ -74,7 +76,8 @@ void Builder::light(const Directive& d) {
     out.value[2] = static_cast<float>(value.b);
     std::memcpy(out.light_to_world, to_world.m.data(), sizeof out.light_to_world);
     std::string verbatim = import_.keep_unused(d.params, what);
-    if (d.name == "goniometric" || d.name == "projection") verbatim = "LightSource " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
+    if (d.name == "goniometric" || d.name == "projection")
+        verbatim = "LightSource " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
     const std::string name = d.name + " " + std::to_string(d.at.line);
     out.text = import_.text(name.c_str(), verbatim.c_str());
     import_.out.light(import_.out.ctx, &out);
@@ -85,7 +88,8 @@ void Builder::infinite_light(const Directive& d) {
     const std::string what = "LightSource \"infinite\"";
     Rgb value = import_.color(d.params, "L", Role::light, {1, 1, 1});
     double scale = light_scale(d, value);
-    for (const char* name : {"samples", "nsamples"}) d.params.find(name); // how, not what
+    for (const char* name : {"samples", "nsamples"})
+        d.params.find(name); // how, not what
     const std::string file = d.params.string(d.params.has("filename") ? "filename" : "mapname", "");
     if (d.params.find("portal")) import_.approximated(d.at, what, "the light is not limited to its portal");
     const double illuminance = d.params.number("illuminance", -1);
@@ -93,7 +97,9 @@ void Builder::infinite_light(const Directive& d) {
     if (!file.empty()) {
         // v3 reads environment images as they are (infinite.cpp: ReadImage); v4 decodes 8-bit ones as sRGB.
         pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, false);
-        if (illuminance > 0) import_.approximated(d.at, what, "\"illuminance\" of a picture is not reached; the picture's own values are used");
+        if (illuminance > 0)
+            import_.approximated(d.at, what,
+                                 "\"illuminance\" of a picture is not reached; the picture's own values are used");
     } else if (illuminance > 0) {
         scale *= illuminance / std::numbers::pi;
     }

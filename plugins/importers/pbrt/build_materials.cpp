@@ -12,7 +12,8 @@ RestageHandle Builder::default_material(const Directive&) {
     Values values; // pbrt-v3: matte; v4: diffuse; both 0.5
     values.color("reflectance", {0.5, 0.5, 0.5});
     values.number("sigma", 0);
-    const RestageMaterialDesc desc{.text = import_.text("default", ""), .type = "diffuse", .values = values.data(), .value_count = values.size()};
+    const RestageMaterialDesc desc{
+        .text = import_.text("default", ""), .type = "diffuse", .values = values.data(), .value_count = values.size()};
     default_material_ = import_.out.material(import_.out.ctx, &desc);
     return default_material_;
 }
@@ -23,7 +24,9 @@ void Builder::put_index(Values& values, const char* id, const Directive& d, cons
     if (const auto spectrum = import_.spectrum(d.params, name)) {
         const double low = spectrum->front(), high = spectrum->back();
         if (std::abs(low - high) > 1e-4)
-            import_.approximated(d.at, d.word, "dispersion of \"" + std::string(name) + "\" is left out: its luminance-weighted mean is used");
+            import_.approximated(
+                d.at, d.word,
+                "dispersion of \"" + std::string(name) + "\" is left out: its luminance-weighted mean is used");
         values.number(id, luminance_mean(*spectrum));
         keep_exact(id, d, name);
         return;
@@ -47,13 +50,15 @@ void Builder::put_common(Values& values, const Directive& d) {
     if (file.empty()) return;
     if (const RestageHandle pixels = image(d, file, RESTAGE_LINEAR, 1, true)) {
         const RestageTexture texture{.text = import_.text("", ""), .type = "imagemap", .is_float = 0, .image = pixels};
-        if (const RestageHandle handle = import_.out.texture(import_.out.ctx, &texture)) values.texture("normalmap", RESTAGE_TEXTURE, handle);
+        if (const RestageHandle handle = import_.out.texture(import_.out.ctx, &texture))
+            values.texture("normalmap", RESTAGE_TEXTURE, handle);
     }
 }
 
 // A conductor's index. pbrt-v4: spectra become the RGB index with the metal's own reflectance (rgb_of_metal), since a
 // renderer in RGB that averaged eta and k apart would tint gold and copper wrongly. v3 averages them apart itself.
-void Builder::put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id, const char* k_id) {
+void Builder::put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id,
+                        const char* k_id) {
     const bool old = import_.v3() || d.word == "v3 metal";
     const auto spectral = [&](const char* name, const char* copper) -> std::optional<Spectrum> {
         if (!d.params.has(name)) return named_spectrum(copper);
@@ -80,14 +85,17 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     std::string key;
     if (anonymous) {
         key = type + '\n' + to_text(d.params, "\n");
-        for (const Param& param : d.params.params) key += '\n' + std::to_string(static_cast<int>(param.color_space));
+        for (const Param& param : d.params.params)
+            key += '\n' + std::to_string(static_cast<int>(param.color_space));
         for (const Param& param : d.params.params)
             if (param.type == "texture" && !param.strings.empty()) { // the same name may mean another texture by now
                 const auto& names = *state_.names;
                 for (const auto* map : {&names.float_textures, &names.color_textures})
-                    if (const auto found = map->find(param.strings[0]); found != map->end()) key += '\n' + std::to_string(found->second);
+                    if (const auto found = map->find(param.strings[0]); found != map->end())
+                        key += '\n' + std::to_string(found->second);
             }
-        if (const auto found = materials_by_content_.find(key); found != materials_by_content_.end()) return found->second;
+        if (const auto found = materials_by_content_.find(key); found != materials_by_content_.end())
+            return found->second;
     }
     const std::string what = anonymous ? "Material " + quote(type) : "material " + quote(name);
     Values values;
@@ -114,7 +122,10 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     exact_.clear();
     std::string label = name;
     if (label.empty()) label = type + " " + std::to_string(d.at.line);
-    const RestageMaterialDesc desc{.text = import_.text(label.c_str(), verbatim.c_str()), .type = plugin.c_str(), .values = values.data(), .value_count = values.size()};
+    const RestageMaterialDesc desc{.text = import_.text(label.c_str(), verbatim.c_str()),
+                                   .type = plugin.c_str(),
+                                   .values = values.data(),
+                                   .value_count = values.size()};
     const RestageHandle handle = import_.out.material(import_.out.ctx, &desc);
     if (plugin == "interface") interfaces_.insert(handle);
     if (anonymous) materials_by_content_[key] = handle;
@@ -132,12 +143,14 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
         plugin = "coateddiffuse";
         for (const char* name : {"reflectance", "Kd"})
             if (const auto given = import_.color(d.params, name, Role::albedo)) color = *given;
-        const auto a = import_.color(d.params, "sigma_a", Role::unbounded), s = import_.color(d.params, "sigma_s", Role::unbounded);
+        const auto a = import_.color(d.params, "sigma_a", Role::unbounded),
+                   s = import_.color(d.params, "sigma_s", Role::unbounded);
         if (a && s) { // diffuse reflectance of a half space from the albedo, Hanrahan's fit is finer than this needs
             const auto of = [](double absorbed, double scattered) {
                 const double albedo = absorbed + scattered > 0 ? scattered / (absorbed + scattered) : 1;
                 const double t = std::sqrt(3 * (1 - albedo));
-                return albedo / 2 * (1 + std::exp(-4.0 / 3 * 1.44 * t)) * std::exp(-t); // Jensen et al. 2001, Eq. 15, A of eta 1.3
+                return albedo / 2 * (1 + std::exp(-4.0 / 3 * 1.44 * t)) *
+                       std::exp(-t); // Jensen et al. 2001, Eq. 15, A of eta 1.3
             };
             color = {of(a->r, s->r), of(a->g, s->g), of(a->b, s->b)};
         }

@@ -77,12 +77,14 @@ bool Builder::material_v3(const Directive& d, const std::string& type, Values& v
         const Argument amount = color_argument(d, "amount", Role::unbounded, grey(0.5));
         if (amount.texture) {
             values.texture("amount", RESTAGE_FLOAT, amount.texture);
-            import_.approximated(d.at, "material " + quote(d.name) + " (mix)", "its colour texture \"amount\" is used as one number a point");
+            import_.approximated(d.at, "material " + quote(d.name) + " (mix)",
+                                 "its colour texture \"amount\" is used as one number a point");
         } else {
             const Rgb a = amount.value;
             values.number("amount", luminance(a));
             if (std::abs(a.r - a.g) + std::abs(a.g - a.b) > 1e-3)
-                import_.approximated(d.at, "material " + quote(d.name) + " (mix)", "its coloured \"amount\" becomes its luminance");
+                import_.approximated(d.at, "material " + quote(d.name) + " (mix)",
+                                     "its coloured \"amount\" becomes its luminance");
         }
     } else {
         return false;

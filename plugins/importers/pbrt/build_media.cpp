@@ -13,12 +13,12 @@ struct Preset { // reduced scattering and absorption [1/mm]: Jensen et al. 2001,
 };
 
 constexpr Preset presets[] = {
-    {"Apple", {2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}},     {"Chicken1", {0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}},
-    {"Chicken2", {0.19, 0.25, 0.32}, {0.018, 0.088, 0.20}},     {"Cream", {7.38, 5.47, 3.15}, {0.0002, 0.0028, 0.0163}},
-    {"Ketchup", {0.18, 0.07, 0.03}, {0.061, 0.97, 1.45}},       {"Marble", {2.19, 2.62, 3.00}, {0.0021, 0.0041, 0.0071}},
-    {"Potato", {0.68, 0.70, 0.55}, {0.0024, 0.0090, 0.12}},     {"Skimmilk", {0.70, 1.22, 1.90}, {0.0014, 0.0025, 0.0142}},
-    {"Skin1", {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}},         {"Skin2", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145}},
-    {"Spectralon", {11.6, 20.4, 14.9}, {0.00, 0.00, 0.00}},     {"Wholemilk", {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}},
+    {"Apple", {2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}}, {"Chicken1", {0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}},
+    {"Chicken2", {0.19, 0.25, 0.32}, {0.018, 0.088, 0.20}}, {"Cream", {7.38, 5.47, 3.15}, {0.0002, 0.0028, 0.0163}},
+    {"Ketchup", {0.18, 0.07, 0.03}, {0.061, 0.97, 1.45}},   {"Marble", {2.19, 2.62, 3.00}, {0.0021, 0.0041, 0.0071}},
+    {"Potato", {0.68, 0.70, 0.55}, {0.0024, 0.0090, 0.12}}, {"Skimmilk", {0.70, 1.22, 1.90}, {0.0014, 0.0025, 0.0142}},
+    {"Skin1", {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}},     {"Skin2", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145}},
+    {"Spectralon", {11.6, 20.4, 14.9}, {0.00, 0.00, 0.00}}, {"Wholemilk", {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}},
 };
 
 } // namespace
@@ -43,7 +43,9 @@ void Builder::medium(const Directive& d) {
                 scattering = entry.scattering;
                 found = true;
             }
-        if (!found) import_.approximated(d.at, what, "preset " + quote(preset) + " is not known here; whole milk stands for it");
+        if (!found)
+            import_.approximated(d.at, what,
+                                 "preset " + quote(preset) + " is not known here; whole milk stands for it");
     }
     // v4: given alone, the other is what the preset or the default says; v3 alike.
     absorption = import_.color(d.params, "sigma_a", Role::unbounded, absorption);
@@ -73,7 +75,8 @@ void Builder::medium(const Directive& d) {
 RestageHandle Builder::medium_named(const std::string& name, const Directive& directive) {
     if (name.empty()) return 0;
     if (const auto found = media_.find(name); found != media_.end()) return found->second;
-    import_.dropped(directive.at, "medium " + quote(name) + " of " + directive.word, "no medium has that name; vacuum stands for it");
+    import_.dropped(directive.at, "medium " + quote(name) + " of " + directive.word,
+                    "no medium has that name; vacuum stands for it");
     return 0;
 }
 

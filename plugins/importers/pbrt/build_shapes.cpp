@@ -12,9 +12,7 @@ namespace {
 
 void set_matrix(double (&to)[16], const Matrix& from) { std::memcpy(to, from.m.data(), sizeof to); }
 
-bool is_affine(const Matrix& m) {
-    return m.at(3, 0) == 0 && m.at(3, 1) == 0 && m.at(3, 2) == 0 && m.at(3, 3) == 1;
-}
+bool is_affine(const Matrix& m) { return m.at(3, 0) == 0 && m.at(3, 1) == 0 && m.at(3, 2) == 0 && m.at(3, 3) == 1; }
 
 } // namespace
 
@@ -26,7 +24,8 @@ RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
         d.params.find("edgelength");
         import_.dropped(d.at, "displacement of " + quote(file), "meshes are not displaced");
     }
-    if (const auto known = mesh_cache_.find(path); known != mesh_cache_.end() && !state_.area_light) return known->second;
+    if (const auto known = mesh_cache_.find(path); known != mesh_cache_.end() && !state_.area_light)
+        return known->second;
     std::string reason;
     const auto bytes = FileBytes::open(path, reason);
     if (!bytes) {
@@ -35,9 +34,11 @@ RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
     }
     Mesh mesh = read_ply(path, bytes->view(), d.at);
     if (mesh.has_bent_quads)
-        import_.approximated(d.at, "Shape \"plymesh\" " + quote(file), "polygons that are not flat are split into triangles");
+        import_.approximated(d.at, "Shape \"plymesh\" " + quote(file),
+                             "polygons that are not flat are split into triangles");
     if (const std::size_t repaired = repair_normals(mesh))
-        import_.approximated(d.at, "Shape \"plymesh\" " + quote(file), std::to_string(repaired) + " normals without a direction are replaced by the faces'");
+        import_.approximated(d.at, "Shape \"plymesh\" " + quote(file),
+                             std::to_string(repaired) + " normals without a direction are replaced by the faces'");
     RestageHandle& handle = mesh_cache_[path];
     if (handle == 0) {
         std::string name = std::filesystem::path(path).stem().string();
@@ -84,13 +85,17 @@ RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
     } else {
         d.params.mark_all_used();
         import_.dropped(d.at, "Shape " + quote(d.name),
-                        d.name == "curve" || d.name == "nurbs" ? d.name + "s are not made into triangles" : "there is no such shape in pbrt");
+                        d.name == "curve" || d.name == "nurbs" ? d.name + "s are not made into triangles"
+                                                               : "there is no such shape in pbrt");
         return 0;
     }
     if (const std::size_t repaired = repair_normals(mesh))
-        import_.approximated(d.at, "Shape " + quote(d.name), std::to_string(repaired) + " normals without a direction are replaced by the faces'");
+        import_.approximated(d.at, "Shape " + quote(d.name),
+                             std::to_string(repaired) + " normals without a direction are replaced by the faces'");
     for (const float value : mesh.positions)
-        if (!std::isfinite(value)) throw ImportError{d.at, "Shape " + quote(d.name) + " has a vertex that is not finite; check its parameters"};
+        if (!std::isfinite(value))
+            throw ImportError{d.at,
+                              "Shape " + quote(d.name) + " has a vertex that is not finite; check its parameters"};
     if (mesh.indices.empty()) {
         import_.dropped(d.at, "Shape " + quote(d.name), "it is empty");
         return 0;
@@ -121,7 +126,9 @@ void Builder::shape(const Directive& d) {
     const Matrix to_world = ctm(d);
     if (!is_affine(to_world) || !(std::abs(determinant3(to_world)) > 0)) {
         d.params.mark_all_used();
-        import_.dropped(d.at, "Shape " + quote(d.name), is_affine(to_world) ? "its transformation flattens it to nothing" : "its transformation is not affine");
+        import_.dropped(
+            d.at, "Shape " + quote(d.name),
+            is_affine(to_world) ? "its transformation flattens it to nothing" : "its transformation is not affine");
         return;
     }
     const Mesh* data = nullptr;
@@ -138,14 +145,15 @@ void Builder::shape(const Directive& d) {
         instance.alpha_texture = alpha.texture;
         instance.alpha = static_cast<float>(std::clamp(alpha.value.r, 0.0, 1.0));
     }
-    if (d.params.find("shadowalpha")) import_.dropped(d.at, "\"shadowalpha\" of Shape " + quote(d.name), "shadows use \"alpha\"");
-    // Which side is outside. The host transforms the object-space normal by the inverse transpose, which keeps it outside
-    // under a mirror, and negates it for REVERSE_ORIENTATION. pbrt takes cross(e1, e2) in world space and flips it if
-    // ReverseOrientation xor (the transform swaps handedness); but a world-space cross product has flipped once already
-    // when handedness is swapped (cross(M a, M b) = det(M) M^-T cross(a, b)), so the two cancel and ReverseOrientation
-    // alone remains. Explicit normals decide the side in both, negated when reversed. For mirrored quadrics pbrt
-    // contradicts itself (Sphere::Intersect flips by the xor, Sphere::Sample by ReverseOrientation alone); this is the
-    // latter, which also is the side a user sees.
+    if (d.params.find("shadowalpha"))
+        import_.dropped(d.at, "\"shadowalpha\" of Shape " + quote(d.name), "shadows use \"alpha\"");
+    // Which side is outside. The host transforms the object-space normal by the inverse transpose, which keeps it
+    // outside under a mirror, and negates it for REVERSE_ORIENTATION. pbrt takes cross(e1, e2) in world space and flips
+    // it if ReverseOrientation xor (the transform swaps handedness); but a world-space cross product has flipped once
+    // already when handedness is swapped (cross(M a, M b) = det(M) M^-T cross(a, b)), so the two cancel and
+    // ReverseOrientation alone remains. Explicit normals decide the side in both, negated when reversed. For mirrored
+    // quadrics pbrt contradicts itself (Sphere::Intersect flips by the xor, Sphere::Sample by ReverseOrientation
+    // alone); this is the latter, which also is the side a user sees.
     if (state_.reverse_orientation) instance.flags |= RESTAGE_INSTANCE_REVERSE_ORIENTATION;
     if (!state_.interior.empty() || !state_.exterior.empty()) {
         instance.interior = medium_named(state_.interior, d);
@@ -156,8 +164,9 @@ void Builder::shape(const Directive& d) {
     if (state_.area_light && data) emission(d, *data, instance);
     const std::string what = "Shape " + quote(d.name);
     const std::string verbatim = import_.keep_unused(d.params, what);
-    const std::string name = d.name == "plymesh" ? std::filesystem::path(d.params.string("filename", "")).stem().string()
-                                                 : d.name + " " + std::to_string(d.at.line);
+    const std::string name = d.name == "plymesh"
+                                 ? std::filesystem::path(d.params.string("filename", "")).stem().string()
+                                 : d.name + " " + std::to_string(d.at.line);
     instance.text = import_.text(name.c_str(), verbatim.c_str());
     if (open_object_.empty()) {
         import_.out.instance(import_.out.ctx, &instance);
@@ -190,7 +199,8 @@ bool Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance
     const double scale = light_scale(d, radiance);
     const bool two_sided = d.params.boolean("twosided", false);
     if (d.params.find("filename"))
-        import_.approximated(d.at, "AreaLightSource with a picture", "emits evenly, with the strength of a white picture");
+        import_.approximated(d.at, "AreaLightSource with a picture",
+                             "emits evenly, with the strength of a white picture");
     radiance = radiance * scale;
     const double power = d.params.number("power", -1); // v4: of each light, and each triangle is one
     if (power > 0) {
@@ -199,9 +209,12 @@ bool Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance
         const bool by_triangle = shape.name == "trianglemesh" || shape.name == "plymesh" || shape.name == "loopsubdiv";
         const double lights = by_triangle ? static_cast<double>(mesh.triangle_count()) : 1;
         radiance = radiance * (power * lights / ((two_sided ? 2 : 1) * area(mesh, to_world) * 3.14159265358979323846));
-        if (lights > 2) import_.approximated(d.at, "\"power\" of an AreaLightSource", "pbrt gives it to each triangle; it is spread evenly");
+        if (lights > 2)
+            import_.approximated(d.at, "\"power\" of an AreaLightSource",
+                                 "pbrt gives it to each triangle; it is spread evenly");
     }
-    for (const char* name : {"samples", "nsamples"}) d.params.find(name); // how, not what
+    for (const char* name : {"samples", "nsamples"})
+        d.params.find(name); // how, not what
     instance.flags |= RESTAGE_INSTANCE_EMITS | (two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
     instance.emission[0] = static_cast<float>(radiance.r);
     instance.emission[1] = static_cast<float>(radiance.g);
@@ -213,7 +226,8 @@ bool Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance
 
 void Builder::object_instance(const Directive& d) {
     in_world(d);
-    if (!open_object_.empty()) throw ImportError{d.at, "ObjectInstance inside ObjectBegin; pbrt does not nest objects: move it out"};
+    if (!open_object_.empty())
+        throw ImportError{d.at, "ObjectInstance inside ObjectBegin; pbrt does not nest objects: move it out"};
     const auto found = objects_.find(d.name.empty() ? " " : d.name);
     if (found == objects_.end()) {
         import_.dropped(d.at, "ObjectInstance " + quote(d.name), "no ObjectBegin has that name");

@@ -10,7 +10,8 @@ namespace {
 
 std::string lower_extension(const std::string& file) {
     std::string out = std::filesystem::path(file).extension().string();
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return out;
 }
 
@@ -21,15 +22,18 @@ RestageHandle Builder::find_texture(const Directive& d, const char* name, bool i
     if (texture.empty()) return 0;
     const auto& own = is_float ? state_.names->float_textures : state_.names->color_textures;
     if (const auto found = own.find(texture); found != own.end()) {
-        if (found->second == 0) import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"", "it could not be made; the default stands for it");
+        if (found->second == 0)
+            import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
+                            "it could not be made; the default stands for it");
         return found->second;
     }
     const auto& other = is_float ? state_.names->color_textures : state_.names->float_textures;
     const bool wrong_kind = other.count(texture) > 0;
     import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
-                    wrong_kind ? (is_float ? "it is a spectrum texture where a float one is needed; the default stands for it"
-                                           : "it is a float texture where a spectrum one is needed; the default stands for it")
-                               : "no texture has that name; the default stands for it");
+                    wrong_kind
+                        ? (is_float ? "it is a spectrum texture where a float one is needed; the default stands for it"
+                                    : "it is a float texture where a spectrum one is needed; the default stands for it")
+                        : "no texture has that name; the default stands for it");
     return 0;
 }
 
@@ -40,7 +44,8 @@ Argument Builder::float_argument(const Directive& d, const char* name, double ot
     if (out.texture == 0 && d.params.has(name) && d.params.find(name)->type != "texture") {
         const Param& param = *d.params.find(name);
         if (param.type == "spectrum" || param.type == "rgb" || param.type == "color" || param.type == "blackbody")
-            value = luminance(import_.color(d.params, name, Role::unbounded).value_or(Rgb{otherwise, otherwise, otherwise}));
+            value = luminance(
+                import_.color(d.params, name, Role::unbounded).value_or(Rgb{otherwise, otherwise, otherwise}));
         else
             value = d.params.number(name, otherwise);
     }
@@ -63,7 +68,8 @@ void Builder::put_float(Values& values, const char* id, const Directive& d, cons
         values.number(id, argument.value.r);
 }
 
-void Builder::put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise) {
+void Builder::put_color(Values& values, const char* id, const Directive& d, const char* name, Role role,
+                        Rgb otherwise) {
     const Argument argument = color_argument(d, name, role, otherwise);
     keep_exact(id, d, name);
     if (argument.texture)
@@ -81,7 +87,8 @@ void Builder::keep_exact(const char* id, const Directive& d, const char* name) {
     exact_ += std::string("=") + id + " " + to_text(param) + "\n";
 }
 
-RestageHandle Builder::image(const Directive& d, const std::string& file, RestageEncoding encoding, float gamma, bool keep_missing) {
+RestageHandle Builder::image(const Directive& d, const std::string& file, RestageEncoding encoding, float gamma,
+                             bool keep_missing) {
     const std::string path = import_.resolve(file, d.at).string();
     std::error_code code;
     if (!std::filesystem::is_regular_file(path, code)) {
@@ -91,7 +98,10 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
     RestageHandle& handle = images_[path + '\n' + std::to_string(encoding) + '\n' + std::to_string(gamma)];
     if (handle) return handle;
     const std::string name = std::filesystem::path(path).stem().string();
-    RestageImage image{.text = import_.text(name.c_str(), ""), .path = path.c_str(), .encoding = static_cast<std::uint32_t>(encoding), .gamma = gamma};
+    RestageImage image{.text = import_.text(name.c_str(), ""),
+                       .path = path.c_str(),
+                       .encoding = static_cast<std::uint32_t>(encoding),
+                       .gamma = gamma};
     handle = import_.out.image(import_.out.ctx, &image);
     return handle;
 }
@@ -110,7 +120,8 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
     const std::string extension = lower_extension(file);
     const std::string asked = d.params.string("encoding", "sRGB");
     if (import_.v3() || d.params.has("gamma")) {
-        encoding = d.params.boolean("gamma", extension == ".tga" || extension == ".png") ? RESTAGE_SRGB : RESTAGE_LINEAR;
+        encoding =
+            d.params.boolean("gamma", extension == ".tga" || extension == ".png") ? RESTAGE_SRGB : RESTAGE_LINEAR;
     } else if (extension == ".png") {
         if (asked == "linear") {
             encoding = RESTAGE_LINEAR;
@@ -118,7 +129,8 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
             encoding = RESTAGE_GAMMA;
             gamma = static_cast<float>(parse_double(asked.substr(6)).value_or(2.2));
         } else if (asked != "sRGB") {
-            import_.approximated(d.at, std::string(what) + " " + quote(d.name), "encoding " + quote(asked) + " is unknown; sRGB is taken");
+            import_.approximated(d.at, std::string(what) + " " + quote(d.name),
+                                 "encoding " + quote(asked) + " is unknown; sRGB is taken");
         }
     }
     return image(d, file, encoding, gamma, true);
@@ -128,7 +140,8 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
 void Builder::texture(const Directive& d) {
     const bool is_float = d.second == "float";
     if (!is_float && d.second != "spectrum" && d.second != "color")
-        throw ImportError{d.at, "Texture " + quote(d.name) + " has the value type " + quote(d.second) + "; write \"float\" or \"spectrum\""};
+        throw ImportError{d.at, "Texture " + quote(d.name) + " has the value type " + quote(d.second) +
+                                    "; write \"float\" or \"spectrum\""};
     const RestageHandle handle = simple_texture(d, is_float);
     Names& names = writable_names();
     (is_float ? names.float_textures : names.color_textures)[d.name] = handle;
@@ -152,8 +165,10 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     const auto put_mapping = [&] {
         const std::string mapping = d.params.string("mapping", "uv");
         if (mapping != "uv") import_.approximated(d.at, what, "mapping " + quote(mapping) + " is done by uv instead");
-        for (const char* id : {"uscale", "vscale"}) values.number(id, d.params.number(id, 1));
-        for (const char* id : {"udelta", "vdelta"}) values.number(id, d.params.number(id, 0));
+        for (const char* id : {"uscale", "vscale"})
+            values.number(id, d.params.number(id, 1));
+        for (const char* id : {"udelta", "vdelta"})
+            values.number(id, d.params.number(id, 0));
         if (mapping != "uv") { // written back, since the renderer does not need them
             d.params.find("v1");
             d.params.find("v2");
@@ -212,7 +227,8 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
             parts = {argument(dots ? "inside" : "tex1", type == "directionmix" ? zero : one),
                      argument(dots ? "outside" : "tex2", type == "directionmix" ? one : zero)};
         Rgb average;
-        for (const Argument& part : parts) average = average + part.value * (1.0 / static_cast<double>(parts.size()));
+        for (const Argument& part : parts)
+            average = average + part.value * (1.0 / static_cast<double>(parts.size()));
         keep_all(average, "shades as the average of its colours");
     } else if (type == "marble") { // the mean of its nine colours (pbrt-v3 marble.cpp)
         keep_all({0.52, 0.52, 0.56}, "shades as its average colour");
@@ -236,8 +252,11 @@ RestageHandle Builder::scaled_texture(RestageHandle texture, double scale, bool 
     Values values;
     values.texture("tex", RESTAGE_COLOR, texture);
     values.color("scale", {scale, scale, scale});
-    RestageTexture out{.text = import_.text("", ""), .type = "scale", .is_float = is_float ? 1u : 0u,
-                       .values = values.data(), .value_count = values.size()};
+    RestageTexture out{.text = import_.text("", ""),
+                       .type = "scale",
+                       .is_float = is_float ? 1u : 0u,
+                       .values = values.data(),
+                       .value_count = values.size()};
     handle = import_.out.texture(import_.out.ctx, &out);
     return handle;
 }

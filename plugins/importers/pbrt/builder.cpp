@@ -25,16 +25,19 @@ std::optional<ColorSpace> color_space_named(const std::string& name) {
 
 bool Builder::run(SceneFile& scene) {
     for (const MissingFile& file : scene.missing)
-        import_.dropped(file.at, file.word + " " + quote(file.name), file.reason + "; what it holds is missing from the scene");
+        import_.dropped(file.at, file.word + " " + quote(file.name),
+                        file.reason + "; what it holds is missing from the scene");
     if (!import_.v3()) // v4 looks names up when the file has been read
         for (const Directive& directive : scene.directives)
             if (directive.verb == Verb::make_named_material) later_materials_.emplace(directive.name, &directive);
     std::size_t done = 0;
     for (Directive& directive : scene.directives) {
         if (++done % 16 == 0 &&
-            !import_.out.progress(import_.out.ctx, static_cast<float>(done) / static_cast<float>(scene.directives.size()), "reading"))
+            !import_.out.progress(import_.out.ctx,
+                                  static_cast<float>(done) / static_cast<float>(scene.directives.size()), "reading"))
             return false;
-        for (Param& param : directive.params.params) param.color_space = state_.color_space;
+        for (Param& param : directive.params.params)
+            param.color_space = state_.color_space;
         step(directive);
     }
     finish(scene);
@@ -43,11 +46,12 @@ bool Builder::run(SceneFile& scene) {
 
 void Builder::finish(const SceneFile& scene) {
     if (!scene.has_world_begin)
-        throw ImportError{scene.end, "there is no WorldBegin: this file is no whole scene; open the file that includes it"};
+        throw ImportError{scene.end,
+                          "there is no WorldBegin: this file is no whole scene; open the file that includes it"};
     if (!stack_.empty()) {
         const Directive& opened = *stack_.back().opened;
-        throw ImportError{scene.end, "the file ends inside the " + opened.word + " of line " + std::to_string(opened.at.line) +
-                                         "; close it or restore the rest of the file"};
+        throw ImportError{scene.end, "the file ends inside the " + opened.word + " of line " +
+                                         std::to_string(opened.at.line) + "; close it or restore the rest of the file"};
     }
     if (import_.v3() && !scene.has_world_end)
         import_.approximated(scene.end, "WorldEnd", "missing; the file may have been cut short");
@@ -62,7 +66,8 @@ bool Builder::in_world(const Directive& directive) const {
 
 const Matrix& Builder::ctm(const Directive& directive) {
     if (!(state_.ctm[0] == state_.ctm[1]))
-        import_.approximated(directive.at, directive.word + " in motion", "stands still where it is when the shutter opens");
+        import_.approximated(directive.at, directive.word + " in motion",
+                             "stands still where it is when the shutter opens");
     return state_.ctm[0];
 }
 
@@ -89,10 +94,14 @@ void Builder::push(const Directive& directive) {
 void Builder::pop(const Directive& directive, bool only_transform) {
     const auto matches = [&](const Directive& opened) {
         switch (directive.verb) {
-            case Verb::attribute_end: return opened.verb == Verb::attribute_begin || (!import_.v3() && opened.verb == Verb::transform_begin);
-            case Verb::transform_end: return opened.verb == Verb::transform_begin || (!import_.v3() && opened.verb == Verb::attribute_begin);
-            case Verb::object_end: return opened.verb == Verb::object_begin;
-            default: return opened.verb == Verb::import_begin;
+            case Verb::attribute_end:
+                return opened.verb == Verb::attribute_begin || (!import_.v3() && opened.verb == Verb::transform_begin);
+            case Verb::transform_end:
+                return opened.verb == Verb::transform_begin || (!import_.v3() && opened.verb == Verb::attribute_begin);
+            case Verb::object_end:
+                return opened.verb == Verb::object_begin;
+            default:
+                return opened.verb == Verb::import_begin;
         }
     };
     if (stack_.empty()) throw ImportError{directive.at, directive.word + " without a Begin before it; remove it"};
@@ -116,25 +125,37 @@ void Builder::transform_step(const Directive& d) {
     const std::vector<double>& v = d.numbers;
     Matrix by;
     switch (d.verb) {
-        case Verb::translate: by = translation({v[0], v[1], v[2]}); break;
-        case Verb::scale: by = scaling({v[0], v[1], v[2]}); break;
-        case Verb::rotate: by = rotation(v[0], {v[1], v[2], v[3]}); break;
+        case Verb::translate:
+            by = translation({v[0], v[1], v[2]});
+            break;
+        case Verb::scale:
+            by = scaling({v[0], v[1], v[2]});
+            break;
+        case Verb::rotate:
+            by = rotation(v[0], {v[1], v[2], v[3]});
+            break;
         case Verb::look_at: {
             const auto view = look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]});
-            if (!view) throw ImportError{d.at, "LookAt: eye and target are the same, or up points along the view; move one of them"};
+            if (!view)
+                throw ImportError{d.at,
+                                  "LookAt: eye and target are the same, or up points along the view; move one of them"};
             by = *view;
             break;
         }
         case Verb::transform:
-        case Verb::concat_transform: std::copy(v.begin(), v.end(), by.m.begin()); break;
-        default: break;
+        case Verb::concat_transform:
+            std::copy(v.begin(), v.end(), by.m.begin());
+            break;
+        default:
+            break;
     }
     for (unsigned i = 0; i < 2; ++i) {
         if (!(state_.active & (1u << i))) continue;
         const bool replaces = d.verb == Verb::transform || d.verb == Verb::identity;
         state_.ctm[i] = replaces ? by : state_.ctm[i] * by;
         for (const double value : state_.ctm[i].m)
-            if (!(std::abs(value) < 1e150)) throw ImportError{d.at, "the transformation overflows here; check its numbers"};
+            if (!(std::abs(value) < 1e150))
+                throw ImportError{d.at, "the transformation overflows here; check its numbers"};
     }
 }
 
@@ -142,13 +163,22 @@ void Builder::option_step(Directive& d) {
     if (world_ && d.verb != Verb::option)
         throw ImportError{d.at, d.word + " must come before WorldBegin; move it there"};
     switch (d.verb) {
-        case Verb::film: film_ = &d; break;
-        case Verb::pixel_filter: filter_ = &d; break;
-        case Verb::sampler: sampler_ = &d; break;
-        case Verb::integrator: integrator_ = &d; break;
+        case Verb::film:
+            film_ = &d;
+            break;
+        case Verb::pixel_filter:
+            filter_ = &d;
+            break;
+        case Verb::sampler:
+            sampler_ = &d;
+            break;
+        case Verb::integrator:
+            integrator_ = &d;
+            break;
         case Verb::camera:
             camera_ = &d;
-            coordinate_systems_["camera"] = {inverse(state_.ctm[0]).value_or(Matrix{}), inverse(state_.ctm[1]).value_or(Matrix{})};
+            coordinate_systems_["camera"] = {inverse(state_.ctm[0]).value_or(Matrix{}),
+                                             inverse(state_.ctm[1]).value_or(Matrix{})};
             camera_exterior_ = state_.exterior;
             camera(d);
             break;
@@ -159,7 +189,8 @@ void Builder::option_step(Directive& d) {
         default: // Accelerator, TransformTimes: nothing the picture shows
             option_lines_ += d.word;
             if (!d.name.empty()) option_lines_ += " " + quote(d.name);
-            for (const double value : d.numbers) option_lines_ += " " + shortest(value);
+            for (const double value : d.numbers)
+                option_lines_ += " " + shortest(value);
             if (!d.params.params.empty()) option_lines_ += " " + to_text(d.params, " ");
             option_lines_ += "\n";
     }
@@ -173,8 +204,12 @@ void Builder::step(Directive& d) {
         case Verb::rotate:
         case Verb::look_at:
         case Verb::transform:
-        case Verb::concat_transform: transform_step(d); break;
-        case Verb::coordinate_system: coordinate_systems_[d.name] = {state_.ctm[0], state_.ctm[1]}; break;
+        case Verb::concat_transform:
+            transform_step(d);
+            break;
+        case Verb::coordinate_system:
+            coordinate_systems_[d.name] = {state_.ctm[0], state_.ctm[1]};
+            break;
         case Verb::coord_sys_transform:
             if (const auto found = coordinate_systems_.find(d.name); found != coordinate_systems_.end()) {
                 state_.ctm[0] = found->second[0];
@@ -183,13 +218,18 @@ void Builder::step(Directive& d) {
                 import_.dropped(d.at, "CoordSysTransform " + quote(d.name), "no CoordinateSystem has that name");
             }
             break;
-        case Verb::active_transform: state_.active = d.name == "All" ? 3 : d.name == "StartTime" ? 1 : 2; break;
-        case Verb::reverse_orientation: state_.reverse_orientation = !state_.reverse_orientation; break;
+        case Verb::active_transform:
+            state_.active = d.name == "All" ? 3 : d.name == "StartTime" ? 1 : 2;
+            break;
+        case Verb::reverse_orientation:
+            state_.reverse_orientation = !state_.reverse_orientation;
+            break;
         case Verb::color_space:
             if (const auto space = color_space_named(d.name))
                 state_.color_space = *space;
             else
-                throw ImportError{d.at, "ColorSpace " + quote(d.name) + " is unknown; pbrt knows srgb, dci-p3, rec2020, aces2065-1"};
+                throw ImportError{
+                    d.at, "ColorSpace " + quote(d.name) + " is unknown; pbrt knows srgb, dci-p3, rec2020, aces2065-1"};
             break;
         case Verb::attribute:
             for (Param& param : d.params.params) {
@@ -204,26 +244,40 @@ void Builder::step(Directive& d) {
         case Verb::option:
         case Verb::pixel_filter:
         case Verb::sampler:
-        case Verb::transform_times: option_step(d); break;
-        case Verb::ignored: import_.dropped(d.at, d.word + " " + quote(d.name), "of pbrt-v1 and v2; nothing stands for it"); break;
+        case Verb::transform_times:
+            option_step(d);
+            break;
+        case Verb::ignored:
+            import_.dropped(d.at, d.word + " " + quote(d.name), "of pbrt-v1 and v2; nothing stands for it");
+            break;
         case Verb::world_begin:
             if (world_) throw ImportError{d.at, "a second WorldBegin; remove it"};
-            if (!stack_.empty()) throw ImportError{d.at, "WorldBegin inside " + stack_.back().opened->word + "; close that first"};
+            if (!stack_.empty())
+                throw ImportError{d.at, "WorldBegin inside " + stack_.back().opened->word + "; close that first"};
             world_ = true;
             state_.ctm[0] = state_.ctm[1] = Matrix{};
             state_.active = 3;
             coordinate_systems_["world"] = {Matrix{}, Matrix{}};
             break;
-        case Verb::world_end: break;
+        case Verb::world_end:
+            break;
         case Verb::attribute_begin:
         case Verb::transform_begin:
-        case Verb::import_begin: push(d); break;
+        case Verb::import_begin:
+            push(d);
+            break;
         case Verb::attribute_end:
-        case Verb::import_end: pop(d, false); break;
-        case Verb::transform_end: pop(d, import_.v3()); break;
+        case Verb::import_end:
+            pop(d, false);
+            break;
+        case Verb::transform_end:
+            pop(d, import_.v3());
+            break;
         case Verb::object_begin:
             in_world(d);
-            if (!open_object_.empty()) throw ImportError{d.at, "ObjectBegin inside an object; close " + quote(open_object_) + " with ObjectEnd first"};
+            if (!open_object_.empty())
+                throw ImportError{
+                    d.at, "ObjectBegin inside an object; close " + quote(open_object_) + " with ObjectEnd first"};
             push(d);
             open_object_ = d.name.empty() ? " " : d.name;
             objects_[open_object_] = {};
@@ -232,7 +286,9 @@ void Builder::step(Directive& d) {
             pop(d, false);
             open_object_.clear();
             break;
-        case Verb::object_instance: object_instance(d); break;
+        case Verb::object_instance:
+            object_instance(d);
+            break;
         case Verb::medium_interface:
             state_.interior = d.name;
             state_.exterior = d.second;
@@ -247,12 +303,15 @@ void Builder::step(Directive& d) {
             break;
         case Verb::make_named_material: {
             add_attributes(d, "material");
-            if (later_materials_.erase(d.name) == 0 && !import_.v3() && state_.names->materials.count(d.name)) break; // made ahead
+            if (later_materials_.erase(d.name) == 0 && !import_.v3() && state_.names->materials.count(d.name))
+                break; // made ahead
             const RestageHandle handle = material(d, d.name, d.params.string("type", import_.v3() ? "matte" : ""));
             writable_names().materials[d.name] = handle;
             break;
         }
-        case Verb::named_material: state_.material = named_material(d, d.name); break;
+        case Verb::named_material:
+            state_.material = named_material(d, d.name);
+            break;
         case Verb::material:
             in_world(d);
             add_attributes(d, "material");
@@ -277,7 +336,8 @@ void Builder::step(Directive& d) {
 }
 
 RestageHandle Builder::named_material(const Directive& directive, const std::string& name) {
-    if (const auto found = state_.names->materials.find(name); found != state_.names->materials.end()) return found->second;
+    if (const auto found = state_.names->materials.find(name); found != state_.names->materials.end())
+        return found->second;
     if (const auto later = later_materials_.find(name); later != later_materials_.end()) {
         const Directive& made = *later->second;
         constexpr int deepest_mix = 100;
@@ -290,7 +350,8 @@ RestageHandle Builder::named_material(const Directive& directive, const std::str
         writable_names().materials[name] = handle;
         return handle;
     }
-    import_.approximated(directive.at, directive.word + " " + quote(name), "no material has that name; a grey diffuse one stands for it");
+    import_.approximated(directive.at, directive.word + " " + quote(name),
+                         "no material has that name; a grey diffuse one stands for it");
     return default_material(directive);
 }
 

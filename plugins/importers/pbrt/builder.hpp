@@ -54,7 +54,8 @@ class Builder {
     // build_textures.cpp
     void texture(const Directive& directive);
     // A file that is missing is reported; `keep_missing`: its name is kept, so that it can be found later.
-    RestageHandle image(const Directive& directive, const std::string& file, RestageEncoding encoding, float gamma, bool keep_missing);
+    RestageHandle image(const Directive& directive, const std::string& file, RestageEncoding encoding, float gamma,
+                        bool keep_missing);
     RestageHandle image_texture(const Directive& directive, const char* what);
     RestageHandle simple_texture(const Directive& d, bool is_float);
     Argument float_argument(const Directive& directive, const char* name, double otherwise);
@@ -70,7 +71,8 @@ class Builder {
     bool material_v4(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
-    void put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id, const char* k_id);
+    void put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id,
+                   const char* k_id);
     void put_index(Values& values, const char* id, const Directive& d, const char* name, double otherwise);
     void put_roughness(Values& values, const Directive& d, const std::string& prefix, double otherwise,
                        const char* u_id = "uroughness", const char* v_id = "vroughness");

@@ -51,8 +51,10 @@ void Import::report(RestageFate fate, Location at, std::string what, std::string
 void Import::flush_report() {
     for (const Line& line : lines_) {
         std::string note = line.note;
-        if (line.count > 1) note += (note.empty() ? "(" : " (") + std::to_string(line.count) + " times; this is the first)";
-        out.report(out.ctx, line.fate, sources.name(line.at.file).c_str(), line.at.line, line.what.c_str(), note.c_str());
+        if (line.count > 1)
+            note += (note.empty() ? "(" : " (") + std::to_string(line.count) + " times; this is the first)";
+        out.report(out.ctx, line.fate, sources.name(line.at.file).c_str(), line.at.line, line.what.c_str(),
+                   note.c_str());
     }
     lines_.clear();
     folded_.clear();
@@ -61,7 +63,9 @@ void Import::flush_report() {
 std::string Import::keep_unused(const ParamList& params, const std::string& what) {
     std::string verbatim;
     params.each_unused([&](const Param& param) {
-        kept(param.at, what, "parameter \"" + param.type + " " + param.name + "\" means nothing to the renderer; written back as it is");
+        kept(
+            param.at, what,
+            "parameter \"" + param.type + " " + param.name + "\" means nothing to the renderer; written back as it is");
         (verbatim += to_text(param)) += '\n';
     });
     return verbatim;
@@ -105,7 +109,8 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
     std::vector<double> pairs;
     try {
         double value = 0;
-        while (lexer.number(value)) pairs.push_back(value);
+        while (lexer.number(value))
+            pairs.push_back(value);
         if (lexer.peek().kind == TokenKind::end_of_file)
             out_spectrum = from_pairs(pairs, v3() ? Ends::constant : Ends::zero);
         else
@@ -127,7 +132,8 @@ std::optional<Spectrum> Import::spectrum(const Param& param) {
     }
     auto out_spectrum = from_pairs(param.numbers, v3() ? Ends::constant : Ends::zero);
     if (!out_spectrum)
-        throw ImportError{param.at, "\"spectrum " + param.name + "\" needs pairs of wavelength [nm] and value, wavelengths rising"};
+        throw ImportError{
+            param.at, "\"spectrum " + param.name + "\" needs pairs of wavelength [nm] and value, wavelengths rising"};
     return out_spectrum;
 }
 
@@ -142,10 +148,12 @@ std::optional<Spectrum> Import::spectrum(const ParamList& params, std::string_vi
 Rgb Import::limited(Rgb color, const Param& param, Role role) {
     const double top = role == Role::albedo ? 1 : 1e30;
     Rgb out_color{std::clamp(color.r, 0.0, top), std::clamp(color.g, 0.0, top), std::clamp(color.b, 0.0, top)};
-    const double change = std::abs(out_color.r - color.r) + std::abs(out_color.g - color.g) + std::abs(out_color.b - color.b);
+    const double change =
+        std::abs(out_color.r - color.r) + std::abs(out_color.g - color.g) + std::abs(out_color.b - color.b);
     if (change > 1e-3 * (1 + std::abs(color.r) + std::abs(color.g) + std::abs(color.b)))
-        approximated(param.at, "\"" + param.type + " " + param.name + "\"",
-                     role == Role::albedo ? "out of [0,1] in linear sRGB; clamped" : "negative in linear sRGB; clamped to 0");
+        approximated(
+            param.at, "\"" + param.type + " " + param.name + "\"",
+            role == Role::albedo ? "out of [0,1] in linear sRGB; clamped" : "negative in linear sRGB; clamped to 0");
     return out_color;
 }
 
@@ -172,7 +180,8 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
         // v3 takes temperature and scale, relative to a peak of 1; v4 makes the light's luminance 1, scale comes apart.
         const double scale = param->numbers.size() > 1 ? param->numbers[1] : 1;
         if (v3()) return limited(rgb_equal_energy(emitted) * scale, *param, Role::light);
-        return limited((role == Role::light ? rgb_of_light(emitted) : rgb_of_reflectance(emitted)) * scale, *param, role);
+        return limited((role == Role::light ? rgb_of_light(emitted) : rgb_of_reflectance(emitted)) * scale, *param,
+                       role);
     }
     if (param->type == "spectrum") {
         const auto sampled = spectrum(*param);
@@ -182,7 +191,8 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
         return limited(role == Role::light ? rgb_of_light(*sampled) : rgb_of_reflectance(*sampled), *param, role);
     }
     if (param->numbers.size() == 1) return Rgb{param->numbers[0], param->numbers[0], param->numbers[0]};
-    throw ImportError{param->at, "parameter \"" + param->type + " " + param->name + "\" should be a colour: rgb, spectrum or blackbody"};
+    throw ImportError{param->at, "parameter \"" + param->type + " " + param->name +
+                                     "\" should be a colour: rgb, spectrum or blackbody"};
 }
 
 } // namespace restage::pbrt

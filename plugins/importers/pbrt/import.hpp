@@ -7,9 +7,9 @@
 #include "spectrum.hpp"
 #include "transform.hpp"
 
+#include <restage/scene_io.h>
 #include <deque>
 #include <map>
-#include <restage/scene_io.h>
 
 namespace restage::pbrt {
 

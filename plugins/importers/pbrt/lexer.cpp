@@ -15,7 +15,8 @@ bool starts_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '
 std::string quoted(std::string_view text) {
     constexpr std::size_t longest = 60;
     std::string out = "'";
-    for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+    for (const char c : text.substr(0, longest))
+        out += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
     return out + (text.size() > longest ? "...'" : "'");
 }
 
@@ -42,7 +43,8 @@ double parse_number(std::string_view text, Location at) {
 
 void Lexer::push(std::uint32_t file) {
     const std::string_view text = sources_.text(file);
-    Frame frame{.file = file, .at = text.data(), .end = text.data() + text.size(), .line_start = text.data(), .line = 1};
+    Frame frame{
+        .file = file, .at = text.data(), .end = text.data() + text.size(), .line_start = text.data(), .line = 1};
     if (text.starts_with("\xEF\xBB\xBF")) { // a byte order mark
         frame.at += 3;
         frame.line_start += 3;
@@ -67,7 +69,8 @@ void Lexer::skip_blanks(Frame& frame) {
             ++frame.line;
             frame.line_start = frame.at + 1;
         } else if (c == '#') {
-            while (frame.at != frame.end && *frame.at != '\n' && *frame.at != '\r') ++frame.at;
+            while (frame.at != frame.end && *frame.at != '\n' && *frame.at != '\r')
+                ++frame.at;
             continue;
         } else if (!is_blank(c)) {
             return;
@@ -125,7 +128,8 @@ Token Lexer::scan() {
     if (c == ']') return {TokenKind::close, {frame.at++, 1}, at};
     if (c == '"') return scan_text(frame);
     const char* begin = frame.at;
-    while (frame.at != frame.end && !ends_word(*frame.at)) ++frame.at;
+    while (frame.at != frame.end && !ends_word(*frame.at))
+        ++frame.at;
     return {TokenKind::word, {begin, static_cast<std::size_t>(frame.at - begin)}, at};
 }
 
@@ -134,8 +138,7 @@ Token Lexer::scan_text(Frame& frame) {
     const char* begin = ++frame.at;
     bool escapes = false;
     while (frame.at != frame.end && *frame.at != '"') {
-        if (*frame.at == '\n')
-            throw ImportError{at, "this string is not closed on its line; add the missing '\"'"};
+        if (*frame.at == '\n') throw ImportError{at, "this string is not closed on its line; add the missing '\"'"};
         if (*frame.at == '\\' && frame.at + 1 != frame.end && frame.at[1] != '\n') {
             escapes = true;
             ++frame.at;
@@ -154,15 +157,28 @@ Token Lexer::scan_text(Frame& frame) {
         }
         const char next = raw[++i];
         switch (next) {
-            case 'b': out += '\b'; break;
-            case 'f': out += '\f'; break;
-            case 'n': out += '\n'; break;
-            case 'r': out += '\r'; break;
-            case 't': out += '\t'; break;
+            case 'b':
+                out += '\b';
+                break;
+            case 'f':
+                out += '\f';
+                break;
+            case 'n':
+                out += '\n';
+                break;
+            case 'r':
+                out += '\r';
+                break;
+            case 't':
+                out += '\t';
+                break;
             case '\\':
             case '\'':
-            case '"': out += next; break;
-            default: (out += '\\') += next; // "textures\wood.png": a path of Windows, not an escape
+            case '"':
+                out += next;
+                break;
+            default:
+                (out += '\\') += next; // "textures\wood.png": a path of Windows, not an escape
         }
     }
     return {TokenKind::text, out, at};

@@ -8,7 +8,13 @@
 
 namespace restage::pbrt {
 
-enum class TokenKind { end_of_file, word, text, open, close }; // word: a directive, number or true/false; text: "quoted"
+enum class TokenKind {
+    end_of_file,
+    word,
+    text,
+    open,
+    close
+}; // word: a directive, number or true/false; text: "quoted"
 
 struct Token {
     TokenKind kind = TokenKind::end_of_file;

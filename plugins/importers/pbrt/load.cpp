@@ -14,7 +14,8 @@ namespace restage::pbrt {
 int probe(const char* path, const void* head, std::size_t head_size) {
     if (!path) return 0;
     std::string name = path;
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (name.ends_with(".pbrt")) return 100;
     if (name.ends_with(".pbrt.gz")) return 100;
     if (!head) return 0;
@@ -22,7 +23,8 @@ int probe(const char* path, const void* head, std::size_t head_size) {
     const std::string_view text(static_cast<const char*>(head), head_size);
     if (text.find('\0') != text.npos) return 0;
     int found = 0;
-    for (const char* word : {"WorldBegin", "Film \"", "Camera \"", "Integrator \"", "Sampler \"", "LookAt ", "AttributeBegin", "PixelFilter \"", "Shape \"", "MakeNamedMaterial \""}) {
+    for (const char* word : {"WorldBegin", "Film \"", "Camera \"", "Integrator \"", "Sampler \"", "LookAt ",
+                             "AttributeBegin", "PixelFilter \"", "Shape \"", "MakeNamedMaterial \""}) {
         const auto at = text.find(word);
         if (at != text.npos && (at == 0 || std::strchr("\n\r \t", text[at - 1]))) ++found;
     }
@@ -58,11 +60,13 @@ int load(const char* path, const RestageSceneWriter1* out) {
         return done ? 1 : 0;
     } catch (const ImportError& error) {
         if (import) import->flush_report();
-        out->error(out->ctx, sources.name(error.at.file).c_str(), error.at.line, error.at.column, error.message.c_str());
+        out->error(out->ctx, sources.name(error.at.file).c_str(), error.at.line, error.at.column,
+                   error.message.c_str());
     } catch (const std::bad_alloc&) {
         out->error(out->ctx, path, 0, 0, "out of memory while reading the scene; close other programs or simplify it");
     } catch (const std::exception& error) {
-        out->error(out->ctx, path, 0, 0, (std::string("the importer failed (a bug, please report it): ") + error.what()).c_str());
+        out->error(out->ctx, path, 0, 0,
+                   (std::string("the importer failed (a bug, please report it): ") + error.what()).c_str());
     }
     return 0;
 }

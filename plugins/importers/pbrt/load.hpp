@@ -2,8 +2,8 @@
 // The importer without its entry point, for the plugin and its tests.
 #pragma once
 
-#include <cstddef>
 #include <restage/scene_io.h>
+#include <cstddef>
 
 namespace restage::pbrt {
 

@@ -14,7 +14,8 @@ namespace {
 
 double one_number(const Param& param) {
     if (param.numbers.size() != 1)
-        wrong(param, param.numbers.empty() ? "a number" : "one number; " + std::to_string(param.numbers.size()) + " are given");
+        wrong(param, param.numbers.empty() ? "a number"
+                                           : "one number; " + std::to_string(param.numbers.size()) + " are given");
     return param.numbers[0];
 }
 
@@ -105,8 +106,8 @@ std::vector<std::uint32_t> ParamList::indices(std::string_view name, std::size_t
     for (std::size_t i = 0; i < param->numbers.size(); ++i) {
         const double value = param->numbers[i];
         if (!(value >= 0 && value < static_cast<double>(bound)) || value != std::floor(value))
-            throw ImportError{param->at, "\"" + param->name + "\" number " + std::to_string(i) + " is " + shortest(value) +
-                                             ", but there are " + std::to_string(bound) +
+            throw ImportError{param->at, "\"" + param->name + "\" number " + std::to_string(i) + " is " +
+                                             shortest(value) + ", but there are " + std::to_string(bound) +
                                              " vertices; indices count from 0"};
         out.push_back(static_cast<std::uint32_t>(value));
     }
@@ -114,7 +115,8 @@ std::vector<std::uint32_t> ParamList::indices(std::string_view name, std::size_t
 }
 
 void ParamList::mark_all_used() const {
-    for (const Param& param : params) param.used = true;
+    for (const Param& param : params)
+        param.used = true;
 }
 
 void ParamList::each_unused(const std::function<void(const Param&)>& visit) const {
@@ -126,7 +128,8 @@ std::string shortest(double value) {
     char text[32];
     const bool whole = value == std::floor(value) && std::abs(value) < 1e15; // 1000000000, not 1e+09
     const auto end = (whole ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed)
-                            : std::to_chars(text, text + sizeof text, value)).ptr;
+                            : std::to_chars(text, text + sizeof text, value))
+                         .ptr;
     return {text, end};
 }
 
@@ -152,9 +155,12 @@ std::string quote(std::string_view text) {
 
 std::string to_text(const Param& param) {
     std::string out = quote(param.type + " " + param.name) + " [";
-    for (const double value : param.numbers) (out += ' ') += shortest(value);
-    for (const std::string& value : param.strings) (out += ' ') += quote(value);
-    for (const char value : param.bools) out += value ? " true" : " false";
+    for (const double value : param.numbers)
+        (out += ' ') += shortest(value);
+    for (const std::string& value : param.strings)
+        (out += ' ') += quote(value);
+    for (const char value : param.bools)
+        out += value ? " true" : " false";
     return out + " ]";
 }
 

@@ -108,10 +108,17 @@ class Parser {
         if (found == rules().end()) unknown(token);
         Directive out{.verb = found->second.verb, .at = token.at, .word = std::string(token.text)};
         switch (found->second.shape) {
-            case Shape::bare: break;
-            case Shape::numbers: out.numbers = numbers(out.word, found->second.count, false); break;
-            case Shape::matrix: out.numbers = numbers(out.word, 16, true); break;
-            case Shape::name: out.name = text(out.word); break;
+            case Shape::bare:
+                break;
+            case Shape::numbers:
+                out.numbers = numbers(out.word, found->second.count, false);
+                break;
+            case Shape::matrix:
+                out.numbers = numbers(out.word, 16, true);
+                break;
+            case Shape::name:
+                out.name = text(out.word);
+                break;
             case Shape::name_params:
                 out.name = text(out.word);
                 out.params = params();
@@ -163,8 +170,9 @@ class Parser {
                 }))
                 best = word;
         }
-        throw ImportError{token.at, "'" + printable + "' is no directive of pbrt" +
-                                        (best.empty() ? "; is a quote or bracket before it missing?" : "; write " + best)};
+        throw ImportError{token.at,
+                          "'" + printable + "' is no directive of pbrt" +
+                              (best.empty() ? "; is a quote or bracket before it missing?" : "; write " + best)};
     }
 
     std::string text(const std::string& what) {
@@ -187,7 +195,8 @@ class Parser {
 
     ParamList params() {
         ParamList list;
-        while (lexer_.peek().kind == TokenKind::text) list.params.push_back(param(lexer_.next()));
+        while (lexer_.peek().kind == TokenKind::text)
+            list.params.push_back(param(lexer_.next()));
         return list;
     }
 
@@ -200,18 +209,21 @@ class Parser {
         const auto end = begin == all.npos ? begin : all.find_first_of(blanks, begin);
         const auto name = end == all.npos ? end : all.find_first_not_of(blanks, end);
         if (name == all.npos)
-            throw ImportError{declaration.at, "expected a parameter as \"float radius\" (type and name), found " + quote(all)};
+            throw ImportError{declaration.at,
+                              "expected a parameter as \"float radius\" (type and name), found " + quote(all)};
         out.type = all.substr(begin, end - begin);
         out.name = all.substr(name, std::min(all.find_first_of(blanks, name), all.size()) - name);
         if (lexer_.peek().kind == TokenKind::open) {
             const Location opened = lexer_.next().at;
             while (true) {
                 double value = 0;
-                while (lexer_.number(value)) out.numbers.push_back(value);
+                while (lexer_.number(value))
+                    out.numbers.push_back(value);
                 const Token token = lexer_.next();
                 if (token.kind == TokenKind::close) break;
                 if (token.kind == TokenKind::end_of_file || token.kind == TokenKind::open)
-                    throw ImportError{token.at, "the '[' of line " + std::to_string(opened.line) + " for " + quote(all) +
+                    throw ImportError{token.at, "the '[' of line " + std::to_string(opened.line) + " for " +
+                                                    quote(all) +
                                                     " is not closed; add ']' or restore the rest of the file"};
                 add(out, token);
             }
@@ -260,8 +272,9 @@ class Parser {
         const fs::path real = fs::weakly_canonical(path, code);
         const std::string name = (code ? path : real).string();
         if (lexer_.is_open(name))
-            throw ImportError{directive.at, directive.word + " " + quote(directive.name) +
-                                                " goes in a circle: that file is being read already; remove one of them"};
+            throw ImportError{directive.at,
+                              directive.word + " " + quote(directive.name) +
+                                  " goes in a circle: that file is being read already; remove one of them"};
         if (lexer_.depth() >= deepest)
             throw ImportError{directive.at, "files include each other more than 64 deep; flatten them"};
         std::string reason;

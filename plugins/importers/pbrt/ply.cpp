@@ -17,9 +17,9 @@ enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 
 std::optional<Type> type_named(std::string_view name) {
     static const std::map<std::string_view, Type> names = {
-        {"char", Type::i8},   {"int8", Type::i8},    {"uchar", Type::u8},   {"uint8", Type::u8},
-        {"short", Type::i16}, {"int16", Type::i16},  {"ushort", Type::u16}, {"uint16", Type::u16},
-        {"int", Type::i32},   {"int32", Type::i32},  {"uint", Type::u32},   {"uint32", Type::u32},
+        {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
+        {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
+        {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
         {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
     const auto found = names.find(name);
     return found == names.end() ? std::nullopt : std::optional(found->second);
@@ -53,7 +53,8 @@ double load(const char* from, bool swap) {
     T value;
     if (swap) {
         char bytes[sizeof(T)];
-        for (std::size_t i = 0; i < sizeof(T); ++i) bytes[i] = from[sizeof(T) - 1 - i];
+        for (std::size_t i = 0; i < sizeof(T); ++i)
+            bytes[i] = from[sizeof(T) - 1 - i];
         std::memcpy(&value, bytes, sizeof(T));
     } else {
         std::memcpy(&value, from, sizeof(T));
@@ -63,14 +64,22 @@ double load(const char* from, bool swap) {
 
 double load(Type type, const char* from, bool swap) {
     switch (type) {
-        case Type::i8: return load<std::int8_t>(from, swap);
-        case Type::u8: return load<std::uint8_t>(from, swap);
-        case Type::i16: return load<std::int16_t>(from, swap);
-        case Type::u16: return load<std::uint16_t>(from, swap);
-        case Type::i32: return load<std::int32_t>(from, swap);
-        case Type::u32: return load<std::uint32_t>(from, swap);
-        case Type::f32: return load<float>(from, swap);
-        default: return load<double>(from, swap);
+        case Type::i8:
+            return load<std::int8_t>(from, swap);
+        case Type::u8:
+            return load<std::uint8_t>(from, swap);
+        case Type::i16:
+            return load<std::int16_t>(from, swap);
+        case Type::u16:
+            return load<std::uint16_t>(from, swap);
+        case Type::i32:
+            return load<std::int32_t>(from, swap);
+        case Type::u32:
+            return load<std::uint32_t>(from, swap);
+        case Type::f32:
+            return load<float>(from, swap);
+        default:
+            return load<double>(from, swap);
     }
 }
 
@@ -91,7 +100,8 @@ class Reader {
         if (mesh_.positions.empty()) fail("it has no vertices");
         for (std::size_t i = 0; i < mesh_.indices.size(); ++i)
             if (mesh_.indices[i] >= mesh_.vertex_count())
-                fail("a face names vertex " + std::to_string(mesh_.indices[i]) + " of " + std::to_string(mesh_.vertex_count()));
+                fail("a face names vertex " + std::to_string(mesh_.indices[i]) + " of " +
+                     std::to_string(mesh_.vertex_count()));
         if (mesh_.indices.empty()) fail("it has no faces");
         return std::move(mesh_);
     }
@@ -122,7 +132,8 @@ class Reader {
     }
 
     void header() {
-        if (words(line()) != std::vector<std::string_view>{"ply"}) fail("it is no PLY file (the first line is not 'ply')");
+        if (words(line()) != std::vector<std::string_view>{"ply"})
+            fail("it is no PLY file (the first line is not 'ply')");
         bool has_format = false;
         while (true) {
             const auto part = words(line());
@@ -130,17 +141,23 @@ class Reader {
             if (part[0] == "end_header") break;
             if (part[0] == "format" && part.size() >= 2) {
                 has_format = true;
-                if (part[1] == "ascii") format_ = Format::ascii;
-                else if (part[1] == "binary_little_endian") format_ = Format::little;
-                else if (part[1] == "binary_big_endian") format_ = Format::big;
-                else fail("format '" + std::string(part[1]) + "' is unknown");
+                if (part[1] == "ascii")
+                    format_ = Format::ascii;
+                else if (part[1] == "binary_little_endian")
+                    format_ = Format::little;
+                else if (part[1] == "binary_big_endian")
+                    format_ = Format::big;
+                else
+                    fail("format '" + std::string(part[1]) + "' is unknown");
             } else if (part[0] == "element" && part.size() == 3) {
                 Element element{.name = std::string(part[1]), .properties = {}};
-                const auto [end, code] = std::from_chars(part[2].data(), part[2].data() + part[2].size(), element.count);
+                const auto [end, code] =
+                    std::from_chars(part[2].data(), part[2].data() + part[2].size(), element.count);
                 if (code != std::errc() || end != part[2].data() + part[2].size())
                     fail("the number of '" + element.name + "' elements is not readable");
                 elements_.push_back(std::move(element));
-            } else if (part[0] == "property" && !elements_.empty() && (part.size() == 3 || (part.size() == 5 && part[1] == "list"))) {
+            } else if (part[0] == "property" && !elements_.empty() &&
+                       (part.size() == 3 || (part.size() == 5 && part[1] == "list"))) {
                 Element& element = elements_.back();
                 Property property{.name = std::string(part.back())};
                 property.is_list = part.size() == 5;
@@ -167,24 +184,31 @@ class Reader {
     void check_count(const Element& element) const {
         std::size_t row = 0;
         for (const Property& property : element.properties)
-            row += format_ == Format::ascii ? 2 : (property.is_list ? size_of(property.count_type) : size_of(property.type));
+            row += format_ == Format::ascii
+                       ? 2
+                       : (property.is_list ? size_of(property.count_type) : size_of(property.type));
         // The last number of an ascii file may lack the blank after it.
         if (row > 0 && element.count > (left() + 1) / row)
-            fail(std::to_string(element.count) + " '" + element.name + "' elements are promised, but the file ends before them (truncated?)");
+            fail(std::to_string(element.count) + " '" + element.name +
+                 "' elements are promised, but the file ends before them (truncated?)");
         if (row == 0 && element.count > 0 && element.properties.empty()) return;
         if (element.count > 0xffffffffu) fail("more than 2^32 '" + element.name + "' elements");
     }
 
     double ascii_number() {
-        while (position_ < bytes_.size() && static_cast<unsigned char>(bytes_[position_]) <= ' ') ++position_;
+        while (position_ < bytes_.size() && static_cast<unsigned char>(bytes_[position_]) <= ' ')
+            ++position_;
         const char* begin = bytes_.data() + position_;
         const char* end = bytes_.data() + bytes_.size();
         if (begin == end) fail("the file ends early (truncated?)");
         if (*begin == '+') ++begin;
         double value = 0;
         const auto [stop, code] = std::from_chars(begin, end, value);
-        if (code == std::errc::result_out_of_range) value = 0; // 1e-400; 1e400 becomes a visible wrong point
-        else if (code != std::errc()) fail("'" + std::string(begin, std::min<std::size_t>(20, static_cast<std::size_t>(end - begin))) + "' is no number");
+        if (code == std::errc::result_out_of_range)
+            value = 0; // 1e-400; 1e400 becomes a visible wrong point
+        else if (code != std::errc())
+            fail("'" + std::string(begin, std::min<std::size_t>(20, static_cast<std::size_t>(end - begin))) +
+                 "' is no number");
         position_ = static_cast<std::size_t>(stop - bytes_.data());
         return value;
     }
@@ -201,7 +225,8 @@ class Reader {
         const double count = number(property.count_type);
         if (!(count >= 0) || count != std::floor(count)) fail("a list has " + shortest(count) + " entries");
         const double least = format_ == Format::ascii ? 1 : double(size_of(property.type));
-        if (count * least > double(left()) + 1) fail("a list of " + shortest(count) + " entries does not fit into the file (truncated?)");
+        if (count * least > double(left()) + 1)
+            fail("a list of " + shortest(count) + " entries does not fit into the file (truncated?)");
         return static_cast<std::size_t>(count);
     }
 
@@ -214,7 +239,8 @@ class Reader {
         for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i)
             for (const Property& property : element.properties) {
                 const std::size_t n = property.is_list ? list_count(property) : 1;
-                for (std::size_t k = 0; k < n; ++k) number(property.type);
+                for (std::size_t k = 0; k < n; ++k)
+                    number(property.type);
             }
     }
 
@@ -234,11 +260,13 @@ class Reader {
         std::vector<Target> out(element.properties.size());
         const auto bind = [&](std::vector<float>& array, std::initializer_list<const char*> names) {
             std::vector<int> at;
-            for (const char* name : names) at.push_back(find(element, name));
+            for (const char* name : names)
+                at.push_back(find(element, name));
             for (const int i : at)
                 if (i < 0) return false;
             array.resize(element.count * at.size());
-            for (std::size_t k = 0; k < at.size(); ++k) out[static_cast<std::size_t>(at[k])] = {&array, at.size(), k};
+            for (std::size_t k = 0; k < at.size(); ++k)
+                out[static_cast<std::size_t>(at[k])] = {&array, at.size(), k};
             return true;
         };
         if (!bind(mesh_.positions, {"x", "y", "z"})) fail("its vertices have no x, y and z");
@@ -262,7 +290,8 @@ class Reader {
                         std::memcpy(to + i * target[p].width, from + i * element.stride, sizeof(float));
                 else
                     for (std::size_t i = 0; i < element.count; ++i)
-                        to[i * target[p].width] = static_cast<float>(load(property.type, from + i * element.stride, swap_));
+                        to[i * target[p].width] =
+                            static_cast<float>(load(property.type, from + i * element.stride, swap_));
             }
             position_ += element.count * element.stride;
         } else {
@@ -278,13 +307,15 @@ class Reader {
                 }
         }
         for (std::size_t i = 0; i < mesh_.positions.size(); ++i)
-            if (!std::isfinite(mesh_.positions[i])) fail("vertex " + std::to_string(i / 3) + " is not finite (NaN or infinite)");
+            if (!std::isfinite(mesh_.positions[i]))
+                fail("vertex " + std::to_string(i / 3) + " is not finite (NaN or infinite)");
         for (float& value : mesh_.uvs)
             if (!std::isfinite(value)) value = 0;
     }
 
     std::uint32_t index(double value) const {
-        if (!(value >= 0 && value <= 4294967294.0) || value != std::floor(value)) fail("a face names vertex " + shortest(value));
+        if (!(value >= 0 && value <= 4294967294.0) || value != std::floor(value))
+            fail("a face names vertex " + shortest(value));
         return static_cast<std::uint32_t>(value);
     }
 
@@ -299,7 +330,8 @@ class Reader {
         mesh_.indices.reserve(element.count * 3);
         const Property& indices = element.properties[list];
         const bool is_plain = element.properties.size() == 1 && format_ != Format::ascii && !swap_ &&
-                              indices.count_type == Type::u8 && (indices.type == Type::i32 || indices.type == Type::u32);
+                              indices.count_type == Type::u8 &&
+                              (indices.type == Type::i32 || indices.type == Type::u32);
         std::vector<std::uint32_t> corner;
         for (std::size_t i = 0; i < element.count; ++i) {
             // Triangles of nothing but 32-bit indices: nearly every PLY there is.
@@ -337,7 +369,8 @@ class Reader {
         const Vec3 e1 = point(corner[1]) - origin, e2 = point(corner[2]) - origin;
         const Vec3 n = normalize(cross(e1, e2));
         for (std::size_t k = 3; k < corner.size(); ++k)
-            if (std::abs(dot(n, point(corner[k]) - origin)) > 1e-3 * (length(e1) + length(e2))) mesh_.has_bent_quads = true;
+            if (std::abs(dot(n, point(corner[k]) - origin)) > 1e-3 * (length(e1) + length(e2)))
+                mesh_.has_bent_quads = true;
     }
 
     const std::string& path_;
@@ -374,7 +407,8 @@ std::size_t repair_normals(Mesh& mesh) {
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         const std::uint32_t* v = mesh.indices.data() + t;
         const Vec3 n = cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0])); // weighted by area
-        for (int k = 0; k < 3; ++k) sums[v[k]] = sums[v[k]] + n;
+        for (int k = 0; k < 3; ++k)
+            sums[v[k]] = sums[v[k]] + n;
     }
     for (std::size_t i = 0; i < broken.size(); ++i) {
         if (!broken[i]) continue;

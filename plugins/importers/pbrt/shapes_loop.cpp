@@ -20,9 +20,9 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
 }
 
 struct Edge {
-    std::uint32_t count = 0;      // faces that share it
-    std::uint32_t opposite[2]{};  // their third vertices
-    std::uint32_t middle = 0;     // the new vertex
+    std::uint32_t count = 0; // faces that share it
+    std::uint32_t opposite[2]{}; // their third vertices
+    std::uint32_t middle = 0; // the new vertex
 };
 using Edges = std::unordered_map<std::uint64_t, Edge>;
 
@@ -82,11 +82,13 @@ void subdivide(std::vector<Vec3>& points, Faces& faces) {
     out.reserve(faces.size() * 4);
     for (const auto& face : faces) {
         std::uint32_t middle[3];
-        for (std::size_t k = 0; k < 3; ++k) { // in the order of the faces, so that the result does not depend on the hash
+        for (std::size_t k = 0; k < 3;
+             ++k) { // in the order of the faces, so that the result does not depend on the hash
             Edge& edge = edges[edge_key(face[k], face[(k + 1) % 3])];
             if (edge.middle == 0) {
                 const Vec3 ends = points[face[k]] + points[face[(k + 1) % 3]];
-                next.push_back(edge.count == 2 ? ends * (3.0 / 8) + (points[edge.opposite[0]] + points[edge.opposite[1]]) * (1.0 / 8)
+                next.push_back(edge.count == 2 ? ends * (3.0 / 8) +
+                                                     (points[edge.opposite[0]] + points[edge.opposite[1]]) * (1.0 / 8)
                                                : ends * 0.5);
                 edge.middle = static_cast<std::uint32_t>(next.size()); // + 1: 0 is "none yet"
             }
@@ -106,13 +108,15 @@ std::vector<std::uint32_t> ring_of(const std::vector<std::pair<std::uint32_t, st
     std::uint32_t start = links.front().first;
     if (boundary) {
         for (const auto& [a, b] : links) {
-            const bool has_before = std::any_of(links.begin(), links.end(), [a = a](const auto& other) { return other.second == a; });
+            const bool has_before =
+                std::any_of(links.begin(), links.end(), [a = a](const auto& other) { return other.second == a; });
             if (!has_before) start = a;
         }
     }
     std::vector<std::uint32_t> ring{start};
     while (ring.size() <= links.size()) {
-        const auto next = std::find_if(links.begin(), links.end(), [&](const auto& link) { return link.first == ring.back(); });
+        const auto next =
+            std::find_if(links.begin(), links.end(), [&](const auto& link) { return link.first == ring.back(); });
         if (next == links.end() || next->second == start) break;
         ring.push_back(next->second);
     }
@@ -142,7 +146,8 @@ Vec3 limit_normal(const std::vector<Vec3>& points, Vec3 p, const std::vector<std
     } else {
         const double theta = std::numbers::pi / (n - 1);
         t = (at(0) + at(n - 1)) * std::sin(theta);
-        for (int k = 1; k < n - 1; ++k) t = t + at(k) * ((2 * std::cos(theta) - 2) * std::sin(k * theta));
+        for (int k = 1; k < n - 1; ++k)
+            t = t + at(k) * ((2 * std::cos(theta) - 2) * std::sin(k * theta));
         t = t * -1;
     }
     return cross(t, s); // S runs clockwise along the boundary
@@ -153,21 +158,27 @@ Vec3 limit_normal(const std::vector<Vec3>& points, Vec3 p, const std::vector<std
 Mesh make_loop(Import& import, const Directive& shape) {
     const int levels = shape.params.integer(shape.params.has("levels") ? "levels" : "nlevels", 3);
     const std::vector<double>* p = shape.params.numbers("P");
-    if (!p || p->empty() || p->size() % 3 != 0) throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"point3 P\", three numbers a vertex"};
+    if (!p || p->empty() || p->size() % 3 != 0)
+        throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"point3 P\", three numbers a vertex"};
     const auto indices = shape.params.indices("indices", p->size() / 3);
     if (indices.empty() || indices.size() % 3 != 0)
         throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"integer indices\", three a face"};
     const std::string scheme = shape.params.string("scheme", "loop");
-    if (scheme != "loop") import.approximated(shape.at, "Shape \"loopsubdiv\"", "scheme " + quote(scheme) + " is done as loop");
+    if (scheme != "loop")
+        import.approximated(shape.at, "Shape \"loopsubdiv\"", "scheme " + quote(scheme) + " is done as loop");
     constexpr double most = 1u << 23; // about 2 GB while it is made
     if (levels < 0 || double(indices.size()) / 3 * std::pow(4.0, levels) > most)
-        throw ImportError{shape.at, "Shape \"loopsubdiv\" with " + std::to_string(levels) + " levels has more than 2^23 triangles; use fewer levels"};
+        throw ImportError{shape.at, "Shape \"loopsubdiv\" with " + std::to_string(levels) +
+                                        " levels has more than 2^23 triangles; use fewer levels"};
     std::vector<Vec3> points(p->size() / 3);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {(*p)[3 * i], (*p)[3 * i + 1], (*p)[3 * i + 2]};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {(*p)[3 * i], (*p)[3 * i + 1], (*p)[3 * i + 2]};
     Faces faces(indices.size() / 3);
-    for (std::size_t i = 0; i < indices.size(); ++i) faces[i / 3][i % 3] = indices[i];
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        faces[i / 3][i % 3] = indices[i];
     std::erase_if(faces, [](const auto& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
-    for (int level = 0; level < levels; ++level) subdivide(points, faces);
+    for (int level = 0; level < levels; ++level)
+        subdivide(points, faces);
 
     const Edges edges = find_edges(faces);
     const auto around = find_neighbours(points, edges);
@@ -178,7 +189,8 @@ Mesh make_loop(Import& import, const Directive& shape) {
     }
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> links(points.size());
     for (const auto& face : faces)
-        for (std::size_t k = 0; k < 3; ++k) links[face[k]].emplace_back(face[(k + 1) % 3], face[(k + 2) % 3]);
+        for (std::size_t k = 0; k < 3; ++k)
+            links[face[k]].emplace_back(face[(k + 1) % 3], face[(k + 2) % 3]);
     Mesh mesh;
     for (std::size_t i = 0; i < points.size(); ++i) {
         Vec3 normal;
@@ -188,12 +200,16 @@ Mesh make_loop(Import& import, const Directive& shape) {
             // pbrt takes the tangents from points already on the limit surface.
             if (!ring.empty()) normal = limit_normal(limit, limit[i], ring, boundary);
         }
-        // pbrt walks rings against the winding, so its normals are against cross(e1, e2): the faces are turned to match.
+        // pbrt walks rings against the winding, so its normals are against cross(e1, e2): the faces are turned to
+        // match.
         normal = normalize(normal) * -1;
-        for (const double x : {limit[i].x, limit[i].y, limit[i].z}) mesh.positions.push_back(static_cast<float>(x));
-        for (const double x : {normal.x, normal.y, normal.z}) mesh.normals.push_back(static_cast<float>(x));
+        for (const double x : {limit[i].x, limit[i].y, limit[i].z})
+            mesh.positions.push_back(static_cast<float>(x));
+        for (const double x : {normal.x, normal.y, normal.z})
+            mesh.normals.push_back(static_cast<float>(x));
     }
-    for (const auto& face : faces) mesh.indices.insert(mesh.indices.end(), {face[0], face[2], face[1]});
+    for (const auto& face : faces)
+        mesh.indices.insert(mesh.indices.end(), {face[0], face[2], face[1]});
     return mesh;
 }
 

@@ -15,30 +15,37 @@ std::vector<float> vertex_array(const Directive& shape, const char* name, std::s
     std::vector<float> out;
     if (!param) return out;
     if (!param->strings.empty() || !param->bools.empty() || param->numbers.size() % width != 0)
-        throw ImportError{param->at, "\"" + param->name + "\" of Shape \"" + shape.name + "\" needs " + std::to_string(width) +
-                                         " numbers a vertex; " + std::to_string(param->numbers.size()) + " are given"};
+        throw ImportError{param->at, "\"" + param->name + "\" of Shape \"" + shape.name + "\" needs " +
+                                         std::to_string(width) + " numbers a vertex; " +
+                                         std::to_string(param->numbers.size()) + " are given"};
     out.reserve(param->numbers.size());
     for (const double value : param->numbers) {
-        if (!(std::abs(value) < 1e38)) throw ImportError{param->at, "\"" + param->name + "\" holds " + shortest(value) + ", which is too large"};
+        if (!(std::abs(value) < 1e38))
+            throw ImportError{param->at, "\"" + param->name + "\" holds " + shortest(value) + ", which is too large"};
         out.push_back(static_cast<float>(value));
     }
     return out;
 }
 
 // A per-vertex array that pbrt discards when its length is wrong.
-std::vector<float> matching(Import& import, const Directive& shape, const char* name, std::size_t width, std::size_t vertices) {
+std::vector<float> matching(Import& import, const Directive& shape, const char* name, std::size_t width,
+                            std::size_t vertices) {
     std::vector<float> out = vertex_array(shape, name, width);
     if (!out.empty() && out.size() != width * vertices) {
-        import.dropped(shape.at, "\"" + std::string(name) + "\" of Shape \"" + shape.name + "\"",
-                       "it has " + std::to_string(out.size() / width) + " entries for " + std::to_string(vertices) + " vertices");
+        import.dropped(
+            shape.at, "\"" + std::string(name) + "\" of Shape \"" + shape.name + "\"",
+            "it has " + std::to_string(out.size() / width) + " entries for " + std::to_string(vertices) + " vertices");
         out.clear();
     }
     return out;
 }
 
 void drop_face_indices(Import& import, const Directive& shape) {
-    if (shape.params.find("faceIndices")) import.dropped(shape.at, "\"faceIndices\" of Shape \"" + shape.name + "\"", "numbers of faces (for Ptex) are not kept");
-    if (shape.params.find("S")) import.dropped(shape.at, "\"S\" of Shape \"" + shape.name + "\"", "tangents are made from uv");
+    if (shape.params.find("faceIndices"))
+        import.dropped(shape.at, "\"faceIndices\" of Shape \"" + shape.name + "\"",
+                       "numbers of faces (for Ptex) are not kept");
+    if (shape.params.find("S"))
+        import.dropped(shape.at, "\"S\" of Shape \"" + shape.name + "\"", "tangents are made from uv");
 }
 
 } // namespace
@@ -50,9 +57,11 @@ Mesh make_triangle_mesh(Import& import, const Directive& shape) {
     if (vertices == 0) throw ImportError{shape.at, "Shape \"trianglemesh\" has no vertices; give \"point3 P\""};
     mesh.indices = shape.params.indices("indices", vertices);
     if (mesh.indices.empty() && vertices == 3) mesh.indices = {0, 1, 2}; // v4
-    if (mesh.indices.empty()) throw ImportError{shape.at, "Shape \"trianglemesh\" has no faces; give \"integer indices\""};
+    if (mesh.indices.empty())
+        throw ImportError{shape.at, "Shape \"trianglemesh\" has no faces; give \"integer indices\""};
     if (mesh.indices.size() % 3 != 0) {
-        import.dropped(shape.at, "Shape \"trianglemesh\"", "its indices are no multiple of 3; the last ones are left out");
+        import.dropped(shape.at, "Shape \"trianglemesh\"",
+                       "its indices are no multiple of 3; the last ones are left out");
         mesh.indices.resize(mesh.indices.size() / 3 * 3);
     }
     mesh.uvs = matching(import, shape, shape.params.has("uv") ? "uv" : "st", 2, vertices);
@@ -71,9 +80,11 @@ Mesh make_bilinear(Import& import, const Directive& shape) {
     if (corners.empty() && vertices == 4) corners = {0, 1, 2, 3};
     if (corners.empty() || corners.size() % 4 != 0)
         throw ImportError{shape.at, "Shape \"bilinearmesh\" needs four \"integer indices\" a patch"};
-    const std::vector<float> uv = matching(import, shape, "uv", 2, vertices), n = matching(import, shape, "N", 3, vertices);
+    const std::vector<float> uv = matching(import, shape, "uv", 2, vertices),
+                             n = matching(import, shape, "N", 3, vertices);
     drop_face_indices(import, shape);
-    if (shape.params.find("emissionfilename")) import.dropped(shape.at, "\"emissionfilename\"", "pictures as emission are not rendered");
+    if (shape.params.find("emissionfilename"))
+        import.dropped(shape.at, "\"emissionfilename\"", "pictures as emission are not rendered");
     const auto corner = [](const std::vector<float>& from, std::size_t i) {
         return Vec3{double(from[3 * i]), double(from[3 * i + 1]), double(from[3 * i + 2])};
     };
@@ -93,17 +104,23 @@ Mesh make_bilinear(Import& import, const Directive& shape) {
                 const double w[4] = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
                 const Vec3 at = p00 * w[0] + p10 * w[1] + p01 * w[2] + p11 * w[3];
                 Vec3 normal = cross((p10 - p00) * (1 - t) + (p11 - p01) * t, (p01 - p00) * (1 - s) + (p11 - p10) * s);
-                if (!n.empty()) normal = corner(n, v[0]) * w[0] + corner(n, v[1]) * w[1] + corner(n, v[2]) * w[2] + corner(n, v[3]) * w[3];
+                if (!n.empty())
+                    normal = corner(n, v[0]) * w[0] + corner(n, v[1]) * w[1] + corner(n, v[2]) * w[2] +
+                             corner(n, v[3]) * w[3];
                 normal = normalize(normal);
-                for (const double x : {at.x, at.y, at.z}) mesh.positions.push_back(static_cast<float>(x));
-                for (const double x : {normal.x, normal.y, normal.z}) mesh.normals.push_back(static_cast<float>(x));
+                for (const double x : {at.x, at.y, at.z})
+                    mesh.positions.push_back(static_cast<float>(x));
+                for (const double x : {normal.x, normal.y, normal.z})
+                    mesh.normals.push_back(static_cast<float>(x));
                 double st[2] = {s, t};
                 if (!uv.empty())
                     for (std::size_t k = 0; k < 2; ++k) {
                         st[k] = 0;
-                        for (std::size_t q = 0; q < 4; ++q) st[k] += w[q] * double(uv[2 * v[q] + k]);
+                        for (std::size_t q = 0; q < 4; ++q)
+                            st[k] += w[q] * double(uv[2 * v[q] + k]);
                     }
-                for (const double x : st) mesh.uvs.push_back(static_cast<float>(x));
+                for (const double x : st)
+                    mesh.uvs.push_back(static_cast<float>(x));
             }
         const auto row = static_cast<std::uint32_t>(steps + 1);
         for (std::uint32_t j = 0; j < row - 1; ++j)
@@ -124,8 +141,10 @@ Mesh make_heightfield(Import&, const Directive& shape) { // pbrt-v3: z over the 
     for (int y = 0; y < nv; ++y)
         for (int x = 0; x < nu; ++x) {
             const double u = double(x) / (nu - 1), v = double(y) / (nv - 1);
-            for (const double value : {u, v, (*z)[std::size_t(y) * std::size_t(nu) + std::size_t(x)]}) mesh.positions.push_back(static_cast<float>(value));
-            for (const double value : {u, v}) mesh.uvs.push_back(static_cast<float>(value));
+            for (const double value : {u, v, (*z)[std::size_t(y) * std::size_t(nu) + std::size_t(x)]})
+                mesh.positions.push_back(static_cast<float>(value));
+            for (const double value : {u, v})
+                mesh.uvs.push_back(static_cast<float>(value));
         }
     const auto columns = static_cast<std::uint32_t>(nu);
     for (std::uint32_t y = 0; y + 1 < static_cast<std::uint32_t>(nv); ++y)

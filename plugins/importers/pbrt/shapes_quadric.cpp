@@ -25,13 +25,17 @@ Mesh grid(int columns, int rows, const Surface& surface) {
             const double u = double(i) / columns, v = double(j) / rows;
             const Sample s = surface(u, v);
             const Vec3 n = normalize(s.n);
-            for (const double x : {s.p.x, s.p.y, s.p.z}) mesh.positions.push_back(static_cast<float>(x));
-            for (const double x : {n.x, n.y, n.z}) mesh.normals.push_back(static_cast<float>(x));
-            for (const double x : {u, v}) mesh.uvs.push_back(static_cast<float>(x));
+            for (const double x : {s.p.x, s.p.y, s.p.z})
+                mesh.positions.push_back(static_cast<float>(x));
+            for (const double x : {n.x, n.y, n.z})
+                mesh.normals.push_back(static_cast<float>(x));
+            for (const double x : {u, v})
+                mesh.uvs.push_back(static_cast<float>(x));
         }
     const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (columns + 1) + i); };
     const auto same = [&](std::uint32_t a, std::uint32_t b) { // corners that meet at a pole
-        return std::equal(mesh.positions.begin() + 3 * std::ptrdiff_t(a), mesh.positions.begin() + 3 * std::ptrdiff_t(a) + 3,
+        return std::equal(mesh.positions.begin() + 3 * std::ptrdiff_t(a),
+                          mesh.positions.begin() + 3 * std::ptrdiff_t(a) + 3,
                           mesh.positions.begin() + 3 * std::ptrdiff_t(b));
     };
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -47,7 +51,8 @@ Mesh grid(int columns, int rows, const Surface& surface) {
 
 // Moves the vertices away from the axis (and, of a sphere, from its centre) until the area is the exact one.
 void match_area(Mesh& mesh, double exact, bool from_centre) {
-    for (int round = 0; round < 8; ++round) { // linear in the factor for spheres and cylinders: one round is nearly enough
+    for (int round = 0; round < 8;
+         ++round) { // linear in the factor for spheres and cylinders: one round is nearly enough
         const double now = area(mesh, Matrix{});
         if (!(now > 0) || std::abs(now / exact - 1) < 1e-7) return;
         const double factor = from_centre ? std::sqrt(exact / now) : exact / now;
@@ -66,15 +71,18 @@ Mesh sphere(const Directive& shape, double phi_max) {
     const double radius = shape.params.number("radius", 1);
     need(radius > 0 && radius < 1e30, shape, "radius must be positive");
     const double z0 = shape.params.number("zmin", -radius), z1 = shape.params.number("zmax", radius);
-    const double low = std::clamp(std::min(z0, z1), -radius, radius), high = std::clamp(std::max(z0, z1), -radius, radius);
-    const double theta0 = std::acos(std::clamp(low / radius, -1.0, 1.0)), theta1 = std::acos(std::clamp(high / radius, -1.0, 1.0));
+    const double low = std::clamp(std::min(z0, z1), -radius, radius),
+                 high = std::clamp(std::max(z0, z1), -radius, radius);
+    const double theta0 = std::acos(std::clamp(low / radius, -1.0, 1.0)),
+                 theta1 = std::acos(std::clamp(high / radius, -1.0, 1.0));
     need(high > low, shape, "zmin and zmax leave nothing of it");
     const int rows = std::max(2, static_cast<int>(std::ceil(64 * (theta0 - theta1) / pi)));
     Mesh mesh = grid(segments(phi_max, 128), rows, [&](double u, double v) {
         const double phi = u * phi_max, theta = theta0 + v * (theta1 - theta0);
         // Exact poles, so that the seam closes there.
         const double s = theta < 1e-9 || pi - theta < 1e-9 ? 0 : std::sin(theta);
-        const Vec3 n{s * (u == 1 && phi_max == 2 * pi ? 1 : std::cos(phi)), s * (u == 1 && phi_max == 2 * pi ? 0 : std::sin(phi)),
+        const Vec3 n{s * (u == 1 && phi_max == 2 * pi ? 1 : std::cos(phi)),
+                     s * (u == 1 && phi_max == 2 * pi ? 0 : std::sin(phi)),
                      s == 0 ? (theta < 1 ? 1.0 : -1.0) : std::cos(theta)};
         return Sample{n * radius, n};
     });
@@ -119,7 +127,8 @@ Mesh revolve(double phi_max, const Profile& profile) {
         const double phi = u == 1 && phi_max == 2 * pi ? 0 : u * phi_max, h = 1e-5;
         const auto turn = [&](double at, double angle) {
             const Vec3 p = profile(at);
-            return Vec3{p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
+            return Vec3{p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle),
+                        p.z};
         };
         const double v0 = std::max(v - h, 0.0), v1 = std::min(v + h, 1.0);
         const Vec3 dv = turn(v1, phi) - turn(v0, phi);
@@ -158,9 +167,7 @@ Mesh paraboloid(const Directive& shape, double phi_max) {
 Mesh hyperboloid(const Directive& shape, double phi_max) { // the line from p1 to p2, turned about z
     const auto a = shape.params.triple("p1", {0, 0, 0}), b = shape.params.triple("p2", {1, 1, 1});
     need(a != b, shape, "p1 and p2 must differ");
-    return revolve(phi_max, [=](double v) {
-        return Vec3{a[0], a[1], a[2]} * (1 - v) + Vec3{b[0], b[1], b[2]} * v;
-    });
+    return revolve(phi_max, [=](double v) { return Vec3{a[0], a[1], a[2]} * (1 - v) + Vec3{b[0], b[1], b[2]} * v; });
 }
 
 } // namespace
@@ -180,8 +187,8 @@ double area(const Mesh& mesh, const Matrix& to_world) {
 
 std::optional<Mesh> make_quadric(Import&, const Directive& shape) {
     static const std::map<std::string_view, Mesh (*)(const Directive&, double)> makers = {
-        {"sphere", sphere}, {"disk", disk}, {"cylinder", cylinder},
-        {"cone", cone}, {"paraboloid", paraboloid}, {"hyperboloid", hyperboloid}};
+        {"sphere", sphere},          {"disk", disk}, {"cylinder", cylinder}, {"cone", cone}, {"paraboloid", paraboloid},
+        {"hyperboloid", hyperboloid}};
     const auto maker = makers.find(shape.name);
     if (maker == makers.end()) return std::nullopt;
     const double degrees = std::clamp(shape.params.number("phimax", 360), 0.0, 360.0);

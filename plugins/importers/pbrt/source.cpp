@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "source.hpp"
 
+#include <zlib.h>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <zlib.h>
 
 #if !defined(_WIN32)
 #include <fcntl.h>
@@ -100,7 +100,7 @@ std::optional<FileBytes> FileBytes::open(const std::filesystem::path& path, std:
     }
 #if !defined(_WIN32)
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat info {};
+    struct stat info{};
     if (fd < 0 || fstat(fd, &info) != 0) {
         reason = std::strerror(errno);
         if (fd >= 0) ::close(fd);
@@ -125,7 +125,8 @@ std::optional<FileBytes> FileBytes::open(const std::filesystem::path& path, std:
         reason = std::strerror(errno);
         return std::nullopt;
     }
-    bytes.owned_ = std::make_unique<std::vector<char>>(static_cast<std::size_t>(std::filesystem::file_size(path, code)));
+    bytes.owned_ =
+        std::make_unique<std::vector<char>>(static_cast<std::size_t>(std::filesystem::file_size(path, code)));
     const std::size_t got = std::fread(bytes.owned_->data(), 1, bytes.owned_->size(), file);
     std::fclose(file);
     bytes.owned_->resize(got);

@@ -15,7 +15,8 @@ Spectrum resample(Curve curve) {
         const double x = std::clamp(double(nm - curve.first) / curve.step, 0.0, double(curve.count - 1));
         const int i = std::min(static_cast<int>(x), curve.count - 2);
         const double t = x - i;
-        out[static_cast<std::size_t>(nm - first_nm)] = (1 - t) * double(curve.values[i]) + t * double(curve.values[i + 1]);
+        out[static_cast<std::size_t>(nm - first_nm)] =
+            (1 - t) * double(curve.values[i]) + t * double(curve.values[i + 1]);
     }
     return out;
 }
@@ -24,7 +25,8 @@ struct Observer {
     Spectrum x = resample(cie_x()), y = resample(cie_y()), z = resample(cie_z());
     double y_integral = 0;
     Observer() {
-        for (const double value : y) y_integral += value;
+        for (const double value : y)
+            y_integral += value;
     }
 };
 
@@ -42,28 +44,24 @@ using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 std::array<double, 3> multiply(const Matrix3& m, std::array<double, 3> v) {
     std::array<double, 3> out{};
-    for (std::size_t i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
     return out;
 }
 
 // IEC 61966-2-1, primaries of ITU-R BT.709, white D65 (0.3127, 0.3290).
-constexpr Matrix3 srgb_from_xyz = {{{3.2404542, -1.5371385, -0.4985314},
-                                    {-0.9692660, 1.8760108, 0.0415560},
-                                    {0.0556434, -0.2040259, 1.0572252}}};
+constexpr Matrix3 srgb_from_xyz = {
+    {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}}};
 // RGB to XYZ: SMPTE RP 431-2 primaries with D65, ITU-R BT.2020, SMPTE ST 2065-1 (white D60).
-constexpr Matrix3 xyz_from_p3 = {{{0.4865709, 0.2656677, 0.1982173},
-                                  {0.2289746, 0.6917385, 0.0792869},
-                                  {0.0, 0.0451134, 1.0439444}}};
-constexpr Matrix3 xyz_from_rec2020 = {{{0.6369580, 0.1446169, 0.1688810},
-                                       {0.2627002, 0.6779981, 0.0593017},
-                                       {0.0, 0.0280727, 1.0609851}}};
-constexpr Matrix3 xyz_from_aces = {{{0.9525523959, 0.0, 0.0000936786},
-                                    {0.3439664498, 0.7281660966, -0.0721325464},
-                                    {0.0, 0.0, 1.0088251844}}};
+constexpr Matrix3 xyz_from_p3 = {
+    {{0.4865709, 0.2656677, 0.1982173}, {0.2289746, 0.6917385, 0.0792869}, {0.0, 0.0451134, 1.0439444}}};
+constexpr Matrix3 xyz_from_rec2020 = {
+    {{0.6369580, 0.1446169, 0.1688810}, {0.2627002, 0.6779981, 0.0593017}, {0.0, 0.0280727, 1.0609851}}};
+constexpr Matrix3 xyz_from_aces = {
+    {{0.9525523959, 0.0, 0.0000936786}, {0.3439664498, 0.7281660966, -0.0721325464}, {0.0, 0.0, 1.0088251844}}};
 // Bradford adaptation from ACES D60 to D65 (Lam 1985; Lindbloom's matrices).
-constexpr Matrix3 d65_from_d60 = {{{0.9872240, -0.0061133, 0.0159533},
-                                   {-0.0075984, 1.0018615, 0.0053300},
-                                   {0.0030726, -0.0050960, 1.0816806}}};
+constexpr Matrix3 d65_from_d60 = {
+    {{0.9872240, -0.0061133, 0.0159533}, {-0.0075984, 1.0018615, 0.0053300}, {0.0030726, -0.0050960, 1.0816806}}};
 
 } // namespace
 
@@ -74,7 +72,8 @@ std::optional<Spectrum> from_pairs(const std::vector<double>& pairs, Ends ends) 
     Spectrum out;
     std::size_t at = 0; // index of the pair at or before nm
     for (int nm = first_nm; nm <= last_nm; ++nm) {
-        while (at + 2 < pairs.size() && pairs[at + 2] <= nm) at += 2;
+        while (at + 2 < pairs.size() && pairs[at + 2] <= nm)
+            at += 2;
         double value = pairs[at + 1];
         if (nm < pairs.front() || nm > pairs[pairs.size() - 2]) {
             value = ends == Ends::zero ? 0 : (nm < pairs.front() ? pairs[1] : pairs.back());
@@ -105,7 +104,8 @@ Spectrum blackbody(double kelvin) {
         return 2 * h * c * c / (std::pow(metre, 5) * std::expm1(h * c / (metre * kb * kelvin)));
     };
     const double peak = planck(2.8977721e-3 / kelvin); // Wien's displacement law
-    for (int nm = first_nm; nm <= last_nm; ++nm) out[static_cast<std::size_t>(nm - first_nm)] = planck(nm * 1e-9) / peak;
+    for (int nm = first_nm; nm <= last_nm; ++nm)
+        out[static_cast<std::size_t>(nm - first_nm)] = planck(nm * 1e-9) / peak;
     return out;
 }
 
@@ -117,7 +117,8 @@ std::array<double, 3> to_xyz(const Spectrum& emitted) {
         sum[1] += emitted[i] * o.y[i];
         sum[2] += emitted[i] * o.z[i];
     }
-    for (double& value : sum) value /= o.y_integral;
+    for (double& value : sum)
+        value /= o.y_integral;
     return sum;
 }
 
@@ -136,7 +137,8 @@ Rgb rgb_of_light(const Spectrum& emitted) {
 
 Rgb rgb_of_reflectance(const Spectrum& reflectance) {
     Spectrum lit;
-    for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = reflectance[i] * d65()[i];
+    for (std::size_t i = 0; i < lit.size(); ++i)
+        lit[i] = reflectance[i] * d65()[i];
     const Rgb seen = xyz_to_rgb(to_xyz(lit));
     static const Rgb white = xyz_to_rgb(to_xyz(d65()));
     return {seen.r / white.r, seen.g / white.g, seen.b / white.b};
@@ -148,9 +150,12 @@ Rgb to_srgb(Rgb color, ColorSpace space, bool adapt_white) {
     if (space == ColorSpace::srgb) return color;
     const std::array<double, 3> in{color.r, color.g, color.b};
     switch (space) {
-        case ColorSpace::dci_p3: return xyz_to_rgb(multiply(xyz_from_p3, in));
-        case ColorSpace::rec2020: return xyz_to_rgb(multiply(xyz_from_rec2020, in));
-        default: break;
+        case ColorSpace::dci_p3:
+            return xyz_to_rgb(multiply(xyz_from_p3, in));
+        case ColorSpace::rec2020:
+            return xyz_to_rgb(multiply(xyz_from_rec2020, in));
+        default:
+            break;
     }
     const auto xyz = multiply(xyz_from_aces, in);
     return xyz_to_rgb(adapt_white ? multiply(d65_from_d60, xyz) : xyz);
@@ -162,7 +167,8 @@ double fresnel_normal(double eta, double k) {
 
 ComplexIndex rgb_of_metal(const Spectrum& eta, const Spectrum& k) {
     Spectrum reflectance;
-    for (std::size_t i = 0; i < eta.size(); ++i) reflectance[i] = fresnel_normal(eta[i], k[i]);
+    for (std::size_t i = 0; i < eta.size(); ++i)
+        reflectance[i] = fresnel_normal(eta[i], k[i]);
     const Rgb goal = rgb_of_reflectance(reflectance);
     const Rgb mean = rgb_of_reflectance(eta);
     ComplexIndex out;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // CIE 1931 2-degree colour matching functions (CIE 15:2004, table T.4) and the relative spectra of the CIE standard
 // illuminants (CIE 15:2004) and of ACES D60 (SMPTE ST 2065-1), 360 to 830 nm in steps of 5 nm.
-// D50 is the table pbrt-v4 ships, whose chromaticity (0.3368, 0.3580) is off CIE's (0.3457, 0.3585): scenes keep their look.
+// D50 is the table pbrt-v4 ships, whose chromaticity (0.3368, 0.3580) is off CIE's (0.3457, 0.3585): scenes keep their
+// look.
 #include "spectrum_data.hpp"
 
 #include <iterator>

@@ -20,7 +20,8 @@ Matrix operator*(const Matrix& a, const Matrix& b) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) {
             double sum = 0;
-            for (int k = 0; k < 4; ++k) sum += a.at(row, k) * b.at(k, column);
+            for (int k = 0; k < 4; ++k)
+                sum += a.at(row, k) * b.at(k, column);
             out.at(row, column) = sum;
         }
     return out;

@@ -37,15 +37,20 @@ std::string type_of(const Directive& directive) {
 
 Vote by_name(const Directive& d) {
     switch (d.verb) {
-        case Verb::world_end: return {8, "WorldEnd"};
-        case Verb::ignored: return {4, d.word};
+        case Verb::world_end:
+            return {8, "WorldEnd"};
+        case Verb::ignored:
+            return {4, d.word};
         case Verb::color_space:
         case Verb::option:
         case Verb::attribute:
-        case Verb::import_begin: return {-8, d.word};
-        case Verb::transform_begin: return {1, "TransformBegin"};
+        case Verb::import_begin:
+            return {-8, d.word};
+        case Verb::transform_begin:
+            return {1, "TransformBegin"};
         case Verb::material:
-        case Verb::make_named_material: return material(type_of(d));
+        case Verb::make_named_material:
+            return material(type_of(d));
         case Verb::film:
             if (d.name == "image") return {8, "Film \"image\""};
             if (one_of(d.name, {"rgb", "gbuffer", "spectral"})) return {-8, "Film \"" + d.name + "\""};
@@ -62,9 +67,10 @@ Vote by_name(const Directive& d) {
             if (one_of(d.name, {"simplepath", "simplevolpath", "lightpath", "function"}))
                 return {-4, "Integrator \"" + d.name + "\""};
             return {};
-        case Verb::camera: return d.name == "spherical" ? Vote{-4, "Camera \"spherical\""}
-                                  : d.name == "environment" ? Vote{4, "Camera \"environment\""}
-                                                            : Vote{};
+        case Verb::camera:
+            return d.name == "spherical"     ? Vote{-4, "Camera \"spherical\""}
+                   : d.name == "environment" ? Vote{4, "Camera \"environment\""}
+                                             : Vote{};
         case Verb::shape:
             if (one_of(d.name, {"cone", "paraboloid", "hyperboloid", "heightfield", "nurbs"}))
                 return {4, "Shape \"" + d.name + "\""};
@@ -75,12 +81,15 @@ Vote by_name(const Directive& d) {
             if (d.third == "directionmix") return {-4, "Texture \"directionmix\""};
             if (d.third == "uv") return {4, "Texture \"uv\""};
             return {};
-        default: return {};
+        default:
+            return {};
     }
 }
 
 Vote by_param(const Directive& d, const Param& param) {
-    const auto vote = [&](int weight) { return Vote{weight, "\"" + param.type + " " + param.name + "\" of " + d.word}; };
+    const auto vote = [&](int weight) {
+        return Vote{weight, "\"" + param.type + " " + param.name + "\" of " + d.word};
+    };
     if (one_of(param.type, {"color", "xyz", "point", "vector"})) return vote(param.type == "color" ? 4 : 1);
     if (one_of(param.type, {"point3", "vector3"})) return vote(-1);
     switch (d.verb) {
@@ -110,7 +119,8 @@ Vote by_param(const Directive& d, const Param& param) {
         case Verb::shape:
             if (one_of(param.name, {"shadowalpha", "nlevels", "st"})) return vote(2);
             return {};
-        default: return {};
+        default:
+            return {};
     }
 }
 
@@ -131,7 +141,8 @@ Version detect_version(const SceneFile& scene, const Sources& sources, std::stri
     };
     for (const Directive& directive : scene.directives) {
         count(by_name(directive), directive.at);
-        for (const Param& param : directive.params.params) count(by_param(directive, param), param.at);
+        for (const Param& param : directive.params.params)
+            count(by_param(directive, param), param.at);
     }
     const int side = balance > 0 ? 0 : 1;
     evidence = best[side].weight == 0 ? "nothing in it tells the versions apart"
