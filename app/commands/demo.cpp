@@ -10,6 +10,7 @@
 
 #include <cstdio>
 #include <fmt/format.h>
+#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 
@@ -48,21 +49,26 @@ Result<std::vector<std::string>> restage_room(session::Session& session) {
     const auto done = [&](std::string text) { log.push_back(std::move(text)); };
     const auto& s = session.scene();
 
-    RESTAGE_TRY(const auto chairs, objects(s, "Chair"));
-    RESTAGE_TRY(const auto copies, session.duplicate(chairs.back(), glm::translate(glm::dmat4(1), glm::dvec3(1.15, 0.55, 0))));
-    done("a chair duplicated and moved aside");
-    (void)copies;
-    RESTAGE_TRY(const auto bowls, objects(s, "Bowl"));
-    RESTAGE_CHECK(session.move(bowls[0], glm::translate(glm::dmat4(1), glm::dvec3(0.05, -0.2, 0))));
-    done("the bowl moved");
-    RESTAGE_TRY(const auto carafes, objects(s, "Carafe"));
-    RESTAGE_CHECK(session.remove(carafes[0]));
-    done("the carafe removed");
-
     const auto paint = session.find<scene::Material>("Wall paint");
-    RESTAGE_CHECK(session.set_param(paint, "reflectance", scene::Value::color(0.10f, 0.20f, 0.24f)));
-    done("the back wall repainted petrol blue");
+    RESTAGE_CHECK(session.set_param(paint, "reflectance", scene::Value::color(0.07f, 0.17f, 0.19f)));
+    done("the back wall repainted teal");
+    const auto wool = session.find<scene::Material>("Cushion wool");
+    RESTAGE_CHECK(session.set_param(wool, "reflectance", scene::Value::color(0.60f, 0.33f, 0.06f)));
+    done("all cushions in mustard");
 
+    RESTAGE_TRY(const auto chairs, objects(s, "Chair"));
+    const glm::dmat4 there = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(2.81, -1.40, 0.013)),
+                                         glm::radians(96.0), glm::dvec3(0, 0, 1));
+    const glm::dmat4 here = s.instances[chairs[0][0]].object_to_world;
+    RESTAGE_CHECK(session.duplicate(chairs[0], there * glm::affineInverse(here)));
+    done("a fourth chair, a copy of the first, at the right of the table");
+
+    RESTAGE_TRY(const auto vases, objects(s, "Vase"));
+    RESTAGE_CHECK(session.remove(vases[0]));
+    done("the vase removed");
+    RESTAGE_TRY(const auto books, objects(s, "Red book"));
+    RESTAGE_CHECK(session.move(books[0], glm::translate(glm::dmat4(1), glm::dvec3(0, -0.02, 0))));
+    done("a book pulled forward");
     RESTAGE_TRY(const auto lacquer, session.add_material("White lacquer", "coateddiffuse"));
     RESTAGE_CHECK(session.set_param(lacquer, "reflectance", scene::Value::color(0.72f, 0.70f, 0.66f)));
     RESTAGE_CHECK(session.set_param(lacquer, "uroughness", scene::Value::number(0.05f)));
@@ -151,7 +157,7 @@ Result<int> run(Context& context, Options& o) {
 
 void add_demo(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
-    o->spp = 64;
+    o->spp = 32;
     o->size = "640x360";
     o->denoise = "high";
     auto* command = program.add_subcommand("demo", "Restage the bundled room: open, edit, render before and after, export");
