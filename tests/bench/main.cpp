@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage_bench: one measurement a call, its figures as JSON on stdout. tests/bench/run.py calls it.
+#include "bench.hpp"
+
+#include <CLI/CLI.hpp>
+
+int main(int argc, char** argv) {
+    using namespace restage::bench;
+    CLI::App program{"One measurement of Restage, as JSON"};
+    Options o;
+    Json result;
+    program.require_subcommand(1);
+    program.fallthrough();
+    program.add_option("--runs", o.runs, "How often each figure is taken")->capture_default_str();
+    program.add_flag("--quick", o.quick, "Less of everything");
+    program.add_option("--threads", o.threads, "0 = all")->capture_default_str();
+    program.add_subcommand("rays", "Rays a second in the room")->callback([&] { result = measure_rays(o); });
+    program.add_subcommand("edits", "Edits of one of 1000 instances")->callback([&] { result = measure_edits(o); });
+    std::string variant, scene, folder, half1, half2;
+    std::uint32_t reference_spp = 256;
+    auto* features = program.add_subcommand("features", "The Cornell box and what else its scene uses");
+    features->add_option("VARIANT", variant, "alone, types, features or all")->required();
+    features->callback([&] { result = measure_features(o, variant); });
+    auto* first = program.add_subcommand("first-image", "Where the time to a file's first picture goes");
+    first->add_option("SCENE", scene)->required();
+    first->callback([&] { result = measure_first_image(scene); });
+    auto* standard = program.add_subcommand("standard", "Samples a second and error of cornell or room");
+    standard->add_option("NAME", scene)->required();
+    standard->add_option("--folder", folder, "Where references are kept")->required();
+    standard->add_option("--reference-spp", reference_spp)->capture_default_str();
+    standard->callback([&] { result = measure_standard(o, scene, folder, reference_spp); });
+    auto* error = program.add_subcommand("error", "Error against samples and time");
+    error->add_option("SCENE", scene)->required();
+    error->add_option("HALF1", half1)->required();
+    error->add_option("HALF2", half2)->required();
+    error->callback([&] { result = measure_error(o, scene, half1, half2); });
+    CLI11_PARSE(program, argc, argv);
+    std::printf("%s\n", result.dump().c_str());
+    return 0;
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays a second in the room, and what the whole frame costs against Embree alone on the very same rays.
+#include "bench.hpp"
+#include "ray_recorder.hpp"
+#include "scenes.hpp"
+
+#include <fmt/format.h>
+
+namespace restage::bench {
+
+Json measure_rays(const Options& o) {
+    Plugins plugins;
+    const auto renderer = plugins.renderer({.threads = o.threads});
+    const auto scene = room(5);
+    check(renderer->sync(scene));
+    check(renderer->trace(1)); // compiles
+    renderer->reset();
+    renderer->reset_stats();
+    start_recording();
+    check(renderer->trace(1));
+    const auto rays = stop_recording();
+    const auto& stats = renderer->stats();
+    if (rays.size() != stats.rays + stats.shadow_rays)
+        die(fmt::format("{} rays were recorded, but the tracer counts {}: does it call Embree by another function than "
+                        "rtcIntersect1 and rtcOccluded1? See ray_recorder.hpp",
+                        rays.size(), stats.rays + stats.shadow_rays));
+    std::size_t shadows = 0;
+    for (const auto& r : rays)
+        shadows += r.shadow;
+
+    Json runs = Json::array();
+    const std::uint32_t spp = o.quick ? 1 : 4;
+    for (int i = 0; i < o.runs; ++i) {
+        renderer->reset();
+        renderer->reset_stats();
+        const Seconds frame = time([&] { check(renderer->trace(spp)); });
+        const Seconds plain = time([&] { trace_plainly(rays, renderer->jobs()); });
+        const double n = double(stats.rays + stats.shadow_rays);
+        runs.push_back({{"rays", stats.rays}, {"shadow_rays", stats.shadow_rays}, {"wall", frame.wall}, {"cpu", frame.cpu},
+                        {"mrays_wall", n / frame.wall * 1e-6}, {"mrays_cpu", n / frame.cpu * 1e-6},
+                        {"share_shading", stats.seconds_shading / stats.seconds},
+                        {"share_tracing", stats.seconds_tracing / stats.seconds},
+                        {"plain_mrays_wall", double(rays.size()) / plain.wall * 1e-6},
+                        {"plain_mrays_cpu", double(rays.size()) / plain.cpu * 1e-6},
+                        {"frame_over_plain", frame.cpu / n * double(rays.size()) / plain.cpu}});
+    }
+    return {{"samples", spp}, {"rays_recorded", rays.size()}, {"shadow_rays_recorded", shadows},
+            {"threads", renderer->jobs().threads()}, {"runs", runs}};
+}
+
+} // namespace restage::bench

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two standard scenes that renderers are compared on: samples a CPU-second, and relMSE times CPU seconds at 16 samples
+// a pixel against a reference of our own in two halves, whose noise is subtracted.
+#include "bench.hpp"
+#include "io/image_compare.hpp"
+#include "io/image_file.hpp"
+#include "pictures.hpp"
+#include "scenes.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace restage::bench {
+
+Json measure_standard(const Options& o, const std::string& name, const std::string& folder, std::uint32_t reference_spp) {
+    const auto scene = name == "room" ? room(7) : cornell(); // 8 and 6 path edges
+    Plugins plugins;
+    scene::PixelData halves[2];
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const auto file = std::filesystem::path(folder) / fmt::format("{}.{}spp.{}.pfm", name, reference_spp / 2, i + 1);
+        if (!std::filesystem::exists(file)) {
+            const auto renderer = plugins.renderer({.threads = o.threads, .seed = 1000 + i});
+            check(renderer->sync(scene));
+            check(renderer->trace(reference_spp / 2));
+            std::filesystem::create_directories(folder);
+            check(io::write_image(file.string(), picture(renderer->image().color, renderer->image())));
+        }
+        halves[i] = take(io::read_image(file.string(), RESTAGE_LINEAR));
+    }
+    const auto reference = mean(halves[0], halves[1]);
+    const double noise = take(io::compare_images(halves[0], halves[1])).rel_mse / 4;
+
+    Json runs = Json::array();
+    const std::uint32_t spp = 16;
+    for (int i = 0; i < o.runs; ++i) {
+        const auto renderer = plugins.renderer({.threads = o.threads, .seed = std::uint32_t(i)});
+        check(renderer->sync(scene));
+        check(renderer->trace(1));
+        renderer->reset();
+        renderer->reset_stats();
+        const Seconds t = time([&] { check(renderer->trace(spp)); });
+        const auto film = renderer->image();
+        const double error = take(io::compare_images(picture(film.color, film), reference)).rel_mse - noise;
+        const auto& stats = renderer->stats();
+        runs.push_back({{"wall", t.wall}, {"cpu", t.cpu}, {"msamples_cpu", double(stats.paths) / t.cpu * 1e-6},
+                        {"mrays_cpu", double(stats.rays + stats.shadow_rays) / t.cpu * 1e-6},
+                        {"rel_mse", error}, {"rel_mse_cpu_seconds", error * t.cpu}});
+    }
+    return {{"scene", name}, {"samples", spp}, {"reference_samples", reference_spp}, {"reference_noise", noise}, {"runs", runs}};
+}
+
+} // namespace restage::bench
