@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/denoise.hpp"
+
+namespace restage::render {
+
+Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const RestageDenoiser1& denoiser,
+                                       RestageDenoiseQuality quality, unsigned threads,
+                                       std::function<bool(double done)> keep_going) {
+    const char* reason = "";
+    if (!denoiser.available(&reason))
+        return fail(std::string("the denoiser ") + denoiser.type + " is not available: " + reason);
+    std::vector<glm::vec3> output(image.color.size());
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    RestageDenoiseJob job{};
+    job.size = sizeof(job);
+    job.width = image.width;
+    job.height = image.height;
+    job.color = &image.color[0].x;
+    job.albedo = &image.albedo[0].x;
+    job.normal = &image.normal[0].x;
+    job.output = &output[0].x;
+    job.quality = quality;
+    job.threads = threads;
+    if (keep_going) {
+        job.progress_ctx = &keep_going;
+        job.progress = [](void* ctx, double done) { return (*static_cast<std::function<bool(double)>*>(ctx))(done) ? 1 : 0; };
+    }
+    if (!denoiser.run(&job, &reason))
+        return fail(std::string(denoiser.type) + ": " + (reason ? reason : "failed"));
+    return output;
+}
+
+} // namespace restage::render
