@@ -104,6 +104,10 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
             return fail(fmt::format("Embree could not build a mesh of {} triangles (error {})", g->triangle_count, int(error)));
         meshes_[id.value] = std::move(mesh);
     }
+    const bool shrunk = attached_.size() > scene.instances().size();
+    for (std::size_t i = scene.instances().size(); i < attached_.size(); ++i) // of a scene that was forgotten
+        if (attached_[i])
+            rtcDetachGeometry(top_, unsigned(i));
     attached_.resize(scene.instances().size(), 0);
     for (auto id : changes.instances) {
         const auto i = id.value;
@@ -136,7 +140,7 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
             rtcCommitScene(mesh.scene);
         }
     }
-    if (!changes.instances.empty() || !changes.meshes.empty())
+    if (shrunk || !changes.instances.empty() || !changes.meshes.empty())
         rtcCommitScene(top_);
     if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
         return fail(fmt::format("Embree could not build the scene (error {})", int(error)));
