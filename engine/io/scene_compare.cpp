@@ -159,7 +159,7 @@ class Describer {
 
 class Comparison {
   public:
-    Comparison(const Scene& a, const Scene& b, const plugin::Registry& registry, const CompareOptions& options)
+    Comparison(const Scene& a, const Scene& b, const plugin::Registry& registry, const SceneCompareOptions& options)
         : a_(a), b_(b), describe_a_(a, registry), describe_b_(b, registry), options_(options) {}
 
     std::vector<std::string> run() {
@@ -277,7 +277,7 @@ class Comparison {
 
     const Scene &a_, &b_;
     Describer describe_a_, describe_b_;
-    const CompareOptions& options_;
+    const SceneCompareOptions& options_;
     std::vector<std::string> out_;
     std::size_t found_ = 0;
 };
@@ -285,7 +285,7 @@ class Comparison {
 } // namespace
 
 std::vector<std::string> structural_differences(const Scene& a, const Scene& b, const plugin::Registry& registry,
-                                                const CompareOptions& options) {
+                                                const SceneCompareOptions& options) {
     return Comparison(a, b, registry, options).run();
 }
 

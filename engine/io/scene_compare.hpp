@@ -11,14 +11,14 @@
 
 namespace restage::io {
 
-struct CompareOptions {
+struct SceneCompareOptions {
     double transform_tolerance = 1e-9; // of the largest entry of the matrix
     std::size_t most = 20; // differences listed
 };
 
 // Sentences, none when the scenes are alike. The registry gives the defaults of parameters that are not set.
 std::vector<std::string> structural_differences(const scene::Scene& a, const scene::Scene& b, const plugin::Registry&,
-                                                const CompareOptions& = {});
+                                                const SceneCompareOptions& = {});
 inline bool structurally_equal(const scene::Scene& a, const scene::Scene& b, const plugin::Registry& registry) {
     return structural_differences(a, b, registry).empty();
 }
