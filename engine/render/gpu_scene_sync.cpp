@@ -267,7 +267,8 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     d.light_count = std::uint32_t(lights_.size());
     d.environment.light = light_table_.environment;
     if (const auto& env = scene.environment.value) {
-        const glm::dmat3 rotation(env->light_to_world);
+        glm::dmat3 rotation(env->light_to_world); // directions know no size: a scale drops out
+        rotation /= std::max(std::cbrt(std::abs(glm::determinant(rotation))), 1e-300);
         d.environment.world_from_env = glm::mat3(rotation);
         d.environment.env_from_world = glm::mat3(glm::inverse(rotation));
         d.environment.scale = env->scale;

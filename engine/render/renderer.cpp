@@ -58,9 +58,9 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
     RESTAGE_TRY(const SceneChanges changes, gpu_scene_->sync(scene));
     RESTAGE_CHECK(tracer_->update(*gpu_scene_, changes));
     if (changes.film || !film_) {
-        // The crop window in pixels; pbrt 4ed, 5.4.2
+        // The crop window in pixels; pbrt 4ed, 5.4.2, in floats as there: 0.2f of 30 is 6
         const scene::Film& f = scene.film.value;
-        const auto pixel = [](float x, std::uint32_t n) { return std::uint32_t(std::clamp(std::ceil(double(x) * n), 0.0, double(n))); };
+        const auto pixel = [](float x, std::uint32_t n) { return std::uint32_t(std::clamp(std::ceil(x * float(n)), 0.f, float(n))); };
         const glm::uvec2 lower(pixel(f.crop.x, f.width), pixel(f.crop.z, f.height));
         const glm::uvec2 upper(pixel(f.crop.y, f.width), pixel(f.crop.w, f.height));
         if (upper.x <= lower.x || upper.y <= lower.y)

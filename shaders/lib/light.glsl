@@ -13,14 +13,14 @@ struct LightSample {
     bool delta;    // point, spot, distant: cannot be hit, no MIS
 };
 
-uint alias_pick(address table, uint count, inout float u) {
-    float x = u * float(count);
-    uint i = min(uint(x), count - 1u);
+// u chooses the entry, u_keep between it and its alias. Two numbers, because what one float has left after choosing among
+// a hundred thousand is too coarse for the second choice, and the frequencies would not be the pmf.
+uint alias_pick(address table, uint count, float u, inout float u_keep) {
+    uint i = min(uint(u * float(count)), count - 1u);
     AliasEntry e = AliasArray(table).at[i];
-    float f = x - float(i);
-    // u is stretched back to [0,1) within what was chosen
-    bool keep = f < e.q;
-    u = min(keep ? f / e.q : (f - e.q) / (1.0 - e.q), 0.99999994);
+    // u_keep is stretched back to [0,1) within what was chosen
+    bool keep = u_keep < e.q;
+    u_keep = min(keep ? u_keep / e.q : (u_keep - e.q) / (1.0 - e.q), 0.99999994);
     return keep ? i : e.alias;
 }
 
@@ -55,7 +55,7 @@ vec2 direction_to_octahedral(vec3 w) {
 vec2 environment_uv(EnvironmentData env, vec3 w) { // w in the environment's frame
     if (env.mapping == ENV_OCTAHEDRAL) return direction_to_octahedral(w);
     float phi = atan(w.y, w.x);
-    return vec2((phi < 0.0 ? phi + TWO_PI : phi) * (0.5 * INV_PI), acos(clamp(w.z, -1.0, 1.0)) * INV_PI);
+    return vec2((phi < 0.0 ? phi + TWO_PI : phi) * (0.5 * INV_PI), atan(length(w.xy), w.z) * INV_PI); // acos is coarse at the poles
 }
 uint environment_texel(EnvironmentData env, vec2 uv) {
     uvec2 p = min(uvec2(uv * vec2(env.width, env.height)), uvec2(env.width - 1u, env.height - 1u));
@@ -75,10 +75,10 @@ vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
     }
     vec3 local = env.env_from_world * w;
     uint i = environment_texel(env, environment_uv(env, local));
-    pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, sqrt(max(0.0, 1.0 - local.z * local.z)));
+    pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, length(local.xy));
     return env.scale * Vec4Array(env.texels).at[i].xyz;
 }
-LightSample environment_sample(EnvironmentData env, vec2 u) {
+LightSample environment_sample(EnvironmentData env, vec2 u, float u_keep) {
     LightSample s = LightSample(vec3(0, 0, 1), 1e30, env.scale, 0.25 * INV_PI, false);
     if (env.mapping == ENV_CONSTANT) {
         float z = 1.0 - 2.0 * u.x;
@@ -87,8 +87,8 @@ LightSample environment_sample(EnvironmentData env, vec2 u) {
         return s;
     }
     uint n = env.width * env.height;
-    uint i = alias_pick(env.alias, n, u.x);
-    vec2 uv = (vec2(i % env.width, i / env.width) + u) / vec2(env.width, env.height);
+    uint i = alias_pick(env.alias, n, u.x, u_keep);
+    vec2 uv = (vec2(i % env.width, i / env.width) + vec2(u_keep, u.y)) / vec2(env.width, env.height);
     vec3 local;
     float sin_theta = 1.0;
     if (env.mapping == ENV_OCTAHEDRAL) {
@@ -109,13 +109,13 @@ float triangle_density(float area, float dist, float cos_light) {
     return cos_light <= 0.0 ? 0.0 : dist * dist / (cos_light * area);
 }
 
-LightSample light_sample(SceneData scene, vec3 p, float u_pick, vec2 u) {
+LightSample light_sample(SceneData scene, vec3 p, float u_pick, float u_keep, vec2 u) {
     LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), 0.0, false);
-    uint index = alias_pick(scene.light_alias, scene.light_count, u_pick);
+    uint index = alias_pick(scene.light_alias, scene.light_count, u_pick, u_keep);
     LightData light = LightArray(scene.lights).at[index];
     uint kind = light.kind & 255u;
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
-        s = environment_sample(scene.environment, u);
+        s = environment_sample(scene.environment, u, u_keep);
         s.pdf *= light.pmf;
         return s;
     }

@@ -44,6 +44,6 @@ const uint PAIR_LENS = 1u;
 uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which light, y: Russian roulette
 uint pair_light(uint depth) { return 3u + 4u * depth; }       // a point on it
 uint pair_bsdf(uint depth) { return 4u + 4u * depth; }        // direction
-uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe
+uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe, y: the light or its alias
 
 #endif

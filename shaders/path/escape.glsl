@@ -12,6 +12,10 @@ vec3 clamp_contribution(SceneData scene, vec3 c, uint depth) {
     return limit > 0.0 && m > limit ? c * (limit / m) : c;
 }
 
+vec3 absorb(SceneData scene, uint medium, float distance_) { // Beer-Lambert
+    return HAS_MEDIA && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
+}
+
 // Radiance of the environment for a path that left the scene.
 void path_escape(SceneData scene, vec3 direction, inout PathState path) {
     if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
@@ -22,6 +26,7 @@ void path_escape(SceneData scene, vec3 direction, inout PathState path) {
         float pdf_light = pdf_env * LightArray(scene.lights).at[scene.environment.light].pmf;
         w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
     }
+    if (HAS_MEDIA) le *= absorb(scene, path.medium, 1e30); // infinitely far behind what absorbs
     uint depth = path.flags & PATH_DEPTH_MASK;
     path.radiance += clamp_contribution(scene, path.throughput * le * w, depth);
 }

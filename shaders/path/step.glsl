@@ -22,10 +22,6 @@ struct StepRay {
 
 bool finite(vec3 c) { return !(any(isnan(c)) || any(isinf(c))); }
 
-vec3 absorb(SceneData scene, uint medium, float distance_) { // Beer-Lambert
-    return HAS_MEDIA && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
-}
-
 // From a hit to the next rays. Returns false when something was not finite: the path then ends, and carries nothing on.
 bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, uint prim, vec2 bary, float t,
                vec3 ray_direction, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
@@ -68,22 +64,26 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     if (depth >= scene.max_depth) return finite(path.radiance);
     Rng rng = Rng(pcg_hash(path.seed ^ pcg_hash(path.sample_index * 64u + depth)));
     vec2 u_pick = sample_pair(path.seed, path.sample_index, pair_light_pick(depth));
+    vec2 u_lobe = sample_pair(path.seed, path.sample_index, pair_lobe(depth));
+    bool ok = true;
 
     // Next-event estimation
     if (scene.light_count > 0u) {
-        LightSample light = light_sample(scene, s.p, u_pick.x, sample_pair(path.seed, path.sample_index, pair_light(depth)));
+        LightSample light = light_sample(scene, s.p, u_pick.x, u_lobe.y,
+                                         sample_pair(path.seed, path.sample_index, pair_light(depth)));
         if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
             vec3 f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : vec3(0);
+            ok = finite(f);
             if (max_component(f) > 0.0) {
                 float w = light.delta ? 1.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
                 vec3 c = path.throughput * f * light.radiance * (w / light.pdf);
                 uint medium = path.medium;
                 if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
                     medium = dot(light.wi, s.ng) > 0.0 ? inst.exterior : inst.interior;
-                if (HAS_MEDIA && light.dist < 1e30) c *= absorb(scene, medium, light.dist);
+                if (HAS_MEDIA) c *= absorb(scene, medium, light.dist);
                 shadow_contribution = clamp_contribution(scene, c, depth);
                 shadow.origin = offset_origin(s.p, s.ng, s.offset, light.wi);
                 shadow.direction = light.wi;
@@ -95,9 +95,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
 
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
-    float u_lobe = sample_pair(path.seed, path.sample_index, pair_lobe(depth)).x;
-    BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
-    bool ok = finite(shadow_contribution) && finite(b.weight) && finite(path.radiance);
+    BsdfSample b = material_sample(m, wo, vec3(u, u_lobe.x), rng);
+    ok = ok && finite(shadow_contribution) && finite(path.radiance);
+    if (b.flags != 0u) ok = ok && finite(b.weight) && finite(b.wi) && finite(vec3(b.pdf, b.eta, 0.0));
     if (!ok) {
         shadow.tmax = -1.0;
         return false;
