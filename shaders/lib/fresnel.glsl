@@ -60,7 +60,7 @@ vec3 fresnel_schlick(vec3 r0, float cos_i) {
 }
 
 // Hemispherical (cosine-weighted) reflectance of a dielectric seen from the thin side, eta > 1: Walsh 1926 in the form
-// of Duntley 1942; near 1, where that cancels, a fit of the same integral (relative error below 3e-4 from 1.002 to 1.15).
+// of Duntley 1942; near 1, where that cancels, a fit of that integral (relative error below 3e-4, 1.002 to 1.15).
 // From the dense side it is 1 - (1 - result) / eta^2.
 float fresnel_dielectric_average(float eta) {
     if (eta < 1.08) {

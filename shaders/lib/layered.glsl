@@ -8,11 +8,11 @@
 // whereas a random density would correlate with the estimates it weighs. It is not the density of layered_sample.
 //
 // Different from pbrt-v4: (1) its weight for continuing through the exit interface takes the density of the reverse
-// direction, so its two weights do not sum to 1 and its f comes out too bright, by 4 % (alpha 0.1 over a diffuse base of
-// 0.6) to 15 % (0.3 over metal); here they do, and energy is conserved. (2) A diffuse base uses only the direction drawn
-// through the coat from wi, which suits it everywhere. (3) After max_depth events sample may still leave, as in eval.
-// (4) Coats are smooth below alpha = 0.0015. (5) What leaves by a smooth coat after a smooth base is marked delta, even if
-// the medium scattered it before: eval cannot make that connection, so no MIS weight may count on it (pbrt loses half).
+// direction, so its two weights do not sum to 1 and its f comes out too bright, by 4 % (alpha 0.1 over a diffuse base
+// of 0.6) to 15 % (0.3 over metal); here they do, and energy is conserved. (2) A diffuse base uses only the direction
+// drawn through the coat from wi, which suits it everywhere. (3) After max_depth events sample may still leave, as in
+// eval. (4) Coats are smooth below alpha = 0.0015. (5) What leaves by a smooth coat after a smooth base is marked delta,
+// even if the medium scattered it before: eval cannot make that connection, so no MIS weight may count on it.
 // Directions have z > 0 outside; the walk runs downwards from z = thickness.
 #ifndef RESTAGE_LIB_LAYERED
 #define RESTAGE_LIB_LAYERED
@@ -103,7 +103,7 @@ int layered_advance(Layered l, bool medium, vec3 w, inout float z, inout vec3 be
     return up ? LAYER_TOP : LAYER_BASE;
 }
 
-// Scatters at the base; v = where it came from. beta takes f cos / pdf. Returns the density of w (metal, rough), else 0.
+// Scatters at the base; v = where it came from. beta takes f cos / pdf. Returns the density of w (rough metal) or 0.
 float layered_base_sample(Layered l, vec3 v, vec2 u, out vec3 w, inout vec3 beta) {
     if (!l.metal) {
         w = sample_cosine_hemisphere(u);
@@ -241,7 +241,8 @@ float layered_pdf(Layered l, vec3 wo, vec3 wi) {
     float enters = 1.0 - fresnel_dielectric(wo.z, l.eta, cos_o);
     if (l.metal) {
         // The base's lobe between the directions refracted by the mean surface, widened by two rough refractions.
-        vec2 alpha = sqrt(l.base_alpha * l.base_alpha + 0.5 * sqr(1.0 - 1.0 / l.eta) * (smooth_coat ? vec2(0) : l.alpha * l.alpha));
+        vec2 widening = smooth_coat ? vec2(0) : 0.5 * sqr(1.0 - 1.0 / l.eta) * l.alpha * l.alpha;
+        vec2 alpha = sqrt(l.base_alpha * l.base_alpha + widening);
         float cos_i = sqrt(max(0.0, 1.0 - (1.0 - wi.z * wi.z) / (l.eta * l.eta)));
         if (!alpha_is_smooth(alpha) && cos_i > 1e-6 && cos_o > 1e-6) {
             vec3 o = vec3(wo.xy / l.eta, cos_o);

@@ -51,8 +51,7 @@ inline std::size_t choices(const RestageParam& p) {
 
 // Scales the colours of an ADDITIVE material so that they sum to at most 1 (RESTAGE_MATERIAL_ADDITIVE).
 inline void keep_sum(const RestageMaterial1& table, scene::ParamSet& set) {
-    if (!(table.flags & RESTAGE_MATERIAL_ADDITIVE))
-        return;
+    if (!(table.flags & RESTAGE_MATERIAL_ADDITIVE)) return;
     float sum = 0;
     for (std::uint32_t i = 0; i < table.param_count; ++i)
         if (const RestageParam& p = table.params[i]; p.type == RESTAGE_COLOR && !is_opacity(p)) {
@@ -77,30 +76,32 @@ inline scene::ParamSet random_config(const RestageMaterial1& table, Engine& e) {
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& p = table.params[i];
         switch (p.type) {
-        case RESTAGE_FLOAT:
-            set.set(p.id, scene::Value::number(number(p)));
-            break;
-        case RESTAGE_COLOR:
-            set.set(p.id, scene::Value::color(number(p), number(p), number(p)));
-            break;
-        case RESTAGE_INT:
-            set.set(p.id, scene::Value::integer(static_cast<int>(std::lround(number(p)))));
-            break;
-        case RESTAGE_BOOL:
-            set.set(p.id, scene::Value::boolean(uniform(e) < 0.5f));
-            break;
-        case RESTAGE_ENUM:
-            set.set(p.id, scene::Value::choice(choice(p, e() % choices(p))));
-            break;
-        default:
-            break;
+            case RESTAGE_FLOAT:
+                set.set(p.id, scene::Value::number(number(p)));
+                break;
+            case RESTAGE_COLOR:
+                set.set(p.id, scene::Value::color(number(p), number(p), number(p)));
+                break;
+            case RESTAGE_INT:
+                set.set(p.id, scene::Value::integer(static_cast<int>(std::lround(number(p)))));
+                break;
+            case RESTAGE_BOOL:
+                set.set(p.id, scene::Value::boolean(uniform(e) < 0.5f));
+                break;
+            case RESTAGE_ENUM:
+                set.set(p.id, scene::Value::choice(choice(p, e() % choices(p))));
+                break;
+            default:
+                break;
         }
     }
     keep_sum(table, set);
     return set;
 }
 
-inline bool is_roughness(const RestageParam& p) { return std::string_view(p.id).find("roughness") != std::string_view::npos; }
+inline bool is_roughness(const RestageParam& p) {
+    return std::string_view(p.id).find("roughness") != std::string_view::npos;
+}
 
 // A random set whose lobes are wide enough for a grid to see: roughness between 0.2 and 1, taken as alpha where the
 // material lets us.
@@ -108,12 +109,9 @@ inline scene::ParamSet wide_config(const RestageMaterial1& table, Engine& e) {
     scene::ParamSet set = random_config(table, e);
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& p = table.params[i];
-        if (is_roughness(p))
-            set.set(p.id, scene::Value::number(uniform(e, 0.2f, 0.8f)));
-        if (std::string_view(p.id) == "remap")
-            set.set(p.id, scene::Value::choice("none"));
-        if (p.type == RESTAGE_INT)
-            set.set(p.id, scene::Value::integer(static_cast<int>(p.def[0])));
+        if (is_roughness(p)) set.set(p.id, scene::Value::number(uniform(e, 0.2f, 0.8f)));
+        if (std::string_view(p.id) == "remap") set.set(p.id, scene::Value::choice("none"));
+        if (p.type == RESTAGE_INT) set.set(p.id, scene::Value::integer(static_cast<int>(p.def[0])));
     }
     return set;
 }

@@ -61,13 +61,11 @@ struct Push {
 
 template <class T>
 T value(Result<T> result, const std::string& doing) {
-    if (!result)
-        throw std::runtime_error(doing + ": " + result.error().message);
+    if (!result) throw std::runtime_error(doing + ": " + result.error().message);
     return std::move(*result);
 }
 void value(Result<void> result, const std::string& doing) {
-    if (!result)
-        throw std::runtime_error(doing + ": " + result.error().message);
+    if (!result) throw std::runtime_error(doing + ": " + result.error().message);
 }
 
 } // namespace
@@ -79,8 +77,7 @@ Bench& Bench::get() {
 
 Bench::Bench()
     : log_([](LogLevel level, std::string_view line) {
-          if (level == LogLevel::error)
-              throw std::runtime_error(std::string(line));
+          if (level == LogLevel::error) throw std::runtime_error(std::string(line));
       }),
       registry_(log_) {
     const plugin::SearchPath paths[] = {{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true}};
@@ -89,15 +86,14 @@ Bench::Bench()
         if (entry->state == plugin::State::refused)
             throw std::runtime_error(entry->name() + " was refused: " + entry->reason);
     device_ = value(gpu::Device::create({}, log_), "device");
-    compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{
-        .include_dirs = {std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"},
-        .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
+    compiler_ = std::make_unique<gpu::ShaderCompiler>(
+        gpu::ShaderCompilerOptions{.include_dirs = {std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"},
+                                   .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
 }
 
 const plugin::MaterialEntry& Bench::material(const char* type) const {
     const plugin::MaterialEntry* entry = registry_.find_material(type);
-    if (!entry)
-        throw std::runtime_error(std::string("no plugin provides the material ") + type);
+    if (!entry) throw std::runtime_error(std::string("no plugin provides the material ") + type);
     return *entry;
 }
 
@@ -127,7 +123,8 @@ std::vector<BsdfAnswer> BsdfLab::run(std::span<const scene::ParamSet> configs, s
     std::vector<BsdfAnswer> answers(jobs.size());
     constexpr std::size_t most = 1 << 17; // a dispatch
     gpu::Buffer in = value(device.create_buffer(most * sizeof(BsdfJob), gpu::BufferKind::host, "lab jobs"), who);
-    gpu::Buffer out = value(device.create_buffer(most * sizeof(BsdfAnswer), gpu::BufferKind::readback, "lab answers"), who);
+    gpu::Buffer out =
+        value(device.create_buffer(most * sizeof(BsdfAnswer), gpu::BufferKind::readback, "lab answers"), who);
     for (std::size_t first = 0; first < jobs.size(); first += most) {
         const std::size_t count = std::min(most, jobs.size() - first);
         std::copy_n(jobs.data() + first, count, in.span<BsdfJob>().data());

@@ -42,14 +42,14 @@ inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4;
 
 // Everything the tests of this folder share: device, compiler, and the plugins of this build.
 class Bench {
-public:
+  public:
     static Bench& get(); // made at first use; throws what is missing as a sentence
     gpu::Device& device() { return *device_; }
     gpu::ShaderCompiler& compiler() { return *compiler_; }
     const std::vector<plugin::MaterialEntry>& materials() const { return registry_.materials(); }
     const plugin::MaterialEntry& material(const char* type) const;
 
-private:
+  private:
     Bench();
     Log log_;
     plugin::Registry registry_;
@@ -58,16 +58,17 @@ private:
 };
 
 class BsdfLab {
-public:
+  public:
     BsdfLab(Bench& bench, const plugin::MaterialEntry& material); // throws std::runtime_error
 
     // `repeats` > 1 averages eval over that many random streams (stochastic materials).
     std::vector<BsdfAnswer> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
                                 std::uint32_t repeats = 1);
     const RestageMaterial1& table() const { return *material_.table; }
+    const std::filesystem::path& folder() const { return material_.plugin->folder; }
     bool is(std::uint32_t flag) const { return (table().flags & flag) != 0; }
 
-private:
+  private:
     Bench& bench_;
     plugin::MaterialEntry material_;
     gpu::ComputePipeline pipeline_;

@@ -49,8 +49,7 @@ inline double distribution(V h, Alpha a) { // Walter et al. 2007, Eqs. 25 and 33
 }
 inline double lambda(V w, Alpha a) { // Heitz 2014, Eqs. 68 and 72
     const double t = slope_term(w, a.x * a.x, a.y * a.y);
-    if (!a.beckmann)
-        return (-1 + std::sqrt(1 + t)) / 2;
+    if (!a.beckmann) return (-1 + std::sqrt(1 + t)) / 2;
     const double b = 1 / std::sqrt(std::max(t, 1e-300));
     return (std::erf(b) - 1) / 2 + std::exp(-b * b) / (2 * b * std::sqrt(pi));
 }
@@ -70,11 +69,9 @@ inline double microfacet_reflection(V wo, V wi, Alpha a, std::complex<double> et
     return fresnel(dot(wo, h), eta) * distribution(h, a) * g2(wo, wi, a) / (4 * wo.z);
 }
 inline double microfacet_transmission(V wo, V wi, Alpha a, double eta) { // eta = ior of wi's side / of wo's
-    V h = normalize(-(wo + wi * eta));                                    // Eq. 16
-    if (h.z < 0)
-        h = -h;
-    if (dot(wo, h) <= 0 || dot(wi, h) >= 0)
-        return 0;
+    V h = normalize(-(wo + wi * eta)); // Eq. 16
+    if (h.z < 0) h = -h;
+    if (dot(wo, h) <= 0 || dot(wi, h) >= 0) return 0;
     const double denominator = dot(wo, h) + eta * dot(wi, h);
     const V wi_up{wi.x, wi.y, -wi.z};
     const double f = std::abs(dot(wo, h) * dot(wi, h) / (wo.z * wi.z)) * eta * eta * (1 - fresnel(dot(wo, h), eta)) *

@@ -16,8 +16,8 @@ struct LayeredModel {
     double albedo = 0, g = 0;
     int max_depth = 10;
     bool metal = false;
-    double reflectance = 0.5;              // of the diffuse base
-    std::complex<double> ior{1, 0};        // of the metal, relative to the coat
+    double reflectance = 0.5; // of the diffuse base
+    std::complex<double> ior{1, 0}; // of the metal, relative to the coat
     Alpha base{0, 0};
 };
 
@@ -35,13 +35,11 @@ inline V dielectric_event(V v, Alpha a, double eta, Random& r, double& weight) {
     V w;
     if (r() < f) {
         w = h * (2 * c) - v;
-        if (w.z <= 0)
-            weight = 0;
+        if (w.z <= 0) weight = 0;
     } else {
         const double cos_t = std::sqrt(1 - (1 - c * c) / (eta * eta));
         w = -v * (1 / eta) + h * (c / eta - cos_t);
-        if (w.z >= 0)
-            weight = 0;
+        if (w.z >= 0) weight = 0;
     }
     if (!smooth && weight > 0) // G2 / G1
         weight *= (1 + lambda(v, a)) / (1 + lambda(v, a) + lambda({w.x, w.y, std::abs(w.z)}, a));
@@ -54,17 +52,14 @@ inline std::optional<Exit> layered_walk(const LayeredModel& m, V wo, Random& r) 
     const bool coat_is_smooth = std::min(m.coat.x, m.coat.y) < 1e-3;
     bool delta = coat_is_smooth;
     V w = dielectric_event(wo, m.coat, m.eta, r, weight);
-    if (weight <= 0)
-        return std::nullopt;
-    if (w.z > 0)
-        return Exit{w, weight, delta};
+    if (weight <= 0) return std::nullopt;
+    if (w.z > 0) return Exit{w, weight, delta};
     double z = m.thickness;
     for (int depth = 0; depth <= m.max_depth; ++depth) {
         if (m.albedo > 0) {
             const double to = z + w.z * -std::log(1 - r()); // extinction 1
             if (to > 0 && to < m.thickness) {
-                if (depth == m.max_depth)
-                    return std::nullopt;
+                if (depth == m.max_depth) return std::nullopt;
                 z = to;
                 weight *= m.albedo;
                 delta = false;
@@ -84,10 +79,8 @@ inline std::optional<Exit> layered_walk(const LayeredModel& m, V wo, Random& r) 
         z = w.z > 0 ? m.thickness : 0;
         if (w.z > 0) { // the coat from below; in the mirrored frame
             const V next = dielectric_event({-w.x, -w.y, w.z}, m.coat, 1 / m.eta, r, weight);
-            if (weight <= 0)
-                return std::nullopt;
-            if (next.z < 0)
-                return Exit{{next.x, next.y, -next.z}, weight, delta};
+            if (weight <= 0) return std::nullopt;
+            if (next.z < 0) return Exit{{next.x, next.y, -next.z}, weight, delta};
             w = {next.x, next.y, -next.z};
         } else if (depth == m.max_depth) {
             return std::nullopt;
@@ -100,11 +93,9 @@ inline std::optional<Exit> layered_walk(const LayeredModel& m, V wo, Random& r) 
             const bool smooth = std::min(m.base.x, m.base.y) < 1e-3;
             const V h = smooth ? V{0, 0, 1} : visible_normal(v, m.base, r);
             w = h * (2 * dot(v, h)) - v;
-            if (w.z <= 0)
-                return std::nullopt;
+            if (w.z <= 0) return std::nullopt;
             weight *= fresnel(dot(v, h), m.ior);
-            if (!smooth)
-                weight *= (1 + lambda(v, m.base)) / (1 + lambda(v, m.base) + lambda(w, m.base));
+            if (!smooth) weight *= (1 + lambda(v, m.base)) / (1 + lambda(v, m.base) + lambda(w, m.base));
             delta = coat_is_smooth && smooth; // no connection to a light can be made after this, see layered.glsl
         }
     }

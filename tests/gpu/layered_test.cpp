@@ -26,7 +26,8 @@ ParamSet params_of(const ref::LayeredModel& m) {
     if (!m.metal) {
         const float r = static_cast<float>(m.reflectance);
         set.set("reflectance", Value::color(r, r, r));
-        set.set("uroughness", Value::number(u)), set.set("vroughness", Value::number(v)), set.set("eta", Value::number(eta));
+        set.set("uroughness", Value::number(u)), set.set("vroughness", Value::number(v)),
+            set.set("eta", Value::number(eta));
         return set;
     }
     set.set("interface_uroughness", Value::number(u)), set.set("interface_vroughness", Value::number(v));
@@ -74,10 +75,11 @@ void against_brute_force(BsdfLab& lab, const ref::LayeredModel& m, Engine& e, do
         jobs.push_back({.wo = wo, .u = unit3(e), .seed = e()});
     for (int b = 0; b < bins; ++b)
         for (int p = 0; p < points; ++p)
-            jobs.push_back({.wo = wo,
-                            .wi = direction((static_cast<float>(b / columns) + unit(e)) / rows,
-                                            2 * std::numbers::pi_v<float> * (static_cast<float>(b % columns) + unit(e)) / columns),
-                            .seed = e()});
+            jobs.push_back(
+                {.wo = wo,
+                 .wi = direction((static_cast<float>(b / columns) + unit(e)) / rows,
+                                 2 * std::numbers::pi_v<float> * (static_cast<float>(b % columns) + unit(e)) / columns),
+                 .seed = e()});
     const ParamSet set = params_of(m);
     const auto answers = lab.run({&set, 1}, jobs);
     for (std::size_t i = 0; i < draws; ++i) {
@@ -92,10 +94,10 @@ void against_brute_force(BsdfLab& lab, const ref::LayeredModel& m, Engine& e, do
     for (std::size_t b = 0; b < bins; ++b) {
         for (std::size_t p = 0; p < points; ++p)
             evaluated[b].add(luminance(answers[draws + b * points + p].eval) * solid);
-        const double s1 = sigmas(brute[b], walks, sampled[b], draws), s2 = sigmas(brute[b], walks, evaluated[b], points);
+        const double s1 = sigmas(brute[b], walks, sampled[b], draws),
+                     s2 = sigmas(brute[b], walks, evaluated[b], points);
         worst = std::max({worst, s1, s2});
-        if (brute[b].mean(walks) * walks > 30)
-            chi2 += s1 * s1 + s2 * s2, terms += 2;
+        if (brute[b].mean(walks) * walks > 30) chi2 += s1 * s1 + s2 * s2, terms += 2;
         total_brute += brute[b].mean(walks), total_eval += evaluated[b].mean(points);
         var += brute[b].variance(walks) + evaluated[b].variance(points);
     }
@@ -141,9 +143,21 @@ TEST_CASE("coatedconductor: eval and sample against brute force", "[materials]")
         {.coat = {0, 0}, .metal = true, .ior = copper, .base = {0.3, 0.3}},
         {.coat = {0.3, 0.3}, .metal = true, .ior = copper, .base = {0, 0}},
         {.coat = {0.3, 0.3}, .metal = true, .ior = copper, .base = {0.2, 0.5}},
-        {.coat = {0.15, 0.4}, .eta = 2, .thickness = 0.1, .max_depth = 20, .metal = true, .ior = {1.1, 2}, .base = {0.4, 0.4}},
+        {.coat = {0.15, 0.4},
+         .eta = 2,
+         .thickness = 0.1,
+         .max_depth = 20,
+         .metal = true,
+         .ior = {1.1, 2},
+         .base = {0.4, 0.4}},
         {.coat = {0, 0}, .thickness = 0.5, .albedo = 0.8, .g = 0.5, .metal = true, .ior = copper, .base = {0, 0}},
-        {.coat = {0.3, 0.3}, .thickness = 0.8, .albedo = 0.8, .g = 0.3, .metal = true, .ior = copper, .base = {0.3, 0.3}},
+        {.coat = {0.3, 0.3},
+         .thickness = 0.8,
+         .albedo = 0.8,
+         .g = 0.3,
+         .metal = true,
+         .ior = copper,
+         .base = {0.3, 0.3}},
     };
     for (const ref::LayeredModel& m : models)
         against_brute_force(lab, m, e, chi2, terms);
@@ -192,13 +206,14 @@ TEST_CASE("coateddiffuse: the closed form of a smooth clear coat against its int
         double series = 0;
         for (int k = 0; 2 * k < m.max_depth; ++k) // events 0, 2, 4, ... are at the base
             series += std::pow(m.reflectance * returned[jobs[i].config], k);
-        const double expected = passes(jobs[i].wo[2]) * passes(jobs[i].wi[2]) * m.reflectance / (ref::pi * m.eta * m.eta) *
-                                series * jobs[i].wi[2];
+        const double expected = passes(jobs[i].wo[2]) * passes(jobs[i].wi[2]) * m.reflectance /
+                                (ref::pi * m.eta * m.eta) * series * jobs[i].wi[2];
         const double error = std::abs(answers[i].eval[0] - expected) / (expected + 1e-6);
         worst = std::max(worst, error);
         if (error > 1e-3)
-            UNSCOPED_INFO("relative error " << error << ", expected " << expected << "\n  " << describe(jobs[i], answers[i])
-                                            << "\n  " << describe(configs[jobs[i].config]));
+            UNSCOPED_INFO("relative error " << error << ", expected " << expected << "\n  "
+                                            << describe(jobs[i], answers[i]) << "\n  "
+                                            << describe(configs[jobs[i].config]));
     }
     CHECK(worst < 1e-3);
 }

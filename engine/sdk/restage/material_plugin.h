@@ -8,13 +8,13 @@
 #include <restage/material.h>
 #include <string.h>
 
-#define RESTAGE_MATERIAL_PLUGIN(plugin_id, plugin_version, table)                                                      \
-    static const void* restage_query(const char* id, uint32_t index) {                                                 \
-        return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? &(table) : NULL;                                     \
-    }                                                                                                                  \
-    RESTAGE_EXPORT extern const RestagePlugin restage_plugin;                                                          \
-    const RestagePlugin restage_plugin = {RESTAGE_ABI, sizeof(RestagePlugin), plugin_id, plugin_version,               \
-                                          NULL,        NULL,                  restage_query};
+#define RESTAGE_MATERIAL_PLUGIN(plugin_id, plugin_version, table)                                              \
+    static const void* restage_query(const char* id, uint32_t index) {                                         \
+        return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? &(table) : NULL;                             \
+    }                                                                                                          \
+    RESTAGE_EXPORT extern const RestagePlugin restage_plugin;                                                  \
+    const RestagePlugin restage_plugin = {RESTAGE_ABI, sizeof(RestagePlugin), plugin_id, plugin_version, NULL, \
+                                          NULL,        restage_query};
 
 /* Number of lines of a parameter table. */
 #define RESTAGE_COUNT(table) ((uint32_t)(sizeof(table) / sizeof((table)[0])))

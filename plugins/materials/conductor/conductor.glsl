@@ -30,7 +30,8 @@ float conductor_pdf(conductor_Params m, vec3 wo, vec3 wi) {
         return 0.0;
     wo.z = abs(wo.z);
     wi.z = abs(wi.z);
-    return microfacet_d(normalize(wo + wi), alpha, m.distribution) / (4.0 * microfacet_sigma(wo, alpha, m.distribution));
+    float sigma_o = microfacet_sigma(wo, alpha, m.distribution);
+    return microfacet_d(normalize(wo + wi), alpha, m.distribution) / (4.0 * sigma_o);
 }
 
 BsdfSample conductor_sample(conductor_Params m, vec3 wo, vec3 u) {

@@ -5,7 +5,9 @@
 #include "lib/microfacet.glsl"
 #include "lib/sampling.glsl"
 
-vec2 substrate_alpha(substrate_Params m) { return max(alpha_from_roughness(m.uroughness, m.vroughness, m.remap), 1e-3); }
+vec2 substrate_alpha(substrate_Params m) {
+    return max(alpha_from_roughness(m.uroughness, m.vroughness, m.remap), 1e-3);
+}
 
 // x -> 1 - (1 - x / 2)^5
 float substrate_fade(float x) {
@@ -50,7 +52,9 @@ BsdfSample substrate_sample(substrate_Params m, vec3 wo, vec3 u) {
     return BsdfSample(vec3(wi.xy, wo.z < 0.0 ? -wi.z : wi.z), weight, pdf, BSDF_REFLECT, 1.0);
 }
 
+// Of the diffuse part exactly (28/23 is there to make it so), of the specular part without its loss at high roughness.
 vec3 substrate_albedo(substrate_Params m, vec3 wo) {
-    vec3 f = fresnel_schlick(clamp(m.ks, vec3(0), vec3(1)), abs(wo.z));
-    return f + (1.0 - f) * clamp(m.kd, vec3(0), vec3(1));
+    vec3 ks = clamp(m.ks, vec3(0), vec3(1));
+    vec3 diffuse = clamp(m.kd, vec3(0), vec3(1)) * (1.0 - ks) * substrate_fade(abs(wo.z));
+    return diffuse + fresnel_schlick(ks, abs(wo.z));
 }

@@ -52,8 +52,8 @@ BsdfSample translucent_sample(translucent_Params m, vec3 wo, vec3 u) {
     if (u.z < p.x) {
         float pdf;
         u.z /= p.x;
-        if (rough_dielectric_sample(vec3(wo.xy, side * wo.z), translucent_alpha(m), eta, DISTRIBUTION_GGX, u, wi, pdf) <=
-            0.0)
+        vec3 v = vec3(wo.xy, side * wo.z);
+        if (rough_dielectric_sample(v, translucent_alpha(m), eta, DISTRIBUTION_GGX, u, wi, pdf) <= 0.0)
             return BSDF_NONE;
     } else {
         wi = sample_cosine_hemisphere(u.xy);

@@ -57,7 +57,8 @@ BsdfSample uber_sample(uber_Params m, vec3 wo, vec3 u) {
     vec4 p = uber_choice(m, fresnel);
     vec3 wi;
     if (u.z < p.x + p.y) {
-        wi = u.z < p.x ? sample_cosine_hemisphere(u.xy) : normalize(reflect_about(v, ggx_sample(v, uber_alpha(m), u.xy)));
+        wi = u.z < p.x ? sample_cosine_hemisphere(u.xy)
+                       : normalize(reflect_about(v, ggx_sample(v, uber_alpha(m), u.xy)));
         if (wi.z <= 0.0)
             return BSDF_NONE;
         wi.z *= side;
