@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bench.json as a page: docs/bench/README.md, with charts beside it."""
+import statistics
+
+import charts
+import fit
+
+
+def spread(values, form="{:.2f}"):
+    """Median, and from where to where."""
+    low, high, middle = (form.format(f(values)) for f in (min, max, statistics.median))
+    return middle if low == high else f"{middle} ({low}–{high})"
+
+
+def column(runs, key):
+    return [r[key] for r in runs]
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(str(c) for c in line) + " |" for line in lines) + "\n"
+
+
+def rays(f):
+    runs = f["runs"]
+    rows = [
+        ["M rays / s, wall (target 2.0)", spread(column(runs, "mrays_wall"))],
+        ["M rays / CPU-s", spread(column(runs, "mrays_cpu"))],
+        ["plain Embree loop, same rays: M rays / CPU-s", spread(column(runs, "plain_mrays_cpu"))],
+        ["whole frame / plain Embree loop, CPU time", spread(column(runs, "frame_over_plain"))],
+        ["share of wall time in kernels (shading)", spread(column(runs, "share_shading"))],
+        ["share of wall time in the CPU pass (tracing)", spread(column(runs, "share_tracing"))],
+    ]
+    return ("## Rays a second\n\nA closed room with 20 instances of a mesh of 199,692 triangles (diffuse, GGX conductor, glass), "
+            f"5 bounces, 512x512, {f['samples']} samples a pixel, {f['threads']} threads; closest-hit and shadow rays are counted. "
+            f"The plain loop traces the {f['rays_recorded']:,} rays of one sample a pixel, as the engine sent them to Embree, "
+            "again with `rtcIntersect1` and `rtcOccluded1` and nothing else: the frame's ratio to it is what everything but "
+            "Embree costs.\n\n" + table(["", "median (min–max)"], rows))
+
+
+def edits(f):
+    rows = []
+    for e in f["edits"]:
+        r = e["runs"]
+        rows.append([e["edit"], spread([1000 * x for x in column(r, "wall")], "{:.1f}"),
+                     spread([1000 * x for x in column(r, "cpu")], "{:.1f}"), spread(column(r, "uploaded_bytes"), "{:.0f}"),
+                     max(column(r, "pipelines")), max(column(r, "mesh_structures_built"))])
+    return (f"## Edits\n\nOne of {f['instances']} instances of a mesh of 20,172 triangles is edited: from the edit until the next sample "
+            "can start. Target: 20 ms.\n\n" + table(["edit", "ms, wall", "ms, CPU", "bytes uploaded", "pipelines made", "mesh BVHs built"], rows))
+
+
+def features(f):
+    base = statistics.median(column(f["alone"]["seconds_a_sample"], "cpu"))
+    names = {"alone": "Cornell box alone", "types": "and every material type, where no ray goes",
+             "features": "and every feature: environment, lens, medium, filter table, texture and bump", "all": "both"}
+    rows = []
+    for key, name in names.items():
+        v = f[key]
+        cpu = column(v["seconds_a_sample"], "cpu")
+        rows.append([name, v["types"], spread([1000 * x for x in cpu], "{:.0f}"), f"{statistics.median(cpu) / base:.2f}",
+                     f"{v['spirv_bytes'] / 1024:.0f}", f"{v['machine_code_cache_bytes'] / 1024:.0f}",
+                     f"{v['first_sample_cpu_cold']:.1f}", f"{v['first_sample_cpu']:.1f}"])
+    return ("## A scene pays only for what it uses\n\nCornell box, diffuse, 512x512, 5 bounces. The additions hardly change the "
+            "picture: what they cost is what the scene would pay for things it does not need.\n\n" +
+            table(["scene", "material types", "CPU ms a sample a pixel", "ratio", "SPIR-V KiB", "Mesa's cache KiB",
+                   "first sample, cold, CPU-s", "warm, CPU-s"], rows))
+
+
+def first_image(f):
+    rows = [["warm caches (target 5 s)", spread(column(f["warm"], "wall")), spread(column(f["warm"], "cpu"))],
+            ["cold caches", spread(column(f["cold"], "wall")), spread(column(f["cold"], "cpu"))]]
+    stages = [[k, f"{v['wall']:.2f}", f"{v['cpu']:.2f}"] for k, v in f["stages_warm"].items() if isinstance(v, dict)]
+    return ("## First image of the kitchen\n\nFrom process start to the written file, 1 sample a pixel, 640x360.\n\n" +
+            table(["", "s, wall", "CPU-s"], rows) + "\nWhere it goes (warm, one run):\n\n" + table(["stage", "s, wall", "CPU-s"], stages))
+
+
+PEERS = """Context, measured once on a similar machine (2 shared cores, AVX-512; +-30 % between runs, so not a ratio of one run):
+Mitsuba 3.9.1 `llvm_ad_rgb` 1.25 / 0.14 M samples a CPU-second (cornell / room) and 0.051 / 3.17 relMSE x CPU-s; its `scalar_rgb`
+0.41 / 0.087; Cycles 5.0.1 0.23 / 0.07 and 0.20 / 4.6; pbrt-v4 0.18 / 0.045 and 0.65 / 15; LuxCore 2.11 0.13 / 0.077. Our room has the
+same layout, lights, materials and triangle count, but its spheres are displaced by another formula.
+"""
+
+
+def standard(f):
+    rows = []
+    for name, v in f.items():
+        r = v["runs"]
+        rows.append([name, spread(column(r, "msamples_cpu")), spread(column(r, "mrays_cpu")), spread(column(r, "rel_mse"), "{:.4f}"),
+                     spread(column(r, "rel_mse_cpu_seconds"), "{:.3f}"), v["reference_samples"], f"{v['reference_noise']:.1e}"])
+    return ("## Standard scenes\n\n512x512 at 16 samples a pixel; cornell with 6 path edges, room with 8. relMSE is to a picture of "
+            "our own in two halves, whose noise is known and subtracted.\n\n" +
+            table(["scene", "M samples / CPU-s", "M rays / CPU-s", "relMSE", "relMSE x CPU-s", "reference spp", "its noise"], rows) + "\n" + PEERS)
+
+
+def error(f):
+    rows = []
+    for name, scene in f.items():
+        for config, points in fit.curves(scene).items():
+            exponent, floor = fit.power_law(points)
+            at = {p["samples"]: p for p in points}
+            chosen = at.get(16) or points[-1]
+            rows.append([name, config, f"{chosen['samples']}: {chosen['error']:.4f}", f"{chosen['cpu']:.1f}",
+                         f"{chosen['error'] * chosen['cpu']:.3f}", f"{exponent:.2f}", f"{floor:.1e}", f"{scene['reference_noise']:.1e}"])
+    notes = "".join(f"\n{name} is not denoised: {scene['not_denoised']}\n" for name, scene in f.items() if "not_denoised" in scene)
+    return ("## Error against samples and time\n\nrelMSE to pbrt-v4's pictures (mean of the two halves), brightest 0.1 % clipped alike, "
+            "median of the seeds. Nothing is subtracted: curves end on a floor made of the reference's own noise (last column) and of "
+            "what is not alike (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has p = 1, stratified "
+            "samples more where the picture is smooth; a denoised picture less, for its bias.\n\n![error against samples](error_samples.svg)\n\n"
+            "![error against CPU time](error_time.svg)\n\n" +
+            table(["scene", "strategy", "samples: relMSE", "CPU-s", "product", "p", "fitted floor", "reference noise"], rows) + notes)
+
+
+SECTIONS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "standard": standard, "error": error}
+
+
+def write(data, folder):
+    m = data["machine"]
+    text = ["# Measurements\n\nWritten by `make bench` (tests/bench/run.py) from bench.json; not by hand. Every figure is the median of its "
+            "runs, with the smallest and largest; ratios are of runs in one process. CPU time counts all threads of the process, "
+            "so it means something on a busy machine too.\n\n"
+            f"Machine: {m['cpu']}, {m['cores']} cores, {m['vector']}; {m['system']}; Mesa {m['mesa']}; Embree {m['embree']}; "
+            f"Restage {m['restage']} at {m['commit']}.\n"]
+    for name, section in SECTIONS.items():
+        row = data["rows"].get(name)
+        if row is None:
+            text.append(f"## {name.replace('_', ' ')}\n\nNot measured: it needs RESTAGE_SCENES and RESTAGE_REFERENCES.\n")
+            continue
+        quick = "; a quick look, not the full measurement" if row["quick"] else ""
+        text.append(section(row["figures"]) + f"\nMeasured {row['date']}, load average before it {row['load_before']}{quick}.\n")
+    if "error" in data["rows"]:
+        charts.error_charts(data["rows"]["error"]["figures"], folder)
+    (folder / "README.md").write_text("\n".join(text))

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Measures Restage and writes docs/bench: bench.json (all figures), README.md (a table) and charts as SVG.
+
+Scenes come from RESTAGE_SCENES and references from RESTAGE_REFERENCES; rows that need them are left out without.
+Every figure is the median of its runs; ratios are of runs in one process. CPU time counts all threads.
+"""
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import machine
+import report
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = ["kitchen", "living-room", "veach-mis"]
+
+
+class Bench:
+    """Runs the measuring program; remembers how."""
+
+    def __init__(self, args):
+        self.restage = args.restage
+        self.program = args.restage.parent / "restage_bench"
+        self.options = ["--runs", str(args.runs)] + (["--quick"] if args.quick else [])
+        self.quick, self.runs = args.quick, args.runs
+        self.cache = ROOT / "build/bench-references"
+        if not self.program.exists():
+            sys.exit(f"{self.program} is not there; build it: ninja restage_bench in the build folder")
+
+    def measure(self, *command, env=None):
+        """One call of restage_bench: its JSON."""
+        done = subprocess.run([str(self.program), *self.options, *map(str, command)], capture_output=True, text=True,
+                              env={**os.environ, **(env or {})})
+        if done.returncode:
+            sys.exit(f"restage_bench {' '.join(map(str, command))}: {done.stderr.strip()}")
+        return json.loads(done.stdout)
+
+
+def folder_of(variable):
+    path = os.environ.get(variable)
+    return pathlib.Path(path) if path else None
+
+
+def rays(bench):
+    return bench.measure("rays")
+
+
+def edits(bench):
+    return bench.measure("edits")
+
+
+def features(bench):
+    """Each variant with a cold cache once, for its machine code, and then measured warm; variants take turns."""
+    rows = {}
+    for variant in ("alone", "types", "features", "all"):
+        with tempfile.TemporaryDirectory() as cache:
+            env = {"RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
+            cold = bench.measure("features", variant, env=env)
+            code = sum(f.stat().st_size for f in pathlib.Path(cache, "mesa").rglob("*") if f.is_file() and f.name != "index")
+            warm = bench.measure("features", variant, env=env)
+        rows[variant] = {**warm, "machine_code_cache_bytes": code, "first_sample_wall_cold": cold["first_sample_wall"],
+                         "first_sample_cpu_cold": cold["first_sample_cpu"]}
+    return rows
+
+
+def first_image(bench):
+    """The program itself, from process start; then where the time goes."""
+    scenes = folder_of("RESTAGE_SCENES")
+    if not scenes:
+        return None
+    scene = scenes / "kitchen/scene.pbrt"
+    with tempfile.TemporaryDirectory() as folder:
+        def once(cache):
+            env = {**os.environ, "RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
+            before, start = os.times(), time.monotonic()
+            subprocess.run([str(bench.restage), "-q", "render", str(scene), "-o", f"{folder}/image.exr", "--spp", "1", "--size",
+                            "640x360", "--tracer", "embree"], check=True, env=env, stdout=subprocess.DEVNULL)
+            wall, after = time.monotonic() - start, os.times()
+            return {"wall": wall, "cpu": after.children_user + after.children_system - before.children_user - before.children_system}
+
+        cold = [once(f"{folder}/cold{i}") for i in range(1 if bench.quick else bench.runs)]
+        warm = [once(f"{folder}/cold0") for _ in range(bench.runs)]
+        env = {"RESTAGE_CACHE_DIR": f"{folder}/cold0", "MESA_SHADER_CACHE_DIR": f"{folder}/cold0/mesa"}
+        return {"target_seconds": 5, "cold": cold, "warm": warm, "stages_warm": bench.measure("first-image", scene, env=env)}
+
+
+def standard(bench):
+    spp = {"cornell": 64, "room": 64} if bench.quick else {"cornell": 1024, "room": 256}
+    return {name: bench.measure("standard", name, "--folder", bench.cache, "--reference-spp", spp[name]) for name in spp}
+
+
+def error(bench):
+    scenes, references = folder_of("RESTAGE_SCENES"), folder_of("RESTAGE_REFERENCES")
+    if not scenes or not references:
+        return None
+    return {name: bench.measure("error", scenes / name / "scene.pbrt", references / f"{name}.1.exr", references / f"{name}.2.exr")
+            for name in (SCENES[-1:] if bench.quick else SCENES)}
+
+
+ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "standard": standard, "error": error}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--restage", type=pathlib.Path, default=ROOT / "build/bin/restage", help="the program; restage_bench is beside it")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/bench")
+    parser.add_argument("--only", nargs="+", choices=ROWS, help="measure these rows again, keep the others of bench.json")
+    parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")
+    parser.add_argument("--quick", action="store_true", help="a look in two minutes: fewer runs, samples and scenes")
+    parser.add_argument("--report", action="store_true", help="measure nothing, write table and charts from bench.json")
+    args = parser.parse_args()
+    args.runs = args.runs or (1 if args.quick else 3)
+    args.out.mkdir(parents=True, exist_ok=True)
+    file = args.out / "bench.json"
+    keep = args.only or args.report
+    data = json.loads(file.read_text()) if keep and file.exists() else {"rows": {}}
+    if not args.report:
+        bench = Bench(args)
+        data["machine"] = machine.describe(args.restage)
+        for name in args.only or ROWS:
+            start = time.monotonic()
+            load = os.getloadavg()[0]
+            figures = ROWS[name](bench)
+            if figures is None:
+                print(f"{name}: left out, RESTAGE_SCENES or RESTAGE_REFERENCES is not set", flush=True)
+                data["rows"].pop(name, None)
+                continue
+            data["rows"][name] = {"date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
+                                  "load_before": round(load, 1), "quick": args.quick, "figures": figures}
+            print(f"{name}: measured in {time.monotonic() - start:.0f} s", flush=True)
+            file.write_text(json.dumps(data, indent=1) + "\n")
+    report.write(data, args.out)
+    print(f"written: {args.out}")
+
+
+if __name__ == "__main__":
+    main()
