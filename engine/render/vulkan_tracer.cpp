@@ -12,6 +12,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
+#include <utility>
 
 namespace restage::render {
 namespace {
@@ -53,7 +54,9 @@ public:
         if (grown) {
             RESTAGE_TRY(tlas_, gpu::Tlas::create(c_.device, n + n / 2, "instances"));
         }
-        if (!grown && changes.instances.empty() && changes.meshes.empty())
+        // fewer: a larger scene was forgotten, and with it the meshes that the acceleration structure points at
+        const bool resized = n != std::exchange(instances_, n);
+        if (!grown && !resized && changes.instances.empty() && changes.meshes.empty())
             return {};
         tlas_.resize(n);
         if (grown)
@@ -240,6 +243,7 @@ private:
     bool pipeline_ready_ = false, guides_on_ = false;
     Strategy strategy_ = Strategy::mis;
     gpu::CommandList list_;
+    std::uint32_t instances_ = 0;    // in tlas_
     std::uint32_t paths_now_ = 1024; // a submission
 };
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skies: a sun of one pixel is found, turns as pbrt's convention says, and is as bright in both mappings.
+#include "render/checks.hpp"
+
+#include <catch2/generators/catch_generators.hpp>
+
+using namespace restage;
+using namespace restage::tests;
+constexpr double pi = std::numbers::pi;
+
+namespace {
+
+struct Mapping {
+    RestageMapping kind;
+    std::uint32_t width, height;
+
+    // pbrt-v3, InfiniteAreaLight (z up); pbrt-v4, EqualAreaSquareToSphere. u, v in [0,1], row 0 is v = 0.
+    glm::dvec3 direction(double u, double v) const {
+        if (kind == RESTAGE_EQUIRECT) {
+            const double theta = pi * v, phi = 2 * pi * u;
+            return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+        }
+        const double x = 2 * u - 1, y = 2 * v - 1, a = std::abs(x), b = std::abs(y), d = 1 - (a + b),
+                     r = 1 - std::abs(d);
+        const double phi = (r == 0 ? 1 : (b - a) / r + 1) * pi / 4, z = std::copysign(1 - r * r, d),
+                     s = r * std::sqrt(2 - r * r);
+        return {std::copysign(std::cos(phi), x) * s, std::copysign(std::sin(phi), y) * s, z};
+    }
+    // Integral of f(direction) over a texel's solid angle.
+    template <class F>
+    double integrate(std::uint32_t x, std::uint32_t y, F&& f) const {
+        const int n = 16;
+        double sum = 0;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                const double u = (x + (i + 0.5) / n) / width, v = (y + (j + 0.5) / n) / height;
+                const double area = kind == RESTAGE_EQUIRECT ? 2 * pi * pi * std::sin(pi * v) : 4 * pi;
+                sum += f(direction(u, v)) * area / (double(width) * height * n * n);
+            }
+        return sum;
+    }
+};
+
+const Mapping equirect{RESTAGE_EQUIRECT, 512, 256}, octahedral{RESTAGE_OCTAHEDRAL, 256, 256};
+
+// The texel that holds a direction.
+glm::uvec2 texel_of(const Mapping& m, glm::dvec3 w) {
+    glm::uvec2 best(0);
+    double most = -2;
+    for (std::uint32_t y = 0; y < m.height; ++y)
+        for (std::uint32_t x = 0; x < m.width; ++x)
+            if (const double c = glm::dot(w, m.direction((x + 0.5) / m.width, (y + 0.5) / m.height)); c > most) {
+                most = c;
+                best = {x, y};
+            }
+    return best;
+}
+
+void set_sky(SceneBuilder& b, const Mapping& m, std::vector<float> values, const glm::dmat4& turn) {
+    b.scene.environment = {scene::Environment{.name = "sky",
+                                              .image = b.image(m.width, m.height, 1, std::move(values)),
+                                              .mapping = m.kind,
+                                              .light_to_world = turn},
+                           ++b.scene.clock};
+}
+
+} // namespace
+
+TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    for (const auto strategy : {render::Strategy::mis, render::Strategy::light_only}) {
+        render::RendererOptions options;
+        options.strategy = strategy;
+        const auto renderer = make_renderer(tracer, options);
+        for (const Mapping& m : {equirect, octahedral})
+            for (const auto& [toward, turn] :
+                 {std::pair{glm::dvec3(0.5, 0.3, 0.8), glm::dmat4(1)},
+                  {glm::dvec3(-0.6, 0.5, 0.4), glm::rotate(glm::dmat4(1), 2.2, glm::dvec3(1, 0.5, 0.2))},
+                  {glm::dvec3(0.01, -0.005, 1), glm::dmat4(1)}, // in the row at the pole
+                  {glm::dvec3(0.5, 0.3, 0.8),
+                   glm::scale(glm::rotate(glm::dmat4(1), -0.3, glm::dvec3(0, 1, 1)), glm::dvec3(-30))}}) {
+                const glm::dmat3 rotation(glm::dvec3(turn[0]) / glm::length(glm::dvec3(turn[0])),
+                                          glm::dvec3(turn[1]) / glm::length(glm::dvec3(turn[1])),
+                                          glm::dvec3(turn[2]) / glm::length(glm::dvec3(turn[2])));
+                const auto at = texel_of(m, glm::normalize(glm::transpose(rotation) * toward));
+                const double geometry =
+                    m.integrate(at.x, at.y, [&](const glm::dvec3& w) { return std::max(0.0, (rotation * w).z); });
+                REQUIRE(geometry > 0);
+                const double dim = 0.01, bright = 1 / geometry; // of the sun comes an irradiance of 1, of the sky 0.03
+                std::vector<float> sky(std::size_t(m.width) * m.height, float(dim));
+                sky[std::size_t(at.y) * m.width + at.x] = float(bright);
+                SceneBuilder b;
+                look_down(b);
+                ground(b, 0.8f);
+                set_sky(b, m, std::move(sky), turn);
+                b.scene.settings.value.max_depth = 1;
+                renderer->forget_scene();
+                const auto image = render_image(*renderer, b.scene, 64);
+                INFO(tracer << (strategy == render::Strategy::mis ? ", mis, " : ", light sampling, ")
+                            << (m.kind == RESTAGE_EQUIRECT ? "equirect" : "octahedral") << ", sun at texel " << at.x
+                            << ", " << at.y);
+                // tight: the sun gives nearly each sample the same value
+                check_mean(image, 0.8 / pi * (pi * dim + (bright - dim) * geometry), 5e-4);
+                CHECK(mean_luminance(image).std_error < 0.002);
+            }
+    }
+}
+
+TEST_CASE("one sky in both mappings gives one irradiance") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const auto renderer = make_renderer(tracer);
+    const auto radiance = [](const glm::dvec3& w) {
+        return 1 + 0.7 * w.x - 0.5 * w.y * w.z +
+               4 * std::pow(std::max(0.0, glm::dot(w, glm::normalize(glm::dvec3(1, 2, 2)))), 20);
+    };
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), 0.8, glm::dvec3(0.2, 1, 0.1));
+    double expected = 0; // irradiance by quadrature over the upper hemisphere
+    const int n = 400;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const double s2 = (j + 0.5) / n, phi = 2 * pi * (i + 0.5) / n; // uniform in the projected disk
+            const glm::dvec3 w(std::sqrt(s2) * std::cos(phi), std::sqrt(s2) * std::sin(phi), std::sqrt(1 - s2));
+            expected += radiance(glm::transpose(glm::dmat3(turn)) * w) * pi / (n * n);
+        }
+    for (const Mapping& m : {Mapping{RESTAGE_EQUIRECT, 128, 64}, Mapping{RESTAGE_OCTAHEDRAL, 96, 96}}) {
+        std::vector<float> sky;
+        for (std::uint32_t y = 0; y < m.height; ++y)
+            for (std::uint32_t x = 0; x < m.width; ++x)
+                sky.push_back(
+                    float(m.integrate(x, y, radiance) / m.integrate(x, y, [](const glm::dvec3&) { return 1.0; })));
+        SceneBuilder b;
+        look_down(b);
+        ground(b, 0.8f);
+        set_sky(b, m, std::move(sky), turn);
+        renderer->forget_scene();
+        INFO(tracer << (m.kind == RESTAGE_EQUIRECT ? ", equirect" : ", octahedral"));
+        check_mean(render_image(*renderer, b.scene, 256), 0.8 / pi * expected, 1e-3);
+    }
+}
