@@ -11,7 +11,7 @@ else()
         -Wno-missing-field-initializers
         $<$<BOOL:${RESTAGE_WERROR}>:-Werror>)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-        # GCC bug 105651: false positives inside std::string of GCC 12.
-        target_compile_options(restage_warnings INTERFACE -Wno-restrict)
+        # GCC bug 105651, and its like for std::optional and std::variant: false positives inside std::string of GCC 12.
+        target_compile_options(restage_warnings INTERFACE -Wno-restrict $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
     endif()
 endif()

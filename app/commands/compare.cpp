@@ -46,6 +46,10 @@ Result<std::optional<io::Estimate>> load_estimate(const std::string& path, const
     const std::ptrdiff_t y = index("Y"), rgb[3] = {index("R"), index("G"), index("B")};
     if (y == count && (rgb[0] == count || rgb[1] == count || rgb[2] == count)) return std::nullopt;
     io::Estimate estimate{.width = image.width, .height = image.height, .luminance = io::luminance(image)};
+    // Errors are those of the path-traced picture; where it was denoised, that is layer "noisy".
+    if (const io::ExrLayer* noisy = exr.find("noisy"); noisy && noisy->channels.size() == 3 && !noisy->values.empty())
+        estimate.luminance =
+            io::luminance({.width = exr.width, .height = exr.height, .channels = 3, .values = noisy->values});
     for (std::size_t i = 0; i < estimate.luminance.size(); ++i) {
         const float* errors = &layer->values[i * layer->channels.size()];
         float error = 0; // of luminance: its own channel, else the bound for channels that are wrong together
@@ -147,7 +151,8 @@ Result<int> run(const Options& options, Log& log) {
     RESTAGE_TRY(const std::optional<io::Estimate> estimate_a, load_estimate(options.a, a));
     RESTAGE_TRY(const Reference b, load_reference(options, log));
     const auto comparison = io::compare_images(a, b.image, options.compare);
-    if (!comparison) return fail(options.a + ", " + (options.halves.empty() ? options.b : options.halves[0]), comparison.error());
+    if (!comparison)
+        return fail(options.a + ", " + (options.halves.empty() ? options.b : options.halves[0]), comparison.error());
     std::optional<io::ZTest> z;
     if (estimate_a && b.estimate) {
         RESTAGE_TRY(z, io::z_test(*estimate_a, *b.estimate));

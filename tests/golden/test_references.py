@@ -49,4 +49,8 @@ def test_v3_file_agrees_with_v4(name, tmp_path, monkeypatch):
     assert abs(row["luminance_percent"]) < V3_LIMITS.get(name, 5.0)
 
 
-V3_LIMITS = {}  # a scene whose v3 materials explain more than 5 %, with the reason in docs/accuracy.md
+# Where the v3 file is another picture than the v4 one, with the reason (docs/accuracy.md).
+V3_LIMITS = {
+    "coffee": 30.0,            # v3 substrate: no light is lost under the coat
+    "material-testball": 60.0, # the v3 file has a plain grey floor where the v4 one has a checkerboard
+}

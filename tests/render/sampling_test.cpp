@@ -140,6 +140,41 @@ TEST_CASE("alias table: what it draws is its pmf, whatever the weights") {
     CHECK(render::make_alias_table(std::vector<double>{}).empty());
 }
 
+TEST_CASE("alias table: the shader draws by the pmf from many entries too") {
+    // One entry has 99 % of the weight; the other 131071 share the rest. With 24-bit numbers, what is left of the one
+    // that chose among them has 7 bits, too coarse for their 1 %: the sampler gives the shader a second one.
+    constexpr std::uint32_t n = 1 << 17, draws = 1 << 20;
+    std::vector<double> weights(n, 0.01 / (n - 1));
+    weights[12345] = 0.99;
+    const auto table = render::make_alias_table(weights);
+    const auto buffer = lab().device().create_buffer_of<shared::AliasEntry>(table, "alias table");
+    REQUIRE(buffer);
+    std::vector<std::uint32_t> indices(draws);
+    for (std::uint32_t i = 0; i < draws; ++i)
+        indices[i] = i;
+    struct Drawn {
+        std::uint32_t index;
+        float left;
+    };
+    const auto drawn = lab().run<Drawn, std::uint32_t>(
+        "#include \"lib/light.glsl\"\n#include \"lib/sampler.glsl\"\nstruct Drawn { uint index; float left; };", "uint",
+        "Drawn",
+        "result.left = sample_pair(9u, x, pair_lobe(0u)).y;"
+        "result.index = alias_pick(root, 131072u, sample_pair(9u, x, pair_light_pick(0u)).x, result.left);",
+        indices, buffer->address());
+    double dim = 0, left = 0;
+    std::size_t wrong = 0;
+    for (const auto& d : drawn) {
+        dim += d.index != 12345;
+        left += d.left / draws;
+        wrong += d.index >= n || d.left < 0 || d.left >= 1;
+    }
+    INFO("dim entries drawn " << dim << " times of " << draws << ", mean of what is left " << left);
+    CHECK(wrong == 0);
+    CHECK(std::abs(dim - 0.01 * draws) < 4 * std::sqrt(0.01 * draws));
+    CHECK(std::abs(left - 0.5) < 4 * 0.29 / std::sqrt(double(draws))); // still uniform
+}
+
 TEST_CASE("light table: chosen by power, and the densities sum to one") {
     SceneBuilder b;
     const auto one = b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
