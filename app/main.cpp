@@ -25,10 +25,12 @@ int run(int argc, char** argv) {
         "Exit codes: 0 done, 1 failed, 2 command line not understood. Data goes to stdout, the log to stderr.");
     program.add_flag_callback("-v,--verbose", [&] { context.log.set_threshold(restage::LogLevel::debug); }, "Log more");
     program.add_flag_callback(
-        "-q,--quiet", [&] {
-        context.log.set_threshold(restage::LogLevel::error);
-        context.quiet = true;
-    }, "Log errors only");
+        "-q,--quiet",
+        [&] {
+            context.log.set_threshold(restage::LogLevel::error);
+            context.quiet = true;
+        },
+        "Log errors only");
     for (auto* add : all_commands)
         add(program, context);
 

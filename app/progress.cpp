@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "progress.hpp"
 
+#include <fmt/format.h>
 #include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fmt/format.h>
 #ifdef _WIN32
 #include <io.h>
 #define isatty _isatty
@@ -18,14 +18,15 @@
 namespace restage::app {
 namespace {
 
-// Lock-free, so a signal handler may use them. A second Ctrl-C ends the program; one that arrives within half a second is
-// the same key press delivered to the process and to its group.
+// Lock-free, so a signal handler may use them. A second Ctrl-C ends the program; one that arrives within half a second
+// is the same key press delivered to the process and to its group.
 std::atomic<bool> interrupt_asked = false;
 std::atomic<std::int64_t> interrupt_time = 0; // [ms]
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
 void on_interrupt(int) {
-    const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch());
+    const auto now =
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch());
     if (!interrupt_asked.exchange(true))
         interrupt_time = now.count();
     else if (now.count() - interrupt_time > 500)
@@ -46,13 +47,11 @@ ProgressBar::ProgressBar(bool quiet)
 ProgressBar::~ProgressBar() { finish(); }
 
 void ProgressBar::show(double done, const std::string& note) {
-    if (quiet_)
-        return;
+    if (quiet_) return;
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - last_).count();
     // Elsewhere than on a terminal only what takes long is worth a line.
-    if (terminal_ ? last_done_ >= 0 && since < 0.1 && done < 1 : since < 10)
-        return;
+    if (terminal_ ? last_done_ >= 0 && since < 0.1 && done < 1 : since < 10) return;
     last_ = now;
     last_done_ = done;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
@@ -69,8 +68,7 @@ void ProgressBar::show(double done, const std::string& note) {
 }
 
 void ProgressBar::finish() {
-    if (open_)
-        std::fputs("\r\033[K", stderr);
+    if (open_) std::fputs("\r\033[K", stderr);
     open_ = false;
 }
 

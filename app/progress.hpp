@@ -8,14 +8,14 @@
 namespace restage::app {
 
 class ProgressBar {
-public:
+  public:
     explicit ProgressBar(bool quiet = false);
     ~ProgressBar(); // ends the line
     // done in [0,1]; `note` stands behind the bar: "12/64 spp"
     void show(double done, const std::string& note);
     void finish();
 
-private:
+  private:
     bool terminal_, quiet_, open_ = false;
     std::chrono::steady_clock::time_point start_, last_;
     double last_done_ = -1;

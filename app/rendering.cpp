@@ -5,11 +5,11 @@
 #include "io/image_file.hpp"
 #include "progress.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
-#include <fmt/format.h>
 #include <string_view>
 
 namespace restage::app {
@@ -22,36 +22,47 @@ double now_seconds() {
 } // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
-    auto* spp = command.add_option("--spp", o.spp, "Samples a pixel (default: what the scene says)")->check(CLI::Range(1u, 1u << 24));
-    auto* time = command.add_option("--time", o.seconds, "Render for S seconds")->check(CLI::PositiveNumber)->excludes(spp);
+    auto* spp = command.add_option("--spp", o.spp, "Samples a pixel (default: what the scene says)")
+                    ->check(CLI::Range(1u, 1u << 24));
+    auto* time =
+        command.add_option("--time", o.seconds, "Render for S seconds")->check(CLI::PositiveNumber)->excludes(spp);
     command.add_option("--error", o.error, "Render until the relative standard error is below E, for example 0.02")
-        ->check(CLI::PositiveNumber)->excludes(spp)->excludes(time);
+        ->check(CLI::PositiveNumber)
+        ->excludes(spp)
+        ->excludes(time);
     command.add_option("--size", o.size, "Film size WxH [pixel] (default: what the scene says)");
     command.add_option("--denoise", o.denoise, "Denoise the result; quality fast, balanced or high (default high)")
-        ->expected(0, 1)->default_str("high")->check(CLI::IsMember({"fast", "balanced", "high"}));
-    command.add_option("--max-depth", o.max_depth, "Longest path (default: what the scene says)")->check(CLI::Range(0, 65534));
+        ->expected(0, 1)
+        ->default_str("high")
+        ->check(CLI::IsMember({"fast", "balanced", "high"}));
+    command.add_option("--max-depth", o.max_depth, "Longest path (default: what the scene says)")
+        ->check(CLI::Range(0, 65534));
     command.add_option("--russian-roulette", o.roulette, "on or off")->check(CLI::IsMember({"on", "off"}));
-    command.add_option("--clamp-direct", o.clamp_direct, "Largest contribution of light seen directly or after no bounce (biased; 0 = off)")
+    command
+        .add_option("--clamp-direct", o.clamp_direct,
+                    "Largest contribution of light seen directly or after no bounce (biased; 0 = off)")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--clamp-indirect", o.clamp_indirect, "Largest contribution after a bounce (biased; 0 = off)")
         ->check(CLI::NonNegativeNumber);
-    command.add_option("--ray-epsilon", o.ray_epsilon, "Offset of ray origins [scene units] (0 = by error bounds, better)")
+    command
+        .add_option("--ray-epsilon", o.ray_epsilon, "Offset of ray origins [scene units] (0 = by error bounds, better)")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--strategy", o.strategy, "How light is found: mis, light or bsdf (for study)")
-        ->check(CLI::IsMember({"mis", "light", "bsdf"}))->capture_default_str();
+        ->check(CLI::IsMember({"mis", "light", "bsdf"}))
+        ->capture_default_str();
     command.add_option("--seed", o.renderer.seed, "Seed of the random numbers")->capture_default_str();
     command.add_option("--tracer", o.renderer.tracer, "embree or vulkan (default: by device)")
         ->check(CLI::IsMember({"embree", "vulkan"}));
     command.add_option("--device", o.renderer.device, "Vulkan device: its number or part of its name");
-    command.add_option("--threads", o.renderer.threads, "Threads of the embree tracer (0 = all)")->capture_default_str();
+    command.add_option("--threads", o.renderer.threads, "Threads of the embree tracer (0 = all)")
+        ->capture_default_str();
     command.add_flag("--validation", o.renderer.validation, "Turn Vulkan's validation layers on");
 }
 
 render::MaterialLookup material_lookup(plugin::Registry& registry) {
     return [&registry](const std::string& type) -> std::optional<render::MaterialPlugin> {
         const auto* entry = registry.find_material(type);
-        if (!entry)
-            return std::nullopt;
+        if (!entry) return std::nullopt;
         return render::MaterialPlugin{entry->table, entry->plugin->folder};
     };
 }
@@ -66,7 +77,8 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
     };
     RESTAGE_TRY(auto imported, io::import_scene(path, context.registry(), options));
     bar.finish();
-    const auto approximated = imported.report.count(RESTAGE_APPROXIMATED), dropped = imported.report.count(RESTAGE_DROPPED);
+    const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
+               dropped = imported.report.count(RESTAGE_DROPPED);
     if (approximated + dropped > 0)
         context.log.warning(fmt::format("{}: {} things approximated, {} dropped; `restage info` lists them", path,
                                         approximated, dropped));
@@ -87,18 +99,12 @@ Result<void> apply_options(const RenderOptions& o, scene::Scene& scene) {
         scene.film = {film, ++scene.clock};
     }
     auto settings = scene.settings.value;
-    if (o.max_depth >= 0)
-        settings.max_depth = std::uint32_t(o.max_depth);
-    if (!o.roulette.empty())
-        settings.russian_roulette = o.roulette == "on";
-    if (o.clamp_direct > 0)
-        settings.clamp_direct = o.clamp_direct;
-    if (o.clamp_indirect > 0)
-        settings.clamp_indirect = o.clamp_indirect;
-    if (o.ray_epsilon > 0)
-        settings.ray_epsilon = o.ray_epsilon;
-    if (!(settings == scene.settings.value))
-        scene.settings = {settings, ++scene.clock};
+    if (o.max_depth >= 0) settings.max_depth = std::uint32_t(o.max_depth);
+    if (!o.roulette.empty()) settings.russian_roulette = o.roulette == "on";
+    if (o.clamp_direct > 0) settings.clamp_direct = o.clamp_direct;
+    if (o.clamp_indirect > 0) settings.clamp_indirect = o.clamp_indirect;
+    if (o.ray_epsilon > 0) settings.ray_epsilon = o.ray_epsilon;
+    if (!(settings == scene.settings.value)) scene.settings = {settings, ++scene.clock};
     return {};
 }
 
@@ -122,28 +128,25 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
         std::string note = fmt::format("{}{} spp", label, renderer.samples());
         if (o.seconds > 0) {
             done = std::min(1.0, elapsed / o.seconds);
-            if (elapsed >= o.seconds)
-                break;
+            if (elapsed >= o.seconds) break;
         } else if (o.error > 0) {
             const double error = renderer.relative_error();
             done = error > 0 ? std::min(1.0, (o.error * o.error) / (error * error)) : 1;
             note += fmt::format(", error {:.4f}", error);
-            if (renderer.samples() >= 8 && error <= o.error)
-                break;
+            if (renderer.samples() >= 8 && error <= o.error) break;
         }
         bar.show(done, note);
         // Batches of about a fifth of a second; and no step past a time target.
         const double per_sample = took / batch;
         double next = 0.2 / std::max(per_sample, 1e-6);
-        if (o.seconds > 0)
-            next = std::min(next, (o.seconds - elapsed) / std::max(per_sample, 1e-6));
+        if (o.seconds > 0) next = std::min(next, (o.seconds - elapsed) / std::max(per_sample, 1e-6));
         batch = std::uint32_t(std::clamp(next, 1.0, 1024.0));
     }
     bar.finish();
     for (const auto& [type, count] : renderer.stats().not_finite)
-        context.log.warning(fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
-    if (interrupted())
-        context.log.warning(fmt::format("stopped after {} samples a pixel", renderer.samples()));
+        context.log.warning(
+            fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
+    if (interrupted()) context.log.warning(fmt::format("stopped after {} samples a pixel", renderer.samples()));
     return {};
 }
 
@@ -154,17 +157,16 @@ Result<Picture> take_picture(Context& context, const RenderOptions& o, const sce
     picture.exposure = scene.film.value.exposure;
     if (!o.denoise.empty()) {
         const auto& denoisers = context.registry().denoisers();
-        if (denoisers.empty())
-            return fail("--denoise: no denoiser plugin is loaded; look at `restage plugins`");
+        if (denoisers.empty()) return fail("--denoise: no denoiser plugin is loaded; look at `restage plugins`");
         const auto quality = o.denoise == "fast"       ? RESTAGE_DENOISE_FAST
                              : o.denoise == "balanced" ? RESTAGE_DENOISE_BALANCED
                                                        : RESTAGE_DENOISE_HIGH;
         ProgressBar bar(context.quiet);
-        RESTAGE_TRY(picture.denoised, render::denoise(picture.film, *denoisers[0].table, quality, o.renderer.threads,
-                                                      [&](double done) {
-                                                          bar.show(done, "denoising");
-                                                          return true;
-                                                      }));
+        RESTAGE_TRY(picture.denoised,
+                    render::denoise(picture.film, *denoisers[0].table, quality, o.renderer.threads, [&](double done) {
+                        bar.show(done, "denoising");
+                        return true;
+                    }));
     }
     return picture;
 }
@@ -192,9 +194,9 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
     };
     const auto& color = picture.denoised ? *picture.denoised : film.color;
     if (!path.ends_with(".exr")) {
-        scene::PixelData pixels{.width = film.width, .height = film.height, .channels = 3, .values = scaled(color, picture.exposure)};
-        if (path.ends_with(".png"))
-            return io::write_png(path, pixels, o.exposure_stops);
+        scene::PixelData pixels{
+            .width = film.width, .height = film.height, .channels = 3, .values = scaled(color, picture.exposure)};
+        if (path.ends_with(".png")) return io::write_png(path, pixels, o.exposure_stops);
         return io::write_image(path, pixels);
     }
     const auto wanted = [&](const char* name) {
@@ -207,19 +209,18 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
         image.layers.push_back({.name = "noisy", .channels = rgb, .values = scaled(film.color, picture.exposure)});
     if (wanted("stderr"))
         image.layers.push_back({.name = "stderr", .channels = rgb, .values = scaled(film.std_error, picture.exposure)});
-    if (wanted("albedo"))
-        image.layers.push_back({.name = "albedo", .channels = rgb, .values = scaled(film.albedo, 1)});
+    if (wanted("albedo")) image.layers.push_back({.name = "albedo", .channels = rgb, .values = scaled(film.albedo, 1)});
     if (wanted("normal"))
         image.layers.push_back({.name = "normal", .channels = {"X", "Y", "Z"}, .values = scaled(film.normal, 1)});
-    if (wanted("depth"))
-        image.layers.push_back({.name = "depth", .channels = {"Z"}, .values = film.depth});
+    if (wanted("depth")) image.layers.push_back({.name = "depth", .channels = {"Z"}, .values = film.depth});
     if (wanted("id")) {
         std::vector<std::uint32_t> ids(film.instance_id.size() * 2);
         for (std::size_t i = 0; i < film.instance_id.size(); ++i) {
             ids[2 * i] = film.instance_id[i];
             ids[2 * i + 1] = film.material_id[i];
         }
-        image.layers.push_back({.name = "id", .channels = {"instance", "material"}, .type = io::ExrType::uint32, .integers = ids});
+        image.layers.push_back(
+            {.name = "id", .channels = {"instance", "material"}, .type = io::ExrType::uint32, .integers = ids});
     }
     return io::write_exr(path, image);
 }

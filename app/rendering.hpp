@@ -16,16 +16,16 @@ namespace restage::app {
 
 struct RenderOptions {
     render::RendererOptions renderer;
-    std::uint32_t spp = 0;     // 0 = what the scene says
-    double seconds = 0;        // > 0: stop then
-    double error = 0;          // > 0: stop at this relative error
-    std::string size;          // WxH
-    std::string denoise;       // "", fast, balanced, high
+    std::uint32_t spp = 0; // 0 = what the scene says
+    double seconds = 0; // > 0: stop then
+    double error = 0; // > 0: stop at this relative error
+    std::string size; // WxH
+    std::string denoise; // "", fast, balanced, high
     std::string strategy = "mis";
     int max_depth = -1;
-    std::string roulette;      // "", on, off
+    std::string roulette; // "", on, off
     float clamp_direct = 0, clamp_indirect = 0; // biased
-    float ray_epsilon = 0;     // 0 = error bounds
+    float ray_epsilon = 0; // 0 = error bounds
 };
 
 // Adds the options of the renderer and the targets to a command.
@@ -53,8 +53,8 @@ Result<Picture> take_picture(Context& context, const RenderOptions& options, con
                              const render::Renderer& renderer);
 
 struct PictureOptions {
-    std::string aovs = "all";  // comma-separated: stderr albedo normal depth id | all | none
-    float exposure_stops = 0;  // PNG only
+    std::string aovs = "all"; // comma-separated: stderr albedo normal depth id | all | none
+    float exposure_stops = 0; // PNG only
     std::map<std::string, std::string> metadata;
 };
 // Before hours are spent: can a picture be written there at all?

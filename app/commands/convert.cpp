@@ -23,8 +23,7 @@ Result<int> run(Context& context, const Options& o) {
     RESTAGE_TRY(const auto imported, open_scene(context, o.input));
     RESTAGE_TRY(const auto report, io::export_scene(imported.scene, o.output, context.registry(), options));
     for (const auto& entry : report.entries)
-        if (entry.fate != RESTAGE_KEPT)
-            context.log.warning(io::to_string(entry));
+        if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
     context.log.info(fmt::format("{}: written", o.output));
     return int(exit_ok);
 }
@@ -37,7 +36,8 @@ void add_convert(CLI::App& program, Context& context) {
     command->add_option("IN", o->input, "Scene file to read")->required();
     command->add_option("OUT", o->output, "Scene file to write")->required();
     command->add_option("--format", o->format, "Format to write (default: by the extension)");
-    command->add_option("--set", o->assignments, "Option of the exporter, for example --set version=v3 (may be repeated)");
+    command->add_option("--set", o->assignments,
+                        "Option of the exporter, for example --set version=v3 (may be repeated)");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage demo: the main job without a window. Opens the bundled scene, edits it through the Session that the editor
-// uses, renders before and after, denoises, writes the edited scene as pbrt, and reads it back to see that it is the same.
+// uses, renders before and after, denoises, writes the edited scene as pbrt, and reads it back to see that it is the
+// same.
 #include "base/file.hpp"
 #include "commands.hpp"
 #include "io/scene_compare.hpp"
@@ -8,8 +9,8 @@
 #include "rendering.hpp"
 #include "session/session.hpp"
 
-#include <cstdio>
 #include <fmt/format.h>
+#include <cstdio>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
@@ -32,14 +33,11 @@ Result<std::vector<Instances>> objects(const scene::Scene& s, std::string_view n
             return;
         Instances parts;
         s.instances.each([&](scene::Id<scene::Instance> i, const scene::Instance& instance) {
-            if (instance.group == id)
-                parts.push_back(i);
+            if (instance.group == id) parts.push_back(i);
         });
-        if (!parts.empty())
-            found.push_back(std::move(parts));
+        if (!parts.empty()) found.push_back(std::move(parts));
     });
-    if (found.empty())
-        return fail(fmt::format("the demo scene has no object \"{}\"", name));
+    if (found.empty()) return fail(fmt::format("the demo scene has no object \"{}\"", name));
     return found;
 }
 
@@ -101,9 +99,12 @@ Result<int> run(Context& context, Options& o) {
         };
         RESTAGE_CHECK(session.open(o.scene, options));
     }
-    RESTAGE_TRY(const auto renderer, render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
-    std::printf("opened    %s: %u objects, %u materials\n", o.scene.c_str(), session.scene().instances.live(), session.scene().materials.live());
-    std::printf("renders   with the %s tracer on %s\n", renderer->tracer_name(), renderer->device().info().name.c_str());
+    RESTAGE_TRY(const auto renderer,
+                render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
+    std::printf("opened    %s: %u objects, %u materials\n", o.scene.c_str(), session.scene().instances.live(),
+                session.scene().materials.live());
+    std::printf("renders   with the %s tracer on %s\n", renderer->tracer_name(),
+                renderer->device().info().name.c_str());
 
     const auto picture = [&](const char* name) -> Result<void> {
         scene::Scene shown = session.scene(); // with this command's size; the document keeps its own
@@ -114,7 +115,8 @@ Result<int> run(Context& context, Options& o) {
         const auto file = folder / (std::string(name) + ".png");
         RESTAGE_CHECK(write_picture(file.string(), taken, {}));
         RESTAGE_CHECK(write_picture((folder / (std::string(name) + ".exr")).string(), taken, {}));
-        std::printf("%-9s %s (%u spp%s)\n", name, file.string().c_str(), renderer->samples(), taken.denoised ? ", denoised" : "");
+        std::printf("%-9s %s (%u spp%s)\n", name, file.string().c_str(), renderer->samples(),
+                    taken.denoised ? ", denoised" : "");
         return {};
     };
     // A missing denoiser takes the denoising away, not the demo.
@@ -127,29 +129,28 @@ Result<int> run(Context& context, Options& o) {
         }
     }
     RESTAGE_CHECK(picture("before"));
-    if (interrupted())
-        return 130;
+    if (interrupted()) return 130;
 
     RESTAGE_TRY(const auto gestures, restage_room(session));
     for (const auto& line : gestures)
         std::printf("edit      %s\n", line.c_str());
     RESTAGE_CHECK(picture("after"));
-    if (interrupted())
-        return 130;
+    if (interrupted()) return 130;
 
     const auto file = (folder / "edited.pbrt").string();
     RESTAGE_TRY(const auto report, session.export_to(file));
     for (const auto& entry : report.entries)
-        if (entry.fate != RESTAGE_KEPT)
-            context.log.warning(io::to_string(entry));
+        if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
     RESTAGE_TRY(const auto again, io::import_scene(file, context.registry()));
     const auto differences = io::structural_differences(session.scene(), again.scene, context.registry());
-    std::printf("exported  %s (pbrt-v4; read back: %s)\n", file.c_str(), differences.empty() ? "the same scene" : "DIFFERS");
+    std::printf("exported  %s (pbrt-v4; read back: %s)\n", file.c_str(),
+                differences.empty() ? "the same scene" : "DIFFERS");
     for (const auto& line : differences)
         std::printf("          %s\n", line.c_str());
     while (session.undo()) {
     }
-    std::printf("undo      %s\n", session.modified() ? "did NOT lead back" : "leads back to the scene as it was opened");
+    std::printf("undo      %s\n",
+                session.modified() ? "did NOT lead back" : "leads back to the scene as it was opened");
     return differences.empty() && !session.modified() ? int(exit_ok) : int(exit_failed);
 }
 
@@ -160,8 +161,10 @@ void add_demo(CLI::App& program, Context& context) {
     o->spp = 32;
     o->size = "640x360";
     o->denoise = "high";
-    auto* command = program.add_subcommand("demo", "Restage the bundled room: open, edit, render before and after, export");
-    command->add_option("-o,--output", o->folder, "Folder for the pictures and the edited scene")->capture_default_str();
+    auto* command =
+        program.add_subcommand("demo", "Restage the bundled room: open, edit, render before and after, export");
+    command->add_option("-o,--output", o->folder, "Folder for the pictures and the edited scene")
+        ->capture_default_str();
     command->add_option("--scene", o->scene, "Another scene with the demo's objects");
     add_render_options(*command, *o);
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });

@@ -3,8 +3,8 @@
 #include "commands.hpp"
 #include "rendering.hpp"
 
-#include <cstdio>
 #include <fmt/format.h>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,10 +18,10 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     std::size_t geometry = 0, pixels = 0, triangles = 0, instanced = 0, emitters = 0;
     std::set<const void*> seen;
     s.meshes.each([&](auto, const scene::Mesh& m) {
-        if (!m.data || !seen.insert(m.data.get()).second)
-            return;
+        if (!m.data || !seen.insert(m.data.get()).second) return;
         triangles += m.data->triangles.size();
-        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 + m.data->triangles.size() * 12;
+        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 +
+                    m.data->triangles.size() * 12;
     });
     s.images.each([&](auto, const scene::Image& i) { pixels += i.data ? i.data->values.size() * sizeof(float) : 0; });
     s.instances.each([&](auto, const scene::Instance& i) {
@@ -33,18 +33,22 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     nlohmann::json missing = nlohmann::json::array();
     s.materials.each([&](auto, const scene::Material& m) {
         ++types[m.type];
-        if (!registry.find_material(m.type))
-            missing.push_back(m.name + " (" + m.type + ")");
+        if (!registry.find_material(m.type)) missing.push_back(m.name + " (" + m.type + ")");
     });
-    nlohmann::json lights = {{"area", emitters}, {"point", 0}, {"spot", 0}, {"distant", 0},
-                             {"environment", s.environment.value ? (s.environment.value->image ? "image" : "constant") : "none"}};
+    nlohmann::json lights = {
+        {"area", emitters},
+        {"point", 0},
+        {"spot", 0},
+        {"distant", 0},
+        {"environment", s.environment.value ? (s.environment.value->image ? "image" : "constant") : "none"}};
     s.lights.each([&](auto, const scene::Light& l) {
         auto& n = lights[l.kind == RESTAGE_LIGHT_POINT ? "point" : l.kind == RESTAGE_LIGHT_SPOT ? "spot" : "distant"];
         n = n.get<int>() + 1;
     });
     nlohmann::json report = nlohmann::json::array();
     for (const auto& e : imported.report.entries)
-        report.push_back({{"fate", io::to_string(e.fate)}, {"file", e.file}, {"line", e.line}, {"what", e.what}, {"note", e.note}});
+        report.push_back(
+            {{"fate", io::to_string(e.fate)}, {"file", e.file}, {"line", e.line}, {"what", e.what}, {"note", e.note}});
     const auto& film = s.film.value;
     return {{"format", s.format},
             {"objects", s.instances.live()},
@@ -64,26 +68,29 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"samples", s.settings.value.samples},
             {"memory_bytes", {{"geometry", geometry}, {"pixels", pixels}}},
             {"report", report},
-            {"report_counts", {{"kept", imported.report.count(RESTAGE_KEPT)},
-                               {"approximated", imported.report.count(RESTAGE_APPROXIMATED)},
-                               {"dropped", imported.report.count(RESTAGE_DROPPED)}}}};
+            {"report_counts",
+             {{"kept", imported.report.count(RESTAGE_KEPT)},
+              {"approximated", imported.report.count(RESTAGE_APPROXIMATED)},
+              {"dropped", imported.report.count(RESTAGE_DROPPED)}}}};
 }
 
 void print(const nlohmann::json& d, const io::Report& report, bool all) {
     const auto n = [&](const char* key) { return d[key].get<std::size_t>(); };
     std::printf("%s\n", d["format"].get<std::string>().c_str());
-    std::printf("objects     %zu in %zu groups, %zu meshes, %zu triangles (%zu with instances)\n", n("objects"), n("groups"),
-                n("meshes"), n("triangles"), n("triangles_instanced"));
+    std::printf("objects     %zu in %zu groups, %zu meshes, %zu triangles (%zu with instances)\n", n("objects"),
+                n("groups"), n("meshes"), n("triangles"), n("triangles_instanced"));
     std::string line;
     for (const auto& [type, count] : d["materials"].items())
         line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count.get<int>(), type);
     std::printf("materials   %s\n", line.c_str());
     for (const auto& name : d["materials_without_plugin"])
-        std::printf("            no plugin for %s: shown as a placeholder, kept on export\n", name.get<std::string>().c_str());
+        std::printf("            no plugin for %s: shown as a placeholder, kept on export\n",
+                    name.get<std::string>().c_str());
     std::printf("textures    %zu, images %zu, media %zu\n", n("textures"), n("images"), n("media"));
     const auto& l = d["lights"];
-    std::printf("lights      %d area, %d point, %d spot, %d distant, environment: %s\n", l["area"].get<int>(), l["point"].get<int>(),
-                l["spot"].get<int>(), l["distant"].get<int>(), l["environment"].get<std::string>().c_str());
+    std::printf("lights      %d area, %d point, %d spot, %d distant, environment: %s\n", l["area"].get<int>(),
+                l["point"].get<int>(), l["spot"].get<int>(), l["distant"].get<int>(),
+                l["environment"].get<std::string>().c_str());
     std::printf("film        %dx%d, %zu samples a pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
     std::printf("memory      geometry %.1f MB, pixels %.1f MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,
@@ -91,8 +98,7 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
     std::printf("import      %zu kept, %zu approximated, %zu dropped\n", report.count(RESTAGE_KEPT),
                 report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
     for (const auto& e : report.entries)
-        if (all || e.fate != RESTAGE_KEPT)
-            std::printf("  %s\n", io::to_string(e).c_str());
+        if (all || e.fate != RESTAGE_KEPT) std::printf("  %s\n", io::to_string(e).c_str());
 }
 
 } // namespace
@@ -103,7 +109,8 @@ void add_info(CLI::App& program, Context& context) {
         bool json = false, all = false;
     };
     auto o = std::make_shared<Options>();
-    auto* command = program.add_subcommand("info", "Describe a scene, and what its import kept, approximated and dropped");
+    auto* command =
+        program.add_subcommand("info", "Describe a scene, and what its import kept, approximated and dropped");
     command->add_option("SCENE", o->scene, "Scene file")->required();
     command->add_flag("--json", o->json, "As JSON");
     command->add_flag("--all", o->all, "List what was kept, too");

@@ -2,9 +2,9 @@
 // restage plugins: what is loaded, from where, and what is not and why.
 #include "commands.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,19 +16,17 @@ Result<int> run(Context& context, bool json) {
     const auto provides = [&](const plugin::Entry* entry) {
         std::vector<std::string> names;
         for (const auto& m : registry.materials())
-            if (m.plugin == entry)
-                names.push_back(std::string("material ") + m.table->type);
+            if (m.plugin == entry) names.push_back(std::string("material ") + m.table->type);
         for (const auto& m : registry.importers())
-            if (m.plugin == entry)
-                names.push_back(std::string("importer ") + m.table->format);
+            if (m.plugin == entry) names.push_back(std::string("importer ") + m.table->format);
         for (const auto& m : registry.exporters())
-            if (m.plugin == entry)
-                names.push_back(std::string("exporter ") + m.table->format);
+            if (m.plugin == entry) names.push_back(std::string("exporter ") + m.table->format);
         for (const auto& m : registry.denoisers())
             if (m.plugin == entry) {
                 const char* reason = "";
                 const bool usable = m.table->available(&reason);
-                names.push_back(std::string("denoiser ") + m.table->type + (usable ? "" : std::string(" (not available: ") + reason + ")"));
+                names.push_back(std::string("denoiser ") + m.table->type +
+                                (usable ? "" : std::string(" (not available: ") + reason + ")"));
             }
         return names;
     };
@@ -39,16 +37,19 @@ Result<int> run(Context& context, bool json) {
         refused += !loaded;
         const auto names = provides(entry);
         if (json) {
-            list.push_back({{"id", entry->manifest.id}, {"version", entry->manifest.version}, {"loaded", loaded},
-                            {"folder", entry->folder.string()}, {"provides", names}, {"reason", entry->reason}});
+            list.push_back({{"id", entry->manifest.id},
+                            {"version", entry->manifest.version},
+                            {"loaded", loaded},
+                            {"folder", entry->folder.string()},
+                            {"provides", names},
+                            {"reason", entry->reason}});
             continue;
         }
-        std::printf("%s  %-40s %-8s %s\n", loaded ? "loaded " : "REFUSED", entry->name().c_str(), entry->manifest.version.c_str(),
-                    entry->folder.string().c_str());
+        std::printf("%s  %-40s %-8s %s\n", loaded ? "loaded " : "REFUSED", entry->name().c_str(),
+                    entry->manifest.version.c_str(), entry->folder.string().c_str());
         for (const auto& name : names)
             std::printf("         %s\n", name.c_str());
-        if (!loaded)
-            std::printf("         %s\n", entry->reason.c_str());
+        if (!loaded) std::printf("         %s\n", entry->reason.c_str());
     }
     if (json)
         std::printf("%s\n", list.dump(2).c_str());

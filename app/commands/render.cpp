@@ -23,7 +23,8 @@ Result<int> run(Context& context, Options& o) {
     o.renderer.strategy = o.strategy == "light"  ? render::Strategy::light_only
                           : o.strategy == "bsdf" ? render::Strategy::bsdf_only
                                                  : render::Strategy::mis;
-    RESTAGE_TRY(const auto renderer, render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
+    RESTAGE_TRY(const auto renderer,
+                render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
     RESTAGE_CHECK(render_to_target(context, o, scene, *renderer));
     RESTAGE_TRY(const auto picture, take_picture(context, o, scene, *renderer));
 
@@ -40,12 +41,13 @@ Result<int> run(Context& context, Options& o) {
                           {"restage:denoiser", o.denoise.empty() ? "none" : "oidn " + o.denoise},
                           {"restage:seconds", fmt::format("{:.3f}", stats.seconds)}};
     RESTAGE_CHECK(write_picture(o.output, picture, o.picture));
-    context.log.info(fmt::format("{}: {}x{}, {} spp in {:.2f} s, relative error {:.4f}, {:.2f} Mray/s, {} on {}", o.output,
-                                 picture.film.width, picture.film.height, renderer->samples(), stats.seconds,
+    context.log.info(fmt::format("{}: {}x{}, {} spp in {:.2f} s, relative error {:.4f}, {:.2f} Mray/s, {} on {}",
+                                 o.output, picture.film.width, picture.film.height, renderer->samples(), stats.seconds,
                                  renderer->relative_error(), rays / std::max(stats.seconds, 1e-9) * 1e-6,
                                  renderer->tracer_name(), renderer->device().info().name));
-    context.log.debug(fmt::format("rays {}, shadow rays {}, shading {:.2f} s, tracing {:.2f} s, shaders {} KiB", stats.rays,
-                                  stats.shadow_rays, stats.seconds_shading, stats.seconds_tracing, stats.shader_bytes / 1024));
+    context.log.debug(fmt::format("rays {}, shadow rays {}, shading {:.2f} s, tracing {:.2f} s, shaders {} KiB",
+                                  stats.rays, stats.shadow_rays, stats.seconds_shading, stats.seconds_tracing,
+                                  stats.shader_bytes / 1024));
     return interrupted() ? 130 : int(exit_ok); // as the shell reports an interrupted program; the picture is written
 }
 
@@ -55,11 +57,14 @@ void add_render(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command = program.add_subcommand("render", "Path-trace a scene into a picture");
     command->add_option("SCENE", o->scene, "Scene file")->required();
-    command->add_option("-o,--output", o->output,
-                        "Picture: .exr (linear; standard error, guides and settings inside), .png (8-bit sRGB), .pfm or .hdr")
+    command
+        ->add_option(
+            "-o,--output", o->output,
+            "Picture: .exr (linear; standard error, guides and settings inside), .png (8-bit sRGB), .pfm or .hdr")
         ->required();
     add_render_options(*command, *o);
-    command->add_option("--aov", o->picture.aovs, "Layers of an .exr: stderr,albedo,normal,depth,id, or all, or none")->capture_default_str();
+    command->add_option("--aov", o->picture.aovs, "Layers of an .exr: stderr,albedo,normal,depth,id, or all, or none")
+        ->capture_default_str();
     command->add_option("--exposure", o->picture.exposure_stops, "Exposure of a .png [stops]")->capture_default_str();
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }

@@ -67,9 +67,7 @@ VkDeviceAddress align_up(VkDeviceAddress value, VkDeviceAddress alignment) {
 Blas::~Blas() {
     if (handle_) device_->vk().vkDestroyAccelerationStructureKHR(device_->handle(), handle_, nullptr);
 }
-Blas::Blas(Blas&& other) noexcept {
-    *this = std::move(other);
-}
+Blas::Blas(Blas&& other) noexcept { *this = std::move(other); }
 Blas& Blas::operator=(Blas&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);
@@ -259,9 +257,7 @@ Result<Tlas> Tlas::create(Device& device, std::uint32_t capacity, const char* na
 Tlas::~Tlas() {
     if (handle_) device_->vk().vkDestroyAccelerationStructureKHR(device_->handle(), handle_, nullptr);
 }
-Tlas::Tlas(Tlas&& other) noexcept {
-    *this = std::move(other);
-}
+Tlas::Tlas(Tlas&& other) noexcept { *this = std::move(other); }
 Tlas& Tlas::operator=(Tlas&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);

@@ -70,13 +70,9 @@ bool fits_in_memory(VmaAllocator allocator, std::size_t bytes, const DeviceInfo&
 
 } // namespace
 
-Buffer::~Buffer() {
-    release();
-}
+Buffer::~Buffer() { release(); }
 
-Buffer::Buffer(Buffer&& other) noexcept {
-    *this = std::move(other);
-}
+Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     if (this == &other) return *this;

@@ -33,8 +33,8 @@ class Buffer {
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
     VkBuffer handle() const { return buffer_; }
     VkDeviceAddress address() const { return address_; } // at least 256-byte aligned
-    std::size_t size() const { return size_; }           // as asked for
-    std::byte* mapped() const { return mapped_; }        // nullptr where the host cannot see it
+    std::size_t size() const { return size_; } // as asked for
+    std::byte* mapped() const { return mapped_; } // nullptr where the host cannot see it
     const char* name() const { return name_.c_str(); }
 
     // The mapped memory as an array of T; what is left over at the end is not part of it.

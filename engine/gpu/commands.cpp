@@ -154,9 +154,7 @@ CommandList& CommandList::operator=(CommandList&& other) noexcept {
     return *this;
 }
 
-VkCommandBuffer CommandList::handle() const {
-    return state_ ? state_->commands : VK_NULL_HANDLE;
-}
+VkCommandBuffer CommandList::handle() const { return state_ ? state_->commands : VK_NULL_HANDLE; }
 
 void CommandList::reset() {
     state_->wait();
@@ -256,9 +254,7 @@ Result<Timestamps> Timestamps::create(Device& device, std::uint32_t count) {
 Timestamps::~Timestamps() {
     if (pool_) device_->vk().vkDestroyQueryPool(device_->handle(), pool_, nullptr);
 }
-Timestamps::Timestamps(Timestamps&& other) noexcept {
-    *this = std::move(other);
-}
+Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
 Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pool_, other.pool_);

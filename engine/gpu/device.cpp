@@ -283,16 +283,10 @@ void Device::save_pipeline_cache() {
         impl_->saved_cache_bytes = bytes;
 }
 
-bool Device::lost() const {
-    return impl_->lost;
-}
+bool Device::lost() const { return impl_->lost; }
 
-std::vector<std::string> Device::validation_messages() const {
-    return impl_->instance->messages();
-}
-void Device::clear_validation_messages() {
-    impl_->instance->clear_messages();
-}
+std::vector<std::string> Device::validation_messages() const { return impl_->instance->messages(); }
+void Device::clear_validation_messages() { impl_->instance->clear_messages(); }
 
 void Device::set_name(VkObjectType type, std::uint64_t object, const char* name) const {
     if (!impl_->set_object_name || !name) return;

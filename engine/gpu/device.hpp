@@ -53,10 +53,10 @@ Result<std::vector<DeviceInfo>> list_devices(Log& log);
 
 struct DeviceOptions {
     std::string select;               // index or part of the name (case ignored); empty: the best one
-    bool validation = false;          // validation and synchronization validation; fails if the layer is not installed
+    bool validation = false; // validation and synchronization validation; fails if the layer is not installed
     bool require_ray_tracing = false; // take no device without it
-    bool driver_defaults = true;      // Mesa's shader cache in cache_dir, unless the user has set another
-    std::filesystem::path cache_dir;  // pipeline cache and the driver's own shader cache; empty: restage::cache_dir()
+    bool driver_defaults = true; // Mesa's shader cache in cache_dir, unless the user has set another
+    std::filesystem::path cache_dir; // pipeline cache and the driver's own shader cache; empty: restage::cache_dir()
     std::vector<std::string> instance_extensions; // for a window: what it needs to present. All must be there.
     std::vector<std::string> device_extensions;
 };

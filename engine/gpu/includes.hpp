@@ -14,7 +14,7 @@ namespace restage::gpu {
 
 struct ExpandedSource {
     std::string text;
-    std::vector<std::string> names;           // "source string number" of #line and of messages -> file as to be shown
+    std::vector<std::string> names; // "source string number" of #line and of messages -> file as to be shown
     std::vector<std::filesystem::path> files; // those on disk
     // What is wrong with includes. The text says "#error RESTAGE_INCLUDE_ERROR_<index>_", because the compiler takes
     // words apart.

@@ -116,9 +116,7 @@ ComputePipeline::~ComputePipeline() {
     if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
     if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
 }
-ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept {
-    *this = std::move(other);
-}
+ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept { *this = std::move(other); }
 ComputePipeline& ComputePipeline::operator=(ComputePipeline&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pipeline_, other.pipeline_);
@@ -244,9 +242,7 @@ RayTracingPipeline::~RayTracingPipeline() {
     if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
     if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
 }
-RayTracingPipeline::RayTracingPipeline(RayTracingPipeline&& other) noexcept {
-    *this = std::move(other);
-}
+RayTracingPipeline::RayTracingPipeline(RayTracingPipeline&& other) noexcept { *this = std::move(other); }
 RayTracingPipeline& RayTracingPipeline::operator=(RayTracingPipeline&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pipeline_, other.pipeline_);

@@ -18,9 +18,7 @@ constexpr std::uint32_t spirv_magic = 0x07230203;
 
 SpirvCache::SpirvCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-std::filesystem::path SpirvCache::file_of(const std::string& key) const {
-    return folder_ / (key + ".spv");
-}
+std::filesystem::path SpirvCache::file_of(const std::string& key) const { return folder_ / (key + ".spv"); }
 
 // A file: magic, key, XXH64 of the words, words.
 std::optional<std::vector<std::uint32_t>> SpirvCache::load(const std::string& key) const {

@@ -19,8 +19,8 @@ enum class ExrCompression { none, zip, piz }; // all lossless; PIZ suits noise, 
 struct ExrLayer {
     std::string name;                  // "", "stderr", "albedo", "normal", "depth", "id"
     std::vector<std::string> channels; // {"R","G","B"}; read in the usual order (R G B A, X Y Z), else as in the file
-    ExrType type = ExrType::float32;   // of all its channels; on reading, the widest of them (uint with others: float)
-    std::vector<float> values;         // width * height * channels, interleaved, row 0 on top; half and float32
+    ExrType type = ExrType::float32; // of all its channels; on reading, the widest of them (uint with others: float)
+    std::vector<float> values; // width * height * channels, interleaved, row 0 on top; half and float32
     std::vector<std::uint32_t> integers; // the same for uint32
     bool operator==(const ExrLayer&) const = default;
 };

@@ -14,9 +14,7 @@ namespace restage::io {
 
 namespace {
 
-std::size_t pixel_count(const scene::PixelData& image) {
-    return std::size_t{image.width} * image.height;
-}
+std::size_t pixel_count(const scene::PixelData& image) { return std::size_t{image.width} * image.height; }
 
 // Channel c of pixel i; grey answers for all three.
 float value(const scene::PixelData& image, std::size_t i, std::size_t c) {

@@ -26,13 +26,13 @@ struct CompareOptions {
     float exposure = 0; // of FLIP's tone mapping, in stops
 };
 
-struct Comparison {                           // of a picture A to a reference B
+struct Comparison { // of a picture A to a reference B
     std::array<double, 3> mean_a{}, mean_b{}; // R, G, B
-    double luminance_a = 0, luminance_b = 0;  // means
-    double rmse = 0;                          // root of the mean over texels and channels of (a - b)^2
-    double rel_mse = 0;                       // mean over texels and channels
-    double flip = 0;                          // mean LDR-FLIP, 0..1
-    float clip_luminance = 0;                 // what `clip` came to; 0 = nothing was clipped
+    double luminance_a = 0, luminance_b = 0; // means
+    double rmse = 0; // root of the mean over texels and channels of (a - b)^2
+    double rel_mse = 0; // mean over texels and channels
+    double flip = 0; // mean LDR-FLIP, 0..1
+    float clip_luminance = 0; // what `clip` came to; 0 = nothing was clipped
 };
 
 // An error when the pictures differ in size or have no pixels.
@@ -62,11 +62,11 @@ std::vector<float> flip_map(const scene::PixelData& reference, const scene::Pixe
 // the stated variance, z is close to standard normal: 99.73 % of the blocks then have |z| <= 3.
 struct ZTest {
     std::uint32_t columns = 0, rows = 0;
-    std::vector<float> z;     // a block each
-    double threshold = 3;     // |z| up to this passes
+    std::vector<float> z; // a block each
+    double threshold = 3; // |z| up to this passes
     double share_passing = 0; // of the blocks
-    double worst = 0;         // largest |z|
-    double rms = 0;           // of z over the blocks: 1 where the variances are right
+    double worst = 0; // largest |z|
+    double rms = 0; // of z over the blocks: 1 where the variances are right
     // All blocks together: the threshold that a single one of this many blocks exceeds by chance with 1 % probability
     // (Bonferroni), and whether none does. Strict: one systematic error anywhere fails it.
     double family_threshold = 0;

@@ -55,9 +55,7 @@ glm::vec3 rgb_to_lab(glm::vec3 rgb) {
 }
 
 // Colour differences look larger in the light than in the dark (4.1.3).
-glm::vec3 hunt(glm::vec3 lab) {
-    return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
-}
+glm::vec3 hunt(glm::vec3 lab) { return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z}; }
 
 float hyab(glm::vec3 a, glm::vec3 b) { // Abasi et al. 2020
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);

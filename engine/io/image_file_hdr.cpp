@@ -139,9 +139,7 @@ Result<Resolution> read_header(Reader& in) {
 
 } // namespace
 
-bool is_hdr(std::string_view bytes) {
-    return bytes.starts_with("#?RADIANCE") || bytes.starts_with("#?RGBE");
-}
+bool is_hdr(std::string_view bytes) { return bytes.starts_with("#?RADIANCE") || bytes.starts_with("#?RGBE"); }
 
 Result<DecodedImage> decode_hdr(std::string_view bytes, bool header_only) {
     Reader in{bytes};

@@ -16,9 +16,7 @@ namespace restage::io {
 
 namespace {
 
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 // The next word of the header; moves `at` behind it.
 std::string_view next_word(std::string_view bytes, std::size_t& at) {

@@ -22,7 +22,7 @@
 #define STBI_NO_PNM
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
-#define STBI_MAX_DIMENSIONS (1 << 17)
+#define STBI_MAX_DIMENSIONS (1 << 30) // check_image_size says it better
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #if defined(__GNUC__)
@@ -100,6 +100,42 @@ Result<DecodedImage> load(std::string_view bytes, Load&& loader) {
     return image;
 }
 
+std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
+    return value;
+}
+
+// stb_image before 2.28 writes behind its Huffman tables when one claims more than 256 codes. Walks over the markers as
+// stb does and refuses that; whatever else is wrong, stb finds.
+Result<> check_jpeg_tables(std::string_view bytes) {
+    const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<std::uint8_t>(bytes[at]) : 0u; };
+    constexpr std::uint32_t define_huffman = 0xc4, start_of_scan = 0xda, end_of_image = 0xd9;
+    for (std::size_t at = 2; at + 4 <= bytes.size();) {
+        if (byte(at) != 0xff || byte(at + 1) == 0xff || byte(at + 1) == 0) { // fill, or data of a scan
+            ++at;
+            continue;
+        }
+        const std::uint32_t marker = byte(at + 1);
+        if (marker == end_of_image) break;
+        if (marker >= 0xd0 && marker <= 0xd7) { // restart: no length
+            at += 2;
+            continue;
+        }
+        const std::size_t length = byte(at + 2) << 8 | byte(at + 3), end = at + 2 + length;
+        for (std::size_t table = at + 4; marker == define_huffman && table + 17 <= end;) {
+            std::size_t codes = 0;
+            for (std::size_t i = 1; i <= 16; ++i)
+                codes += byte(table + i);
+            if (codes > 256) return fail(fmt::format("a Huffman table claims {} codes (byte {})", codes, table));
+            table += 17 + codes;
+        }
+        at = marker == start_of_scan ? at + 2 : std::max(end, at + 2);
+    }
+    return {};
+}
+
 void append(void* string, void* data, int size) {
     static_cast<std::string*>(string)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
@@ -114,6 +150,9 @@ Result<> check_channels(const std::string& path, const scene::PixelData& image) 
 } // namespace
 
 Result<DecodedImage> decode_stb(std::string_view bytes, bool header_only) {
+    if (bytes.size() >= 24 && bytes.starts_with("\x89PNG")) // of absurd sizes stb says only that it is no PNG
+        RESTAGE_CHECK(check_image_size(big_endian(bytes, 16), big_endian(bytes, 20), bytes.size()));
+    if (bytes.starts_with("\xff\xd8")) RESTAGE_CHECK(check_jpeg_tables(bytes));
     Source source{bytes};
     DecodedImage image;
     int width = 0, height = 0, channels = 0;

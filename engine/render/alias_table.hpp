@@ -14,8 +14,7 @@ inline std::vector<shared::AliasEntry> make_alias_table(std::span<const double> 
     double sum = 0;
     for (double w : weights)
         sum += w;
-    if (!(sum > 0))
-        return {};
+    if (!(sum > 0)) return {};
     const std::size_t n = weights.size();
     std::vector<shared::AliasEntry> table(n);
     std::vector<double> q(n);
@@ -44,11 +43,9 @@ inline std::vector<shared::AliasEntry> make_alias_table(std::span<const double> 
     if (!small.empty()) { // an index of weight 0 left over by rounding points at one that has some
         std::uint32_t best = 0;
         for (std::uint32_t i = 0; i < n; ++i)
-            if (weights[i] > weights[best])
-                best = i;
+            if (weights[i] > weights[best]) best = i;
         for (auto i : small)
-            if (weights[i] <= 0)
-                table[i].alias = best;
+            if (weights[i] <= 0) table[i].alias = best;
     }
     return table;
 }

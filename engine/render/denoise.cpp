@@ -23,10 +23,11 @@ Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const RestageDeno
     job.threads = threads;
     if (keep_going) {
         job.progress_ctx = &keep_going;
-        job.progress = [](void* ctx, double done) { return (*static_cast<std::function<bool(double)>*>(ctx))(done) ? 1 : 0; };
+        job.progress = [](void* ctx, double done) {
+            return (*static_cast<std::function<bool(double)>*>(ctx))(done) ? 1 : 0;
+        };
     }
-    if (!denoiser.run(&job, &reason))
-        return fail(std::string(denoiser.type) + ": " + (reason ? reason : "failed"));
+    if (!denoiser.run(&job, &reason)) return fail(std::string(denoiser.type) + ": " + (reason ? reason : "failed"));
     return output;
 }
 

@@ -5,8 +5,8 @@
 #include "base/result.hpp"
 #include "render/film.hpp"
 
-#include <functional>
 #include <restage/denoiser.h>
+#include <functional>
 
 namespace restage::render {
 

@@ -24,8 +24,7 @@ struct EmbreeScene::Mesh {
     bool filtered = false;
     const EmbreeScene* owner = nullptr;
     ~Mesh() {
-        if (scene)
-            rtcReleaseScene(scene);
+        if (scene) rtcReleaseScene(scene);
     }
 };
 
@@ -43,14 +42,14 @@ void init_context(Context& c) { rtcInitRayQueryContext(&c); }
 void alpha_filter(const RTCFilterFunctionNArguments* args) {
     const auto* scene = *static_cast<const GpuScene* const*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] != -1)
-            continue;
+        if (args->valid[i] != -1) continue;
         const unsigned n = args->N;
         const unsigned instance = args->context->instID[0];
-        if (!(scene->instances()[instance].flags & INSTANCE_HAS_ALPHA))
-            continue;
-        const float o[3] = {RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i), RTCRayN_org_z(args->ray, n, i)};
-        const float d[3] = {RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
+        if (!(scene->instances()[instance].flags & INSTANCE_HAS_ALPHA)) continue;
+        const float o[3] = {RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
+                            RTCRayN_org_z(args->ray, n, i)};
+        const float d[3] = {RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                            RTCRayN_dir_z(args->ray, n, i)};
         if (!scene->alpha_passes(instance, RTCHitN_primID(args->hit, n, i),
                                  {RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i)}, o, d))
             args->valid[i] = 0;
@@ -71,11 +70,9 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads) {
 }
 
 EmbreeScene::~EmbreeScene() {
-    if (top_)
-        rtcReleaseScene(top_);
+    if (top_) rtcReleaseScene(top_);
     meshes_.clear();
-    if (device_)
-        rtcReleaseDevice(device_);
+    if (device_) rtcReleaseDevice(device_);
 }
 
 Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& changes) {
@@ -101,28 +98,27 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
         rtcReleaseGeometry(mesh->geometry);
         rtcCommitScene(mesh->scene);
         if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-            return fail(fmt::format("Embree could not build a mesh of {} triangles (error {})", g->triangle_count, int(error)));
+            return fail(
+                fmt::format("Embree could not build a mesh of {} triangles (error {})", g->triangle_count, int(error)));
         meshes_[id.value] = std::move(mesh);
     }
     const bool shrunk = attached_.size() > scene.instances().size();
     for (std::size_t i = scene.instances().size(); i < attached_.size(); ++i) // of a scene that was forgotten
-        if (attached_[i])
-            rtcDetachGeometry(top_, unsigned(i));
+        if (attached_[i]) rtcDetachGeometry(top_, unsigned(i));
     attached_.resize(scene.instances().size(), 0);
     for (auto id : changes.instances) {
         const auto i = id.value;
         const std::uint32_t wanted = scene.traced(i) ? scene.mesh_of(i).value : 0;
-        const bool same_mesh = wanted && attached_[i] == wanted &&
-                               std::find(changes.meshes.begin(), changes.meshes.end(), scene.mesh_of(i)) == changes.meshes.end();
+        const bool same_mesh =
+            wanted && attached_[i] == wanted &&
+            std::find(changes.meshes.begin(), changes.meshes.end(), scene.mesh_of(i)) == changes.meshes.end();
         RTCGeometry geometry = nullptr;
         if (same_mesh) {
             geometry = rtcGetGeometry(top_, i);
         } else {
-            if (attached_[i])
-                rtcDetachGeometry(top_, i);
+            if (attached_[i]) rtcDetachGeometry(top_, i);
             attached_[i] = wanted;
-            if (!wanted)
-                continue;
+            if (!wanted) continue;
             geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
             rtcSetGeometryInstancedScene(geometry, meshes_.at(wanted)->scene);
             rtcAttachGeometryByID(top_, geometry, i);
@@ -140,8 +136,7 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
             rtcCommitScene(mesh.scene);
         }
     }
-    if (shrunk || !changes.instances.empty() || !changes.meshes.empty())
-        rtcCommitScene(top_);
+    if (shrunk || !changes.instances.empty() || !changes.meshes.empty()) rtcCommitScene(top_);
     if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
         return fail(fmt::format("Embree could not build the scene (error {})", int(error)));
     return {};

@@ -14,7 +14,7 @@ struct RTCSceneTy;
 namespace restage::render {
 
 class EmbreeScene {
-public:
+  public:
     static Result<std::unique_ptr<EmbreeScene>> create(unsigned threads);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
@@ -27,14 +27,14 @@ public:
     void intersect(shared::RayHit& ray) const;
     void occluded(shared::ShadowRay& shadow) const;
 
-private:
+  private:
     struct Mesh;
     EmbreeScene() = default;
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
     RTCSceneTy* top_ = nullptr;
     std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value
-    std::vector<std::uint32_t> attached_;                              // by instance: its mesh, 0 = not attached
+    std::vector<std::uint32_t> attached_; // by instance: its mesh, 0 = not attached
 };
 
 } // namespace restage::render

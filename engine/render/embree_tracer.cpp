@@ -6,12 +6,12 @@
 #include "render/embree_scene.hpp"
 #include "render/tracer.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstring>
-#include <fmt/format.h>
 
 namespace restage::render {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::size_t chunk = 2048;           // paths a job
 constexpr std::uint8_t type_none = 255, type_escape = 254;
 
 class EmbreeTracer final : public Tracer {
-public:
+  public:
     explicit EmbreeTracer(const TracerContext& c) : c_(c) {}
     const char* name() const override { return "embree"; }
 
@@ -46,8 +46,7 @@ public:
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
         RESTAGE_CHECK(embree_->update(scene, changes));
-        if (changes.shaders)
-            pipelines_ready_ = false;
+        if (changes.shaders) pipelines_ready_ = false;
         return {};
     }
 
@@ -59,8 +58,7 @@ public:
         const std::uint32_t samples = std::clamp(wave_paths / std::max(pixels, 1u), 1u, request.samples);
         for (std::uint32_t s = 0; s < request.samples; s += samples)
             for (std::uint32_t p = 0; p < pixels; p += wave_paths) {
-                if (request.keep_going && !request.keep_going())
-                    return finish(scene, start);
+                if (request.keep_going && !request.keep_going()) return finish(scene, start);
                 shared::FrameData f{};
                 f.first_pixel = p;
                 f.pixel_count = std::min(wave_paths, pixels - p);
@@ -77,21 +75,20 @@ public:
         return finish(scene, start);
     }
 
-private:
+  private:
     Result<void> finish(const GpuScene& scene, Clock::time_point start) {
         stats_.seconds += seconds_since(start);
         auto counts = counters_.span<std::uint32_t>();
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
-            if (counts[i])
-                stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
+            if (counts[i]) stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
         return {};
     }
 
     Result<void> make_pipelines(const GpuScene& scene, const TraceRequest& request) {
-        if (pipelines_ready_ && guides_on_ == request.guides && strategy_ == request.strategy)
-            return {};
+        if (pipelines_ready_ && guides_on_ == request.guides && strategy_ == request.strategy) return {};
         stats_.shader_bytes = 0;
-        const auto kernel = [&](const gpu::ShaderSource& source, const MaterialType* type, gpu::ComputePipeline& out) -> Result<void> {
+        const auto kernel = [&](const gpu::ShaderSource& source, const MaterialType* type,
+                                gpu::ComputePipeline& out) -> Result<void> {
             RESTAGE_TRY(const auto spirv, c_.compiler.compile(source));
             stats_.shader_bytes += spirv.words.size() * 4;
             const auto constants = spec_constants(scene.features(), request.guides, request.strategy, type);
@@ -109,15 +106,14 @@ private:
         RESTAGE_CHECK(kernel(generate, nullptr, generate_));
         RESTAGE_CHECK(kernel(escape, nullptr, escape_));
         RESTAGE_CHECK(kernel(accumulate, nullptr, accumulate_));
-        if (scene.types().size() > type_escape)
-            return fail("a scene may use at most 254 material types");
+        if (scene.types().size() > type_escape) return fail("a scene may use at most 254 material types");
         shade_.clear();
         shade_.resize(scene.types().size());
         for (std::size_t i = 0; i < shade_.size(); ++i) {
             const MaterialType& type = scene.types()[i];
-            if (!type.plugin.table || !type.plugin.table->glsl_file)
-                continue;
-            RESTAGE_CHECK(kernel(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute), &type, shade_[i]));
+            if (!type.plugin.table || !type.plugin.table->glsl_file) continue;
+            RESTAGE_CHECK(
+                kernel(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute), &type, shade_[i]));
         }
         pipelines_ready_ = true;
         guides_on_ = request.guides;
@@ -143,8 +139,7 @@ private:
             active_[i] = i;
         for (;;) {
             trace_rays(scene);
-            if (active_.empty() && !escaped_)
-                break;
+            if (active_.empty() && !escaped_) break;
             RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
                 std::uint32_t first = 0;
                 for (std::size_t t = 0; t < type_count_.size(); ++t) {
@@ -159,7 +154,8 @@ private:
         return submit([&](gpu::CommandList& list) { dispatch(list, accumulate_, 0, f.pixel_count); });
     }
 
-    void dispatch(gpu::CommandList& list, const gpu::ComputePipeline& kernel, std::uint32_t first, std::uint32_t count) {
+    void dispatch(gpu::CommandList& list, const gpu::ComputePipeline& kernel, std::uint32_t first,
+                  std::uint32_t count) {
         const shared::WavePush push{frame_.address(), first, count};
         list.dispatch(kernel, gpu::push_bytes(push), (count + group_size - 1) / group_size);
     }
@@ -198,8 +194,7 @@ private:
                     if (shadows[i].tfar > 0) {
                         ++any;
                         embree_->occluded(shadows[i]);
-                        if (shadows[i].tfar > 0)
-                            paths[i].radiance += shadows[i].contribution;
+                        if (shadows[i].tfar > 0) paths[i].radiance += shadows[i].contribution;
                         shadows[i].tfar = -1;
                     }
                     std::uint8_t type = type_none;
@@ -248,11 +243,9 @@ private:
                 std::uint32_t to = live_first[k];
                 for (std::size_t a = k * chunk; a < std::min(n, (k + 1) * chunk); ++a) {
                     const std::uint32_t i = active_[a];
-                    if (types_[i] == type_none)
-                        continue;
+                    if (types_[i] == type_none) continue;
                     queue[counts_[k][types_[i]]++] = i;
-                    if (types_[i] < type_escape)
-                        next_active_[to++] = i;
+                    if (types_[i] < type_escape) next_active_[to++] = i;
                 }
             }
         });

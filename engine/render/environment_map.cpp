@@ -41,8 +41,7 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, RestageMappin
     }
     map.mean = glm::vec3(sum / total);
     map.alias = make_alias_table(weights);
-    if (map.alias.empty())
-        map.texels.clear();
+    if (map.alias.empty()) map.texels.clear();
     return map;
 }
 

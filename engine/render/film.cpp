@@ -13,7 +13,8 @@ Result<Film> Film::create(gpu::Device& device, std::uint32_t width, std::uint32_
     film.height_ = height;
     const std::size_t n = std::size_t(width) * height;
     RESTAGE_TRY(film.pixels_, device.create_buffer(n * sizeof(shared::FilmPixel), gpu::BufferKind::readback, "film"));
-    RESTAGE_TRY(film.guides_, device.create_buffer(n * sizeof(shared::GuidePixel), gpu::BufferKind::readback, "guides"));
+    RESTAGE_TRY(film.guides_,
+                device.create_buffer(n * sizeof(shared::GuidePixel), gpu::BufferKind::readback, "guides"));
     film.clear();
     return film;
 }
@@ -66,7 +67,8 @@ FilmImage Film::read() const {
 
 std::uint32_t Film::least_samples() const {
     const auto pixels = pixels_.span<shared::FilmPixel>().first(std::size_t(width_) * height_);
-    const auto least = std::min_element(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
+    const auto least =
+        std::min_element(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
     return least == pixels.end() ? 0 : std::uint32_t(least->count);
 }
 
@@ -75,8 +77,7 @@ double Film::relative_error() const {
     const auto pixels = pixels_.span<shared::FilmPixel>();
     std::size_t n = 0;
     for (const auto& p : pixels.first(std::size_t(width_) * height_)) {
-        if (p.count < 2)
-            continue;
+        if (p.count < 2) continue;
         const double count = p.count;
         const double mean = glm::dot(glm::dvec3(p.sum), glm::dvec3(0.2126, 0.7152, 0.0722)) / count;
         const double variance = std::max(0.0, (p.sum_sq_luminance / count - mean * mean) / (count - 1));

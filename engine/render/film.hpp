@@ -15,17 +15,17 @@ struct FilmImage {
     std::uint32_t width = 0, height = 0;
     std::uint32_t samples = 0;           // the least a pixel has
     std::vector<glm::vec3> color;        // linear sRGB radiance, exposure not applied
-    std::vector<glm::vec3> std_error;    // of the mean, a channel; samples taken as independent, so an upper bound for
-                                         // stratified ones. 0 with less than 2 samples
+    std::vector<glm::vec3> std_error; // of the mean, a channel; samples taken as independent, so an upper bound for
+                                      // stratified ones. 0 with less than 2 samples
     std::vector<float> luminance_variance; // of the mean
-    std::vector<glm::vec3> albedo;       // [0,1]
-    std::vector<glm::vec3> normal;       // world space, shading, mean over samples (not unit at edges)
-    std::vector<float> depth;            // mean distance of the first hit; 0 = nothing
+    std::vector<glm::vec3> albedo; // [0,1]
+    std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)
+    std::vector<float> depth; // mean distance of the first hit; 0 = nothing
     std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = nothing
 };
 
 class Film {
-public:
+  public:
     static Result<Film> create(gpu::Device& device, std::uint32_t width, std::uint32_t height);
     void clear();
     std::uint32_t width() const { return width_; }
@@ -37,7 +37,7 @@ public:
     // Root mean square over pixels of (standard error of luminance / (luminance + 0.01)), what --error stops at.
     double relative_error() const;
 
-private:
+  private:
     std::uint32_t width_ = 0, height_ = 0;
     gpu::Buffer pixels_, guides_;
 };

@@ -11,31 +11,30 @@ double filter_value(const scene::Filter& f, int axis, double x) {
     using scene::FilterKind;
     const double r = f.radius[axis];
     x = std::abs(x);
-    if (x > r)
-        return 0;
+    if (x > r) return 0;
     switch (f.kind) {
-    case FilterKind::box:
-        return 1;
-    case FilterKind::triangle:
-        return r - x;
-    case FilterKind::gaussian: { // pbrt 4ed, 8.8.4
-        const double s = f.params.x;
-        return std::max(0.0, std::exp(-x * x / (2 * s * s)) - std::exp(-r * r / (2 * s * s)));
-    }
-    case FilterKind::mitchell: { // Mitchell and Netravali 1988, eq. 8, stretched to the radius
-        const double b = f.params.x, c = f.params.y;
-        const double t = 2 * x / r;
-        if (t <= 1)
-            return ((12 - 9 * b - 6 * c) * t * t * t + (-18 + 12 * b + 6 * c) * t * t + (6 - 2 * b)) / 6;
-        return ((-b - 6 * c) * t * t * t + (6 * b + 30 * c) * t * t + (-12 * b - 48 * c) * t + (8 * b + 24 * c)) / 6;
-    }
-    case FilterKind::sinc: { // Lanczos-windowed; pbrt 4ed, 8.8.5
-        const auto sinc = [](double v) {
-            v *= std::numbers::pi;
-            return std::abs(v) < 1e-6 ? 1.0 : std::sin(v) / v;
-        };
-        return sinc(x) * sinc(x / f.params.x);
-    }
+        case FilterKind::box:
+            return 1;
+        case FilterKind::triangle:
+            return r - x;
+        case FilterKind::gaussian: { // pbrt 4ed, 8.8.4
+            const double s = f.params.x;
+            return std::max(0.0, std::exp(-x * x / (2 * s * s)) - std::exp(-r * r / (2 * s * s)));
+        }
+        case FilterKind::mitchell: { // Mitchell and Netravali 1988, eq. 8, stretched to the radius
+            const double b = f.params.x, c = f.params.y;
+            const double t = 2 * x / r;
+            if (t <= 1) return ((12 - 9 * b - 6 * c) * t * t * t + (-18 + 12 * b + 6 * c) * t * t + (6 - 2 * b)) / 6;
+            return ((-b - 6 * c) * t * t * t + (6 * b + 30 * c) * t * t + (-12 * b - 48 * c) * t + (8 * b + 24 * c)) /
+                   6;
+        }
+        case FilterKind::sinc: { // Lanczos-windowed; pbrt 4ed, 8.8.5
+            const auto sinc = [](double v) {
+                v *= std::numbers::pi;
+                return std::abs(v) < 1e-6 ? 1.0 : std::sin(v) / v;
+            };
+            return sinc(x) * sinc(x / f.params.x);
+        }
     }
     return 0;
 }

@@ -13,7 +13,7 @@ namespace restage::render {
 
 template <class T>
 class GpuArray {
-public:
+  public:
     explicit GpuArray(const char* name) : name_(name) {}
 
     const std::vector<T>& host() const { return host_; }
@@ -43,7 +43,8 @@ public:
             touch(0, host_.size());
         }
         if (first_ < last_) {
-            const auto bytes = std::as_bytes(std::span(host_)).subspan(first_ * sizeof(T), (last_ - first_) * sizeof(T));
+            const auto bytes =
+                std::as_bytes(std::span(host_)).subspan(first_ * sizeof(T), (last_ - first_) * sizeof(T));
             RESTAGE_CHECK(device.upload(buffer_, first_ * sizeof(T), bytes));
             uploaded_bytes_ += bytes.size();
         }
@@ -52,7 +53,7 @@ public:
     }
     std::size_t uploaded_bytes() const { return uploaded_bytes_; } // in all, ever: tests hold edits to it
 
-private:
+  private:
     void touch(std::size_t first, std::size_t last) {
         if (first_ == last_) {
             first_ = first;

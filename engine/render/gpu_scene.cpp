@@ -5,10 +5,10 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include <fmt/format.h>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
 
 namespace restage::render {
 
@@ -45,24 +45,27 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     const bool instances = first_ || meshes || scene.instances.version() != seen_.instances;
     const bool lights = instances || images || scene.lights.version() != seen_.lights ||
                         scene.environment.version != seen_.environment || scene.meshes.version() != seen_.meshes;
-    if (meshes)
-        RESTAGE_CHECK(sync_meshes(scene, changes));
-    if (textures)
-        RESTAGE_CHECK(sync_textures(scene, changes));
+    if (meshes) RESTAGE_CHECK(sync_meshes(scene, changes));
+    if (textures) RESTAGE_CHECK(sync_textures(scene, changes));
     if (materials || instances) // an instance may bring in a type
         RESTAGE_CHECK(sync_materials(scene, changes));
-    if (instances || materials)
-        RESTAGE_CHECK(sync_instances(scene, changes));
-    if (lights)
-        RESTAGE_CHECK(sync_lights(scene, changes));
+    if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
+    if (lights) RESTAGE_CHECK(sync_lights(scene, changes));
     RESTAGE_CHECK(sync_root(scene, changes));
     changes.image = first_ || scene.clock != seen_.settings || changes.image;
     changes.film = first_ || scene.film.version != seen_.film;
-    seen_ = {.meshes = scene.meshes.version(), .images = scene.images.version(), .textures = scene.textures.version(),
-             .materials = scene.materials.version(), .instances = scene.instances.version(),
-             .lights = scene.lights.version(), .media = scene.media.version(), .cameras = scene.cameras.version(),
-             .environment = scene.environment.version, .active_camera = scene.active_camera.version,
-             .film = scene.film.version, .settings = scene.clock};
+    seen_ = {.meshes = scene.meshes.version(),
+             .images = scene.images.version(),
+             .textures = scene.textures.version(),
+             .materials = scene.materials.version(),
+             .instances = scene.instances.version(),
+             .lights = scene.lights.version(),
+             .media = scene.media.version(),
+             .cameras = scene.cameras.version(),
+             .environment = scene.environment.version,
+             .active_camera = scene.active_camera.version,
+             .film = scene.film.version,
+             .settings = scene.clock};
     first_ = false;
     return changes;
 }
@@ -73,13 +76,11 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         const Id<scene::Mesh> id{i};
         const auto* mesh = scene.meshes.find(id);
         if (!mesh || !mesh->data || mesh->data->triangles.empty()) {
-            if (meshes_.erase(i))
-                changes.meshes.push_back(id);
+            if (meshes_.erase(i)) changes.meshes.push_back(id);
             mesh_data_[i].reset();
             continue;
         }
-        if (mesh_data_[i] == mesh->data && meshes_.contains(i))
-            continue; // a rename is no new geometry
+        if (mesh_data_[i] == mesh->data && meshes_.contains(i)) continue; // a rename is no new geometry
         const scene::MeshData& data = *mesh->data;
         GpuMesh g;
         std::size_t at = 0;
@@ -93,9 +94,9 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         const auto normals = place(std::span(data.normals).size_bytes());
         const auto uvs = place(std::span(data.uvs).size_bytes());
         RESTAGE_TRY(g.buffer, device_->create_buffer(at, gpu::BufferKind::host, mesh->name.c_str()));
-        const auto put = [&](std::size_t offset, std::span<const std::byte> bytes, std::uint64_t& address) -> Result<void> {
-            if (bytes.empty())
-                return {};
+        const auto put = [&](std::size_t offset, std::span<const std::byte> bytes,
+                             std::uint64_t& address) -> Result<void> {
+            if (bytes.empty()) return {};
             address = g.buffer.address() + offset;
             return device_->upload(g.buffer, offset, bytes);
         };
@@ -143,8 +144,7 @@ Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out) {
             }
         }
     });
-    if (!staging.empty())
-        RESTAGE_CHECK(device_->upload(out.buffer, 0, staging));
+    if (!staging.empty()) RESTAGE_CHECK(device_->upload(out.buffer, 0, staging));
     out.data = image.data;
     return {};
 }
@@ -154,8 +154,7 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges&) {
     cpu_images_.resize(pixels_.size());
     std::vector<char> used(pixels_.size());
     scene.textures.each([&](Id<scene::Texture>, const scene::Texture& t) {
-        if (t.image)
-            used[t.image.value] = 1;
+        if (t.image) used[t.image.value] = 1;
     });
     images_.resize(pixels_.size(), {});
     for (std::uint32_t i = 1; i < pixels_.size(); ++i) {
@@ -165,8 +164,7 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges&) {
             cpu_images_[i] = {};
             continue;
         }
-        if (pixels_[i].data == image->data)
-            continue;
+        if (pixels_[i].data == image->data) continue;
         RESTAGE_CHECK(upload_image(*image, pixels_[i]));
         cpu_images_[i].pixels = pixels_[i].data.get();
         const std::size_t n = std::size_t(image->data->width) * image->data->height;
@@ -183,8 +181,7 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges&) {
 
 glm::vec2 GpuScene::uv_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
                           glm::vec2 b) const {
-    if (!(instance.flags & INSTANCE_HAS_UVS))
-        return b;
+    if (!(instance.flags & INSTANCE_HAS_UVS)) return b;
     const auto t = mesh.triangles[prim];
     return (1 - b.x - b.y) * mesh.uvs[t.x] + b.x * mesh.uvs[t.y] + b.y * mesh.uvs[t.z];
 }
@@ -204,25 +201,28 @@ float hash_unit(std::initializer_list<float> values) {
 }
 } // namespace
 
-bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const float* o, const float* d) const {
+bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const float* o,
+                            const float* d) const {
     const auto& instance = instances_[id];
     float alpha = instance.alpha;
     if (instance.alpha_texture)
         alpha = evaluate_texture(textures_, cpu_images_, instance.alpha_texture,
-                                 uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary)).x;
-    if (alpha >= 1)
-        return true;
+                                 uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary))
+                    .x;
+    if (alpha >= 1) return true;
     return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2]}) < alpha; // pbrt 4ed, 7.1.1
 }
 
-std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const glm::vec3& p) const {
+std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary,
+                                         const glm::vec3& p) const {
     const auto& instance = instances_[id];
     std::uint32_t m = instance.material;
     for (int depth = 0; depth < 8 && types_[materials_[m].type].mix(); ++depth) {
         float amount = mix_amount_[m];
         if (mix_texture_[m])
             amount = evaluate_texture(textures_, cpu_images_, mix_texture_[m],
-                                      uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary)).x;
+                                      uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary))
+                         .x;
         const bool second = hash_unit({p.x, p.y, p.z, float(depth)}) < amount;
         m = second ? materials_[m].mix_second : materials_[m].mix_first;
     }

@@ -37,7 +37,7 @@ struct SceneChanges {
 };
 
 class GpuScene {
-public:
+  public:
     GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup);
 
     // Result: what changed. After an error the GpuScene must not be traced.
@@ -58,14 +58,16 @@ public:
     scene::Id<scene::Mesh> mesh_of(std::uint32_t instance) const { return mesh_of_[instance]; }
 
     // What the CPU resolves at a hit (thread-safe).
-    bool alpha_passes(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const float* org, const float* dir) const;
+    bool alpha_passes(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const float* org,
+                      const float* dir) const;
     // The material of a hit, through mixes. p: anything that varies over the surface.
-    std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const glm::vec3& p) const;
+    std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary,
+                                   const glm::vec3& p) const;
 
     std::size_t bytes() const; // of device memory
     std::size_t uploaded_bytes() const;
 
-private:
+  private:
     struct Pixels {
         gpu::Buffer buffer;
         scene::Version version = 0;

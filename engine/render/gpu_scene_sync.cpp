@@ -13,12 +13,10 @@ using scene::Scene;
 
 std::uint32_t GpuScene::type_index(const std::string& type) {
     for (std::uint32_t i = 0; i < types_.size(); ++i)
-        if (types_[i].type == type)
-            return i;
+        if (types_[i].type == type) return i;
     MaterialType t;
     t.type = type;
-    if (const auto plugin = lookup_(type))
-        t.plugin = *plugin;
+    if (const auto plugin = lookup_(type)) t.plugin = *plugin;
     types_.push_back(t);
     return std::uint32_t(types_.size() - 1);
 }
@@ -28,16 +26,13 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     std::vector<char> used(scene.materials.size() + 1);
     const auto use = [&](auto&& self, Id<scene::Material> id, int depth) -> void {
         const auto* m = scene.materials.find(id);
-        if (!m || depth > 8 || used[id.value])
-            return;
+        if (!m || depth > 8 || used[id.value]) return;
         used[id.value] = 1;
         for (const auto& e : m->params.entries())
-            if (e.value.type == RESTAGE_MATERIAL)
-                self(self, e.value.material, depth + 1);
+            if (e.value.type == RESTAGE_MATERIAL) self(self, e.value.material, depth + 1);
     };
     scene.instances.each([&](Id<scene::Instance>, const scene::Instance& i) {
-        if (!i.hidden)
-            use(use, i.material, 0);
+        if (!i.hidden) use(use, i.material, 0);
     });
 
     const auto old_types = types_;
@@ -47,8 +42,9 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     }
     const std::uint32_t fallback = type_index("diffuse"); // what a missing plugin's materials look like
     if (!types_[fallback].plugin.table)
-        return fail("no plugin for the material type \"diffuse\": Restage's own plugins were not found; look at "
-                    "`restage plugins`");
+        return fail(
+            "no plugin for the material type \"diffuse\": Restage's own plugins were not found; look at "
+            "`restage plugins`");
     std::vector<shared::MaterialData> records(scene.materials.size() + 1);
     std::vector<std::uint32_t> words;
     mix_amount_.assign(records.size(), 0.5f);
@@ -67,12 +63,10 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         shared::MaterialData& record = records[id.value];
         record = records[0];
         record.id = id.value;
-        if (!used[id.value])
-            return;
+        if (!used[id.value]) return;
         const std::uint32_t index = type_index(m.type);
         MaterialType& type = types_[index];
-        if (!type.plugin.table)
-            return;
+        if (!type.plugin.table) return;
         if (type.mix()) {
             record.type = index;
             record.flags = MATERIAL_MIX;
@@ -125,10 +119,8 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     out.object_id = id;
     out.alpha_texture = scene.textures.find(in.alpha_texture) ? in.alpha_texture.value : 0;
     out.alpha = in.alpha;
-    if (in.reverse_orientation)
-        out.flags |= INSTANCE_FLIP_NORMAL;
-    if (out.alpha_texture || in.alpha < 1)
-        out.flags |= INSTANCE_HAS_ALPHA;
+    if (in.reverse_orientation) out.flags |= INSTANCE_FLIP_NORMAL;
+    if (out.alpha_texture || in.alpha < 1) out.flags |= INSTANCE_HAS_ALPHA;
     if (in.emission) {
         out.flags |= INSTANCE_EMITS | (in.emission->two_sided ? INSTANCE_TWO_SIDED : 0);
         out.emission = in.emission->radiance;
@@ -168,12 +160,10 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         const bool traced = in && !in->hidden && mesh(in->mesh) && (!nothing || in->emission);
         const bool changed = i >= old || scene.instances.version(id) > seen_.instances || traced != (traced_[i] != 0) ||
                              (in && replaced[in->mesh.value]);
-        if (!changed)
-            continue;
+        if (!changed) continue;
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
-        if (nothing)
-            record.material = 0;
+        if (nothing) record.material = 0;
         instances_.set(i, record);
         traced_[i] = traced;
         mesh_of_[i] = in ? in->mesh : Id<scene::Mesh>{};
@@ -195,8 +185,7 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges&) {
     // Radius of the scene: of what is visible, about its centre.
     glm::dvec3 lower(1e300), upper(-1e300);
     scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& i) {
-        if (!traced_[id.value])
-            return;
+        if (!traced_[id.value]) return;
         const auto& mesh = *scene.meshes[i.mesh].data;
         for (int k = 0; k < 8; ++k) {
             const glm::dvec3 corner(k & 1 ? mesh.upper.x : mesh.lower.x, k & 2 ? mesh.upper.y : mesh.lower.y,
@@ -236,8 +225,7 @@ void set_camera(const Scene& scene, const glm::dvec3& origin, shared::CameraData
     out.camera_to_world = glm::mat4x3(m);
     const double aspect = camera.frame_aspect > 0 ? camera.frame_aspect : double(film.width) / film.height;
     glm::dvec4 window = aspect > 1 ? glm::dvec4(-aspect, aspect, -1, 1) : glm::dvec4(-1, 1, -1 / aspect, 1 / aspect);
-    if (camera.screen_window)
-        window = *camera.screen_window;
+    if (camera.screen_window) window = *camera.screen_window;
     window *= std::tan(glm::radians(double(camera.fov)) / 2);
     out.screen_min = {window.x, window.w};
     out.screen_max = {window.y, window.z};
@@ -289,8 +277,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
                                                                   : FILTER_TABLE;
     if (first_ || scene.film.version != seen_.film) {
         FilterTable table;
-        if (d.filter_.kind == FILTER_TABLE)
-            table = make_filter_table(filter);
+        if (d.filter_.kind == FILTER_TABLE) table = make_filter_table(filter);
         filter_.assign(std::move(table.data));
         RESTAGE_CHECK(filter_.flush(*device_));
         filter_weight_ = table.weight;

@@ -29,8 +29,7 @@ glm::dvec3 outward_normal(const scene::Instance& instance, const scene::MeshData
     if (!mesh.normals.empty()) {
         // a flip by reverse_orientation turns both normals, and the geometric one then follows the shading one
         const glm::dvec3 s = normal_to_world * glm::dvec3(mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]);
-        if (glm::dot(n, s) < 0)
-            n = -n;
+        if (glm::dot(n, s) < 0) n = -n;
     }
     return instance.reverse_orientation ? -n : n;
 }
@@ -42,8 +41,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
     std::vector<double> power;
 
     scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& instance) {
-        if (!instance.emission || !visible(scene, instance) || luminance(instance.emission->radiance) <= 0)
-            return;
+        if (!instance.emission || !visible(scene, instance) || luminance(instance.emission->radiance) <= 0) return;
         const auto& mesh = *scene.meshes[instance.mesh].data;
         table.light_base[id.value] = std::uint32_t(table.lights.size());
         const double exitance = pi * luminance(instance.emission->radiance) * (instance.emission->two_sided ? 2 : 1);
@@ -53,8 +51,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
             };
             const glm::dvec3 p0 = world(t.x);
             glm::dvec3 b = world(t.y) - p0, c = world(t.z) - p0;
-            if (glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0)
-                std::swap(b, c);
+            if (glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0) std::swap(b, c);
             const double area = 0.5 * glm::length(glm::cross(b, c));
             LightData light{};
             light.kind = LIGHT_TRIANGLE | (instance.emission->two_sided ? LIGHT_TWO_SIDED : 0);
@@ -74,24 +71,24 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         light.a = glm::dvec3(m[3]) - origin;
         const glm::dvec3 axis = glm::normalize(glm::dvec3(m[2]));
         switch (item.kind) {
-        case RESTAGE_LIGHT_POINT:
-            light.kind = LIGHT_POINT;
-            power.push_back(4 * pi * luminance(item.value));
-            break;
-        case RESTAGE_LIGHT_SPOT: { // pbrt 4ed, eq. 12.5
-            light.kind = LIGHT_SPOT;
-            light.b = axis;
-            const double total = std::cos(glm::radians(double(item.cone_angle)));
-            const double start = std::cos(glm::radians(double(item.cone_angle - item.cone_delta)));
-            light.c = {total, start, 0};
-            power.push_back(2 * pi * ((1 - start) + (start - total) / 2) * luminance(item.value));
-            break;
-        }
-        case RESTAGE_LIGHT_DISTANT:
-            light.kind = LIGHT_DISTANT;
-            light.b = -axis;
-            power.push_back(pi * radius * radius * luminance(item.value));
-            break;
+            case RESTAGE_LIGHT_POINT:
+                light.kind = LIGHT_POINT;
+                power.push_back(4 * pi * luminance(item.value));
+                break;
+            case RESTAGE_LIGHT_SPOT: { // pbrt 4ed, eq. 12.5
+                light.kind = LIGHT_SPOT;
+                light.b = axis;
+                const double total = std::cos(glm::radians(double(item.cone_angle)));
+                const double start = std::cos(glm::radians(double(item.cone_angle - item.cone_delta)));
+                light.c = {total, start, 0};
+                power.push_back(2 * pi * ((1 - start) + (start - total) / 2) * luminance(item.value));
+                break;
+            }
+            case RESTAGE_LIGHT_DISTANT:
+                light.kind = LIGHT_DISTANT;
+                light.b = -axis;
+                power.push_back(pi * radius * radius * luminance(item.value));
+                break;
         }
         table.lights.push_back(light);
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene's lights as one table, chosen by power: a triangle of an emissive instance, a point, a spot, a distant light
-// or the environment each is one entry. World space is relative to the render origin.
+// The scene's lights as one table, chosen by power: a triangle of an emissive instance, a point, a spot, a distant
+// light or the environment each is one entry. World space is relative to the render origin.
 #pragma once
 
 #include "scene/scene.hpp"

@@ -8,29 +8,30 @@ namespace {
 
 const char* glsl_type(const RestageParam& p) {
     switch (p.type) {
-    case RESTAGE_COLOR:
-        return "vec3";
-    case RESTAGE_FLOAT:
-        return "float";
-    case RESTAGE_BOOL:
-        return "bool";
-    default:
-        return "int";
+        case RESTAGE_COLOR:
+            return "vec3";
+        case RESTAGE_FLOAT:
+            return "float";
+        case RESTAGE_BOOL:
+            return "bool";
+        default:
+            return "int";
     }
 }
 
 std::string read_value(const RestageParam& p, std::uint32_t at) {
     switch (p.type) {
-    case RESTAGE_COLOR:
-        return fmt::format("vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
-                           "uintBitsToFloat(w.at[at + {}]))",
-                           at, at + 1, at + 2);
-    case RESTAGE_FLOAT:
-        return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
-    case RESTAGE_BOOL:
-        return fmt::format("w.at[at + {}] != 0u", at);
-    default:
-        return fmt::format("int(w.at[at + {}])", at);
+        case RESTAGE_COLOR:
+            return fmt::format(
+                "vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
+                "uintBitsToFloat(w.at[at + {}]))",
+                at, at + 1, at + 2);
+        case RESTAGE_FLOAT:
+            return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
+        case RESTAGE_BOOL:
+            return fmt::format("w.at[at + {}] != 0u", at);
+        default:
+            return fmt::format("int(w.at[at + {}])", at);
     }
 }
 
@@ -44,8 +45,7 @@ gpu::ShaderSource compose_material(const MaterialType& type, const std::string& 
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& line = table.params[i];
         const auto n = value_words(line);
-        if (n == 0)
-            continue;
+        if (n == 0) continue;
         fields += fmt::format("    {} {};\n", glsl_type(line), line.id);
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
         if (type.textured >> i & 1) // a slot nobody has textured carries no texture code
@@ -53,15 +53,15 @@ gpu::ShaderSource compose_material(const MaterialType& type, const std::string& 
                                  at + n, line.id, line.type == RESTAGE_COLOR ? "xyz" : "x");
         at += line_words(line);
     }
-    if (fields.empty())
-        fields = "    int unused;\n", fetch = "    m.unused = 0;\n";
+    if (fields.empty()) fields = "    int unused;\n", fetch = "    m.unused = 0;\n";
     const char* rng = (table.flags & RESTAGE_MATERIAL_STOCHASTIC) ? ", rng" : "";
 
     gpu::ShaderSource source;
     source.name = "<composed for " + type.type + ">";
     source.stage = stage;
     source.include_dirs = {type.plugin.folder};
-    source.text = fmt::format(R"(#version 460
+    source.text = fmt::format(
+        R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 {rt}#include "lib/bsdf.glsl"
@@ -82,11 +82,9 @@ BsdfSample material_sample(Material m, vec3 wo, vec3 u, inout Rng rng) {{ return
 vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 #include "{main}"
 )",
-                              fmt::arg("p", prefix), fmt::arg("fields", fields), fmt::arg("fetch", fetch),
-                              fmt::arg("rng", rng), fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
-                              fmt::arg("rt", stage == gpu::ShaderStage::compute
-                                                 ? ""
-                                                 : "#extension GL_EXT_ray_tracing : require\n"));
+        fmt::arg("p", prefix), fmt::arg("fields", fields), fmt::arg("fetch", fetch), fmt::arg("rng", rng),
+        fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
+        fmt::arg("rt", stage == gpu::ShaderStage::compute ? "" : "#extension GL_EXT_ray_tracing : require\n"));
     return source;
 }
 
@@ -95,8 +93,8 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
     const bool bump = type && type->bump;
     const bool textures = type && (type->textured != 0 || bump);
     const bool tangents = type && (bump || (type->plugin.table->flags & RESTAGE_MATERIAL_TANGENT));
-    return {{0, f.environment}, {1, textures}, {2, bump},     {3, f.lens},         {4, f.media},
-            {5, guides},        {6, std::uint32_t(strategy)}, {7, tangents},       {8, f.filter_table}};
+    return {{0, f.environment},           {1, textures}, {2, bump},          {3, f.lens}, {4, f.media}, {5, guides},
+            {6, std::uint32_t(strategy)}, {7, tangents}, {8, f.filter_table}};
 }
 
 } // namespace restage::render

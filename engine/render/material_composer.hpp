@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials are composed, not linked: for each type in the scene a shader from its parameter struct, its fetch code, the
-// plugin's GLSL and the tracer's own main.
+// Materials are composed, not linked: for each type in the scene a shader from its parameter struct, its fetch code,
+// the plugin's GLSL and the tracer's own main.
 #pragma once
 
 #include "gpu/compiler.hpp"
@@ -25,6 +25,7 @@ enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage);
 
 // For a material's shader: what this type uses; or for a kernel without material.
-std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures&, bool guides, Strategy, const MaterialType* = nullptr);
+std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures&, bool guides, Strategy,
+                                              const MaterialType* = nullptr);
 
 } // namespace restage::render

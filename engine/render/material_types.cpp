@@ -7,15 +7,15 @@ namespace restage::render {
 
 std::uint32_t value_words(const RestageParam& p) {
     switch (p.type) {
-    case RESTAGE_COLOR:
-        return 3;
-    case RESTAGE_FLOAT:
-    case RESTAGE_INT:
-    case RESTAGE_BOOL:
-    case RESTAGE_ENUM:
-        return 1;
-    default:
-        return 0; // TEXT, MATERIAL, TEXTURE: not for BSDFs
+        case RESTAGE_COLOR:
+            return 3;
+        case RESTAGE_FLOAT:
+        case RESTAGE_INT:
+        case RESTAGE_BOOL:
+        case RESTAGE_ENUM:
+            return 1;
+        default:
+            return 0; // TEXT, MATERIAL, TEXTURE: not for BSDFs
     }
 }
 
@@ -24,28 +24,27 @@ std::vector<std::uint32_t> pack_material(const RestageMaterial1& table, const sc
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& line = table.params[i];
         const auto n = value_words(line);
-        if (n == 0)
-            continue;
+        if (n == 0) continue;
         const scene::Value* set = params.find(line.id);
         const scene::Value value = set ? *set : scene::default_value(line);
         switch (line.type) {
-        case RESTAGE_COLOR:
-            for (int k = 0; k < 3; ++k) // a number where a colour is asked for is a grey
-                words.push_back(std::bit_cast<std::uint32_t>(value.type == RESTAGE_FLOAT ? value.v[0] : value.v[k]));
-            break;
-        case RESTAGE_FLOAT:
-            words.push_back(std::bit_cast<std::uint32_t>(value.v[0]));
-            break;
-        case RESTAGE_ENUM: {
-            const auto index = scene::choice_index(line.choices, value.text);
-            words.push_back(std::uint32_t(index ? *index : int(line.def[0])));
-            break;
+            case RESTAGE_COLOR:
+                for (int k = 0; k < 3; ++k) // a number where a colour is asked for is a grey
+                    words.push_back(
+                        std::bit_cast<std::uint32_t>(value.type == RESTAGE_FLOAT ? value.v[0] : value.v[k]));
+                break;
+            case RESTAGE_FLOAT:
+                words.push_back(std::bit_cast<std::uint32_t>(value.v[0]));
+                break;
+            case RESTAGE_ENUM: {
+                const auto index = scene::choice_index(line.choices, value.text);
+                words.push_back(std::uint32_t(index ? *index : int(line.def[0])));
+                break;
+            }
+            default:
+                words.push_back(std::uint32_t(std::int32_t(value.v[0])));
         }
-        default:
-            words.push_back(std::uint32_t(std::int32_t(value.v[0])));
-        }
-        if (line.flags & RESTAGE_PARAM_TEXTURABLE)
-            words.push_back(value.texture.value);
+        if (line.flags & RESTAGE_PARAM_TEXTURABLE) words.push_back(value.texture.value);
     }
     return words;
 }

@@ -5,10 +5,10 @@
 
 #include "scene/scene.hpp"
 
+#include <restage/material.h>
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <restage/material.h>
 #include <string>
 #include <vector>
 

@@ -3,9 +3,9 @@
 
 #include "base/file.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace restage::render {
 
@@ -21,7 +21,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
         self->options_.shader_dir = bin.parent_path() / "share/restage/shaders";
     }
     if (!std::filesystem::exists(self->options_.shader_dir / "path/step.glsl"))
-        return fail(self->options_.shader_dir.string() + ": Restage's shaders are not there; the installation is incomplete");
+        return fail(self->options_.shader_dir.string() +
+                    ": Restage's shaders are not there; the installation is incomplete");
     if (self->options_.cache_dir.empty()) {
         RESTAGE_TRY(self->options_.cache_dir, cache_dir());
     }
@@ -29,14 +30,16 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     const std::string& wanted = options.tracer;
     if (!wanted.empty() && wanted != "embree" && wanted != "vulkan")
         return fail("there is no tracer \"" + wanted + "\"; there are embree and vulkan");
-    RESTAGE_TRY(self->device_, gpu::Device::create({.select = options.device, .validation = options.validation,
+    RESTAGE_TRY(self->device_, gpu::Device::create({.select = options.device,
+                                                    .validation = options.validation,
                                                     .require_ray_tracing = wanted == "vulkan",
                                                     .cache_dir = self->options_.cache_dir},
                                                    log));
     self->compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{
         .include_dirs = {self->options_.shader_dir}, .cache_dir = self->options_.cache_dir / "spirv"});
     const auto& info = self->device_->info();
-    const bool use_vulkan = wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);
+    const bool use_vulkan =
+        wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);
     const TracerContext context{*self->device_, *self->compiler_, self->jobs_, log, self->options_.shader_dir};
     if (use_vulkan) {
         RESTAGE_TRY(self->tracer_, make_vulkan_tracer(context));
@@ -60,19 +63,21 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
     if (changes.film || !film_) {
         // The crop window in pixels; pbrt 4ed, 5.4.2, in floats as there: 0.2f of 30 is 6
         const scene::Film& f = scene.film.value;
-        const auto pixel = [](float x, std::uint32_t n) { return std::uint32_t(std::clamp(std::ceil(x * float(n)), 0.f, float(n))); };
+        const auto pixel = [](float x, std::uint32_t n) {
+            return std::uint32_t(std::clamp(std::ceil(x * float(n)), 0.f, float(n)));
+        };
         const glm::uvec2 lower(pixel(f.crop.x, f.width), pixel(f.crop.z, f.height));
         const glm::uvec2 upper(pixel(f.crop.y, f.width), pixel(f.crop.w, f.height));
         if (upper.x <= lower.x || upper.y <= lower.y)
-            return fail(fmt::format("the film's crop window [{} {} {} {}] holds no pixel", f.crop.x, f.crop.y, f.crop.z, f.crop.w));
+            return fail(fmt::format("the film's crop window [{} {} {} {}] holds no pixel", f.crop.x, f.crop.y, f.crop.z,
+                                    f.crop.w));
         crop_origin_ = lower;
         if (!film_ || film_->width() != upper.x - lower.x || film_->height() != upper.y - lower.y) {
             RESTAGE_TRY(auto film, Film::create(*device_, upper.x - lower.x, upper.y - lower.y));
             film_ = std::move(film);
         }
     }
-    if (changes.image)
-        reset();
+    if (changes.image) reset();
     return {};
 }
 

@@ -22,7 +22,7 @@ struct RendererOptions {
 };
 
 class Renderer {
-public:
+  public:
     static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options, MaterialLookup lookup, Log& log);
     ~Renderer();
     Renderer(const Renderer&) = delete;
@@ -35,7 +35,10 @@ public:
     std::uint32_t samples() const { return samples_; } // a pixel, since the last reset
     FilmImage image() const { return film_ ? film_->read() : FilmImage{}; }
     double relative_error() const { return film_ ? film_->relative_error() : 1e30; }
-    void reset() { samples_ = 0; if (film_) film_->clear(); }
+    void reset() {
+        samples_ = 0;
+        if (film_) film_->clear();
+    }
 
     const TraceStats& stats() const { return tracer_->stats(); }
     void reset_stats() { tracer_->reset_stats(); }
@@ -46,7 +49,7 @@ public:
     // A new scene: forgets what was derived from the old one.
     void forget_scene();
 
-private:
+  private:
     Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log);
 
     RendererOptions options_;

@@ -17,16 +17,14 @@ using shared::TextureOp;
 constexpr std::size_t stack_size = 3; // of shaders/lib/texture.glsl
 
 class Compiler {
-public:
+  public:
     explicit Compiler(const Scene& scene) : scene_(scene) {}
 
     // Appends the operations that push texture `id`; false when it needs more stack than there is.
     bool texture(Id<Texture> id, std::size_t height, int depth) {
         const Texture* t = scene_.textures.find(id);
-        if (!t || depth > 16 || height >= stack_size)
-            return false;
-        if (t->type == "imagemap")
-            return image(*t);
+        if (!t || depth > 16 || height >= stack_size) return false;
+        if (t->type == "imagemap") return image(*t);
         if (t->type == "scale")
             return operand(*t, "tex", 1, height, depth) && operand(*t, "scale", 1, height + 1, depth) &&
                    combine(OP_MULTIPLY, *t);
@@ -36,8 +34,7 @@ public:
         if (t->type == "checkerboard")
             return operand(*t, "tex1", 1, height, depth) && operand(*t, "tex2", 0, height + 1, depth) &&
                    combine(OP_CHECKER, *t);
-        if (t->type == "constant")
-            return operand(*t, "value", 1, height, depth);
+        if (t->type == "constant") return operand(*t, "value", 1, height, depth);
         constant(t->params.color("average", {0.5f, 0.5f, 0.5f}));
         return true;
     }
@@ -50,7 +47,7 @@ public:
 
     std::vector<TextureOp> ops;
 
-private:
+  private:
     static glm::vec4 mapping(const Texture& t) {
         return {t.params.number("uscale", 1), t.params.number("vscale", 1), t.params.number("udelta", 0),
                 t.params.number("vdelta", 0)};
@@ -74,10 +71,8 @@ private:
     }
     bool operand(const Texture& t, std::string_view id, float fallback, std::size_t height, int depth) {
         const scene::Value* v = t.params.find(id);
-        if (v && v->texture)
-            return texture(v->texture, height, depth + 1);
-        if (height >= stack_size)
-            return false;
+        if (v && v->texture) return texture(v->texture, height, depth + 1);
+        if (height >= stack_size) return false;
         if (!v)
             constant({fallback, fallback, fallback});
         else if (v->type == RESTAGE_COLOR)
@@ -145,8 +140,8 @@ TexturePrograms compile_textures(const Scene& scene) {
     return out;
 }
 
-glm::vec3 evaluate_texture(const TexturePrograms& textures, const std::vector<CpuImage>& images,
-                           std::uint32_t texture, glm::vec2 uv) {
+glm::vec3 evaluate_texture(const TexturePrograms& textures, const std::vector<CpuImage>& images, std::uint32_t texture,
+                           glm::vec2 uv) {
     glm::vec3 a(0), b(0), c(0);
     const auto program = textures.programs[texture];
     for (std::uint32_t i = 0; i < program.count; ++i) {

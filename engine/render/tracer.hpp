@@ -41,7 +41,7 @@ struct TraceStats {
 };
 
 class Tracer {
-public:
+  public:
     virtual ~Tracer() = default;
     virtual const char* name() const = 0;
     // Brings pipelines and acceleration structures up to date.
@@ -51,7 +51,7 @@ public:
     const TraceStats& stats() const { return stats_; }
     void reset_stats() { stats_ = {.shader_bytes = stats_.shader_bytes}; }
 
-protected:
+  protected:
     TraceStats stats_;
 };
 

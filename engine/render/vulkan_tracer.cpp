@@ -7,10 +7,10 @@
 #include "gpu/pipeline.hpp"
 #include "render/tracer.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <fmt/format.h>
 #include <map>
 #include <utility>
 
@@ -30,25 +30,23 @@ struct Rectangle {
 };
 
 class VulkanTracer final : public Tracer {
-public:
+  public:
     explicit VulkanTracer(const TracerContext& c) : c_(c) {}
     const char* name() const override { return "vulkan"; }
 
     Result<void> start() {
         if (!c_.device.info().ray_tracing)
             return fail("the vulkan tracer needs a device that traces rays: " + c_.device.info().missing_ray_tracing);
-        RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t),
-                                                       gpu::BufferKind::readback, "counters"));
+        RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), gpu::BufferKind::readback,
+                                                       "counters"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
         std::memset(counters_.mapped(), 0, counters_.size());
         return {};
     }
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
-        if (changes.shaders)
-            pipeline_ready_ = false;
-        if (!changes.meshes.empty())
-            RESTAGE_CHECK(build_meshes(scene, changes));
+        if (changes.shaders) pipeline_ready_ = false;
+        if (!changes.meshes.empty()) RESTAGE_CHECK(build_meshes(scene, changes));
         const auto n = std::uint32_t(scene.instances().size());
         const bool grown = !tlas_ || n > tlas_.capacity();
         if (grown) {
@@ -56,8 +54,7 @@ public:
         }
         // fewer: a larger scene was forgotten, and with it the meshes that the acceleration structure points at
         const bool resized = n != std::exchange(instances_, n);
-        if (!grown && !resized && changes.instances.empty() && changes.meshes.empty())
-            return {};
+        if (!grown && !resized && changes.instances.empty() && changes.meshes.empty()) return {};
         tlas_.resize(n);
         if (grown)
             for (std::uint32_t i = 0; i < n; ++i)
@@ -88,22 +85,22 @@ public:
         stats_.seconds += seconds_since(start);
         auto counts = counters_.span<std::uint32_t>();
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
-            if (counts[i])
-                stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
+            if (counts[i]) stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
         return {};
     }
 
-private:
+  private:
     Result<void> build_meshes(const GpuScene& scene, const SceneChanges& changes) {
         std::erase_if(blas_, [&](const auto& entry) { return !scene.mesh({entry.first}); });
         std::vector<gpu::BlasInput> inputs;
         std::vector<std::uint32_t> ids;
         for (const auto id : changes.meshes) {
             const GpuMesh* mesh = scene.mesh(id);
-            if (!mesh)
-                continue;
-            inputs.push_back({.vertices = mesh->positions, .vertex_count = mesh->vertex_count,
-                              .indices = mesh->indices, .triangle_count = mesh->triangle_count,
+            if (!mesh) continue;
+            inputs.push_back({.vertices = mesh->positions,
+                              .vertex_count = mesh->vertex_count,
+                              .indices = mesh->indices,
+                              .triangle_count = mesh->triangle_count,
                               .name = mesh->buffer.name()});
             ids.push_back(id.value);
         }
@@ -115,8 +112,7 @@ private:
 
     gpu::TlasInstance tlas_instance(const GpuScene& scene, std::uint32_t i) const {
         gpu::TlasInstance out;
-        if (!scene.traced(i))
-            return out; // nothing is there
+        if (!scene.traced(i)) return out; // nothing is there
         const shared::InstanceData& data = scene.instances()[i];
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column)
@@ -131,13 +127,11 @@ private:
 
     // One callable a material type, at the type's index. `f`: what a dry run is given.
     Result<void> make_pipeline(const GpuScene& scene, const TraceRequest& request, const shared::FrameData& f) {
-        if (pipeline_ready_ && guides_on_ == request.guides && strategy_ == request.strategy)
-            return {};
+        if (pipeline_ready_ && guides_on_ == request.guides && strategy_ == request.strategy) return {};
         stats_.shader_bytes = 0;
         const auto compile = [&](const gpu::ShaderSource& source) -> Result<gpu::Spirv> {
             auto spirv = c_.compiler.compile(source);
-            if (spirv)
-                stats_.shader_bytes += spirv->words.size() * 4;
+            if (spirv) stats_.shader_bytes += spirv->words.size() * 4;
             return spirv;
         };
         const auto file = [&](const char* name, gpu::ShaderStage stage) -> Result<gpu::Spirv> {
@@ -156,9 +150,9 @@ private:
         bool mixes = false;
         for (std::size_t i = 0; i < types.size(); ++i) {
             mixes |= types[i].mix();
-            if (!types[i].plugin.table || !types[i].plugin.table->glsl_file)
-                continue;
-            RESTAGE_TRY(steps[i], compile(compose_material(types[i], "trace_material.glsl", gpu::ShaderStage::callable)));
+            if (!types[i].plugin.table || !types[i].plugin.table->glsl_file) continue;
+            RESTAGE_TRY(steps[i],
+                        compile(compose_material(types[i], "trace_material.glsl", gpu::ShaderStage::callable)));
             callables[i] = &steps[i];
             callable_constants[i] = spec_constants(scene.features(), request.guides, request.strategy, &types[i]);
         }
@@ -174,7 +168,9 @@ private:
         const gpu::Spirv* const misses[] = {&miss};
         const gpu::HitGroup groups[] = {{&closest_hit, nullptr}, {&closest_hit, &any_hit}};
         RESTAGE_TRY(pipeline_, gpu::RayTracingPipeline::create(c_.device,
-                                                               {.raygen = &raygen, .misses = misses, .hit_groups = groups,
+                                                               {.raygen = &raygen,
+                                                                .misses = misses,
+                                                                .hit_groups = groups,
                                                                 .callables = callables,
                                                                 .callable_constants = callable_constants},
                                                                sizeof(shared::TracePush), constants, "path tracer"));
@@ -195,8 +191,7 @@ private:
             for (r.y = 0; r.y < height; r.y += r.height) {
                 r.height = std::min(std::max(paths_now_ / width, least_side), height - r.y);
                 for (r.x = 0; r.x < width; r.x += r.width) {
-                    if (request.keep_going && !request.keep_going())
-                        return {};
+                    if (request.keep_going && !request.keep_going()) return {};
                     r.width = std::min(std::max(paths_now_ / r.height, least_side), width - r.x);
                     RESTAGE_CHECK(submit_timed(r, s, samples));
                 }
@@ -227,8 +222,7 @@ private:
             list_.reset();
         }
         for (std::uint32_t s = 0; s < samples; ++s) {
-            if (s > 0)
-                list_.barrier(); // the next sample adds to the same pixels
+            if (s > 0) list_.barrier(); // the next sample adds to the same pixels
             const shared::TracePush push{frame_.address(), tlas_.address(), r.x, r.y, first_sample + s, 0};
             list_.trace(pipeline_, gpu::push_bytes(push), r.width, r.height);
         }
@@ -237,13 +231,13 @@ private:
 
     TracerContext c_;
     std::map<std::uint32_t, gpu::Blas> blas_; // by Id<Mesh>::value
-    gpu::Tlas tlas_;                          // index = InstanceData index
+    gpu::Tlas tlas_; // index = InstanceData index
     gpu::RayTracingPipeline pipeline_;
     gpu::Buffer counters_, frame_;
     bool pipeline_ready_ = false, guides_on_ = false;
     Strategy strategy_ = Strategy::mis;
     gpu::CommandList list_;
-    std::uint32_t instances_ = 0;    // in tlas_
+    std::uint32_t instances_ = 0; // in tlas_
     std::uint32_t paths_now_ = 1024; // a submission
 };
 

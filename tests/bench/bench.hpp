@@ -6,13 +6,13 @@
 #include "plugin/registry.hpp"
 #include "render/renderer.hpp"
 
+#include <sys/resource.h>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/resource.h>
 #include <utility>
 
 namespace restage::bench {
@@ -74,6 +74,7 @@ struct Options { // of all measurements
     int runs = 3;
     bool quick = false;
     unsigned threads = 0;
+    std::uint32_t samples = 256; // a pixel, where error curves end
 };
 
 Json measure_rays(const Options&);

@@ -43,18 +43,21 @@ Json measure_edits(const Options& o) {
     };
     const auto sphere = [&](int i) { return spheres[std::size_t(i * 37 + 11) % 1000]; };
     const Kind kinds[] = {
-        {"move", [&](int i) {
+        {"move",
+         [&](int i) {
              Instance moved = scene.instances[sphere(i)];
              moved.object_to_world[3].y += 0.5;
              return change(sphere(i), moved);
          }},
-        {"add", [&](int i) {
+        {"add",
+         [&](int i) {
              Instance copy = scene.instances[sphere(i)];
              copy.object_to_world[3].y += 1;
              return change(scene.instances.next(), copy);
          }},
         {"remove", [&](int i) { return change(sphere(500 + i), std::nullopt); }},
-        {"other material", [&](int i) {
+        {"other material",
+         [&](int i) {
              Instance other = scene.instances[sphere(i)];
              other.material = scene.instances[sphere(i + 1)].material;
              return change(sphere(i), other);
@@ -70,9 +73,11 @@ Json measure_edits(const Options& o) {
                 apply(scene, kind.make(i));
                 check(renderer->sync(scene));
             });
-            runs.push_back({{"wall", sync.wall}, {"cpu", sync.cpu},
+            runs.push_back({{"wall", sync.wall},
+                            {"cpu", sync.cpu},
                             {"uploaded_bytes", renderer->gpu_scene().uploaded_bytes() - uploaded},
-                            {"pipelines", pipelines - made}, {"mesh_structures_built", embree_scenes_made() - built}});
+                            {"pipelines", pipelines - made},
+                            {"mesh_structures_built", embree_scenes_made() - built}});
             const auto before = pipelines;
             check(renderer->trace(1)); // pipelines are made here when they are needed
             runs.back()["pipelines"] = runs.back()["pipelines"].get<std::uint64_t>() + pipelines - before;

@@ -44,7 +44,7 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
         if (!denoiser && entry.table->available(&reason)) denoiser = entry.table;
 
     using render::Strategy;
-    const std::uint32_t most = o.quick ? 8 : 64, deep = o.quick ? 16 : 256;
+    const std::uint32_t deep = o.quick ? 16 : o.samples, most = std::max(deep / 4, 8u);
     const Config configs[] = {{"mis", Strategy::mis, true, deep, true},
                               {"mis, no roulette", Strategy::mis, false, most, false},
                               {"light", Strategy::light_only, true, most, false},
@@ -54,7 +54,8 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
         scene.settings.value.russian_roulette = config.roulette;
         scene.settings.version = ++scene.clock;
         for (int seed = 0; seed < o.runs; ++seed) {
-            const auto renderer = plugins.renderer({.threads = o.threads, .seed = std::uint32_t(seed), .strategy = config.strategy});
+            const auto renderer =
+                plugins.renderer({.threads = o.threads, .seed = std::uint32_t(seed), .strategy = config.strategy});
             check(renderer->sync(scene));
             check(renderer->trace(1)); // compiles
             renderer->reset();
@@ -64,19 +65,28 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
                 spent.wall += t.wall;
                 spent.cpu += t.cpu;
                 const auto film = renderer->image();
-                rows.push_back({{"config", config.name}, {"seed", seed}, {"samples", n}, {"wall", spent.wall}, {"cpu", spent.cpu},
+                rows.push_back({{"config", config.name},
+                                {"seed", seed},
+                                {"samples", n},
+                                {"wall", spent.wall},
+                                {"cpu", spent.cpu},
                                 {"rel_mse", rel_mse(picture(film.color, film, exposure), reference)}});
                 if (!config.denoised || !denoiser) continue;
                 std::vector<glm::vec3> clean;
-                const Seconds d = time([&] { clean = take(render::denoise(film, *denoiser, RESTAGE_DENOISE_HIGH, o.threads)); });
+                const Seconds d =
+                    time([&] { clean = take(render::denoise(film, *denoiser, RESTAGE_DENOISE_HIGH, o.threads)); });
                 rows.back()["denoise_wall"] = d.wall;
                 rows.back()["denoise_cpu"] = d.cpu;
                 rows.back()["rel_mse_denoised"] = rel_mse(picture(clean, film, exposure), reference);
             }
         }
     }
-    // var(mean of two halves) = var(half1 - half2) / 4
-    Json result = {{"width", a.width}, {"height", a.height}, {"clip", clip}, {"reference_noise", rel_mse(a, b) / 4}, {"rows", rows}};
+    // half1 - mean = (half1 - half2) / 2, whose square is an estimate of the mean's variance
+    Json result = {{"width", a.width},
+                   {"height", a.height},
+                   {"clip", clip},
+                   {"reference_noise", rel_mse(a, reference)},
+                   {"rows", rows}};
     if (!denoiser) result["not_denoised"] = reason;
     return result;
 }

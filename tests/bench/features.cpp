@@ -23,8 +23,10 @@ struct Hidden { // adds things under the floor of the Cornell box: paths leave t
         const auto box = scene.instances[Id<Instance>{scene.instances.size()}].mesh;
         glm::dmat4 at = glm::translate(glm::dmat4(1), glm::dvec3(-0.8 + 0.1 * count++, -1.2, -0.5));
         const auto id = scene.instances.next();
-        scene.instances.set(id, Instance{.name = "hidden", .mesh = box, .material = m,
-                                         .object_to_world = glm::scale(at, glm::dvec3(0.03))}, ++scene.clock);
+        scene.instances.set(
+            id,
+            Instance{.name = "hidden", .mesh = box, .material = m, .object_to_world = glm::scale(at, glm::dvec3(0.03))},
+            ++scene.clock);
     }
 };
 
@@ -87,9 +89,12 @@ Json measure_features(const Options& o, const std::string& variant) {
         const Seconds t = time([&] { check(renderer->trace(spp)); });
         runs.push_back({{"wall", t.wall / spp}, {"cpu", t.cpu / spp}});
     }
-    return {{"variant", variant}, {"types", renderer->gpu_scene().types().size()},
-            {"spirv_bytes", renderer->stats().shader_bytes}, {"first_sample_wall", first.wall},
-            {"first_sample_cpu", first.cpu}, {"seconds_a_sample", runs}};
+    return {{"variant", variant},
+            {"types", renderer->gpu_scene().types().size()},
+            {"spirv_bytes", renderer->stats().shader_bytes},
+            {"first_sample_wall", first.wall},
+            {"first_sample_cpu", first.cpu},
+            {"seconds_a_sample", runs}};
 }
 
 } // namespace restage::bench

@@ -21,7 +21,8 @@ Json measure_rays(const Options& o) {
     const auto rays = stop_recording();
     const auto& stats = renderer->stats();
     if (rays.size() != stats.rays + stats.shadow_rays)
-        die(fmt::format("{} rays were recorded, but the tracer counts {}: does it call Embree by another function than "
+        die(
+            fmt::format("{} rays were recorded, but the tracer counts {}: does it call Embree by another function than "
                         "rtcIntersect1 and rtcOccluded1? See ray_recorder.hpp",
                         rays.size(), stats.rays + stats.shadow_rays));
     std::size_t shadows = 0;
@@ -36,16 +37,23 @@ Json measure_rays(const Options& o) {
         const Seconds frame = time([&] { check(renderer->trace(spp)); });
         const Seconds plain = time([&] { trace_plainly(rays, renderer->jobs()); });
         const double n = double(stats.rays + stats.shadow_rays);
-        runs.push_back({{"rays", stats.rays}, {"shadow_rays", stats.shadow_rays}, {"wall", frame.wall}, {"cpu", frame.cpu},
-                        {"mrays_wall", n / frame.wall * 1e-6}, {"mrays_cpu", n / frame.cpu * 1e-6},
+        runs.push_back({{"rays", stats.rays},
+                        {"shadow_rays", stats.shadow_rays},
+                        {"wall", frame.wall},
+                        {"cpu", frame.cpu},
+                        {"mrays_wall", n / frame.wall * 1e-6},
+                        {"mrays_cpu", n / frame.cpu * 1e-6},
                         {"share_shading", stats.seconds_shading / stats.seconds},
                         {"share_tracing", stats.seconds_tracing / stats.seconds},
                         {"plain_mrays_wall", double(rays.size()) / plain.wall * 1e-6},
                         {"plain_mrays_cpu", double(rays.size()) / plain.cpu * 1e-6},
                         {"frame_over_plain", frame.cpu / n * double(rays.size()) / plain.cpu}});
     }
-    return {{"samples", spp}, {"rays_recorded", rays.size()}, {"shadow_rays_recorded", shadows},
-            {"threads", renderer->jobs().threads()}, {"runs", runs}};
+    return {{"samples", spp},
+            {"rays_recorded", rays.size()},
+            {"shadow_rays_recorded", shadows},
+            {"threads", renderer->jobs().threads()},
+            {"runs", runs}};
 }
 
 } // namespace restage::bench

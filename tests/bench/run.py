@@ -28,7 +28,7 @@ class Bench:
     def __init__(self, args):
         self.restage = args.restage
         self.program = args.restage.parent / "restage_bench"
-        self.options = ["--runs", str(args.runs)] + (["--quick"] if args.quick else [])
+        self.options = ["--runs", str(args.runs)] + (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
         self.quick, self.runs = args.quick, args.runs
         self.cache = ROOT / "build/bench-references"
         if not self.program.exists():
@@ -92,7 +92,7 @@ def first_image(bench):
 
 
 def standard(bench):
-    spp = {"cornell": 64, "room": 64} if bench.quick else {"cornell": 1024, "room": 256}
+    spp = {"cornell": 64, "room": 32} if bench.quick else {"cornell": 256, "room": 128}
     return {name: bench.measure("standard", name, "--folder", bench.cache, "--reference-spp", spp[name]) for name in spp}
 
 
@@ -104,7 +104,7 @@ def error(bench):
             for name in (SCENES[-1:] if bench.quick else SCENES)}
 
 
-ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "standard": standard, "error": error}
+ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "error": error, "standard": standard}
 
 
 def main():
@@ -113,6 +113,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/bench")
     parser.add_argument("--only", nargs="+", choices=ROWS, help="measure these rows again, keep the others of bench.json")
     parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")
+    parser.add_argument("--samples", type=int, default=256, help="a pixel, where the error curves end (default 256)")
     parser.add_argument("--quick", action="store_true", help="a look in two minutes: fewer runs, samples and scenes")
     parser.add_argument("--report", action="store_true", help="measure nothing, write table and charts from bench.json")
     args = parser.parse_args()

@@ -16,7 +16,7 @@ using tests::SceneBuilder;
 namespace {
 
 class Builder : public SceneBuilder {
-public:
+  public:
     Builder(std::uint32_t size, std::uint32_t bounces) {
         set_film(size, size);
         scene.settings.value.max_depth = bounces;
@@ -24,7 +24,8 @@ public:
     void look(dvec3 eye, dvec3 at, float fov) {
         const dvec3 f = glm::normalize(at - eye), r = glm::normalize(glm::cross(f, dvec3(0, 1, 0)));
         Camera camera{.name = "camera", .fov = fov};
-        camera.camera_to_world = dmat4(glm::dvec4(r, 0), glm::dvec4(glm::cross(r, f), 0), glm::dvec4(f, 0), glm::dvec4(eye, 1));
+        camera.camera_to_world =
+            dmat4(glm::dvec4(r, 0), glm::dvec4(glm::cross(r, f), 0), glm::dvec4(f, 0), glm::dvec4(eye, 1));
         const auto id = scene.cameras.next();
         scene.cameras.set(id, camera, ++scene.clock);
         scene.active_camera = {id, scene.clock};
@@ -41,7 +42,9 @@ public:
             for (std::uint32_t i = 0; i <= cells; ++i)
                 for (std::uint32_t j = 0; j <= cells; ++j) {
                     // equal angles: cells of about equal size
-                    const auto angle = [&](std::uint32_t k) { return std::tan((2.f * float(k) / float(cells) - 1.f) * 0.785398163f); };
+                    const auto angle = [&](std::uint32_t k) {
+                        return std::tan((2.f * float(k) / float(cells) - 1.f) * 0.785398163f);
+                    };
                     vec3 d;
                     d[axis] = side;
                     d[(axis + 1) % 3] = angle(i);
@@ -56,7 +59,7 @@ public:
         return mesh(std::move(m), "sphere");
     }
 
-private:
+  private:
     // Lumps, ripples and grain: three octaves of products of sines.
     static vec3 displaced(vec3 d, bool displace) {
         if (!displace) return d;
@@ -107,7 +110,8 @@ Scene room(std::uint32_t bounces) {
         for (int j = 0; j < 4; ++j) {
             const int k = i * 4 + j;
             const double size = .52 + .05 * ((k * 7) % 5);
-            b.instance(sphere, look[(i + j) % 4], place({-3.4 + 1.7 * i, size * 1.05, -2.9 + 1.55 * j}, dvec3(size), k * 1.3));
+            b.instance(sphere, look[(i + j) % 4],
+                       place({-3.4 + 1.7 * i, size * 1.05, -2.9 + 1.55 * j}, dvec3(size), k * 1.3));
         }
     return std::move(b.scene);
 }
@@ -149,14 +153,17 @@ Scene crowd(std::uint32_t count, std::uint32_t cells, std::vector<Id<Instance>>&
     b.environment(vec3(0.5f));
     const float half = float(side) * 0.6f;
     b.instance(b.rectangle({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}), b.diffuse(.5f, .5f, .5f));
-    b.instance(b.rectangle({-1, half, -1}, {2, 0, 0}, {0, 0, 2}), b.diffuse(0, 0, 0), dmat4(1), Emission{.radiance = vec3(50)});
+    b.instance(b.rectangle({-1, half, -1}, {2, 0, 0}, {0, 0, 2}), b.diffuse(0, 0, 0), dmat4(1),
+               Emission{.radiance = vec3(50)});
     ParamSet glass;
     glass.set("eta", Value::number(1.5f));
     const Id<Material> look[4] = {b.diffuse(.7f, .4f, .15f), b.material("conductor", metal(2, 4, .2f)),
                                   b.diffuse(.2f, .35f, .6f), b.material("dielectric", glass)};
     const auto sphere = b.displaced_sphere(cells, true);
     for (std::uint32_t k = 0; k < count; ++k)
-        spheres.push_back(b.instance(sphere, look[k % 4], place({double(int(k) % side) - side * .5, .4, double(int(k) / side) - side * .5}, dvec3(.35), k)));
+        spheres.push_back(b.instance(
+            sphere, look[k % 4],
+            place({double(int(k) % side) - side * .5, .4, double(int(k) / side) - side * .5}, dvec3(.35), k)));
     return std::move(b.scene);
 }
 

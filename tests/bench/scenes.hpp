@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes the bench makes for itself, y up. `edges`: path edges counted as in the peers' tables; a path of n edges has
-// n - 1 bounces, pbrt's maxdepth.
+// The scenes the bench makes for itself, y up. `edges`: path edges counted as in the peers' tables; a path of n edges
+// has n - 1 bounces, pbrt's maxdepth.
 #pragma once
 
 #include "scene/scene.hpp"

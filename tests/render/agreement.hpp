@@ -5,8 +5,8 @@
 #include "io/image_compare.hpp"
 #include "render/fixture.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace restage::tests {
 
@@ -15,7 +15,8 @@ struct Traced {
     render::TraceStats stats;
 };
 
-inline Traced trace_scene(const std::string& tracer, const scene::Scene& scene, std::uint32_t samples, std::uint32_t seed) {
+inline Traced trace_scene(const std::string& tracer, const scene::Scene& scene, std::uint32_t samples,
+                          std::uint32_t seed) {
     render::RendererOptions options;
     options.seed = seed;
     const auto renderer = make_renderer(tracer, options);
@@ -38,8 +39,10 @@ inline void check_independent(const render::FilmImage& a, const render::FilmImag
     REQUIRE(test);
     const Mean ma = mean_luminance(a), mb = mean_luminance(b);
     const double z = (ma.value - mb.value) / std::max(std::hypot(ma.std_error, mb.std_error), 1e-12);
-    INFO(fmt::format("share of pixels within 3: {:.4f}, worst {:.2f}, rms {:.3f}; means {:.5f} +- {:.5f} and {:.5f} +- {:.5f}, z {:.2f}",
-                     test->share_passing, test->worst, test->rms, ma.value, ma.std_error, mb.value, mb.std_error, z));
+    INFO(
+        fmt::format("share of pixels within 3: {:.4f}, worst {:.2f}, rms {:.3f}; means {:.5f} +- {:.5f} and {:.5f} +- "
+                    "{:.5f}, z {:.2f}",
+                    test->share_passing, test->worst, test->rms, ma.value, ma.std_error, mb.value, mb.std_error, z));
     CHECK(test->share_passing >= 0.995);
     CHECK(std::abs(z) <= 3);
     CHECK(ma.value > 0); // a black picture agrees with anything

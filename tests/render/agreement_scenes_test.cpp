@@ -12,15 +12,14 @@ using namespace restage::tests;
 
 TEST_CASE("tracers agree: real scenes") {
     const char* folder = std::getenv("RESTAGE_SCENES");
-    if (!folder || !*folder)
-        SKIP("RESTAGE_SCENES is not set: the eleven real scenes are left out");
-    const std::string name = GENERATE("coffee", "cornell-box", "dining-room", "kitchen", "living-room", "material-testball",
-                                      "staircase2", "teapot-full", "veach-bidir", "veach-mis", "water-caustic");
+    if (!folder || !*folder) SKIP("RESTAGE_SCENES is not set: the eleven real scenes are left out");
+    const std::string name =
+        GENERATE("coffee", "cornell-box", "dining-room", "kitchen", "living-room", "material-testball", "staircase2",
+                 "teapot-full", "veach-bidir", "veach-mis", "water-caustic");
     const auto path = std::filesystem::path(folder) / name / "scene.pbrt";
     INFO(path.string());
     auto imported = io::import_scene(path.string(), plugins().registry);
-    if (!imported)
-        FAIL(imported.error().message);
+    if (!imported) FAIL(imported.error().message);
     scene::Scene& scene = imported->scene;
     auto& film = scene.film.value;
     const float scale = 64.f / float(std::max(film.width, film.height));

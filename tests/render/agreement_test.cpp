@@ -37,7 +37,8 @@ void check_agreement(const scene::Scene& scene, const Expected& expected = {}) {
     std::size_t ids = 0;
     double normals = 0, depths = 0, albedos = 0;
     for (std::size_t i = 0; i < same.image.color.size(); ++i) {
-        ids += vulkan.image.instance_id[i] == same.image.instance_id[i] && vulkan.image.material_id[i] == same.image.material_id[i];
+        ids += vulkan.image.instance_id[i] == same.image.instance_id[i] &&
+               vulkan.image.material_id[i] == same.image.material_id[i];
         normals += glm::length(vulkan.image.normal[i] - same.image.normal[i]);
         albedos += glm::length(vulkan.image.albedo[i] - same.image.albedo[i]);
         depths += std::abs(vulkan.image.depth[i] - same.image.depth[i]) / std::max(same.image.depth[i], 1.f);
@@ -49,10 +50,12 @@ void check_agreement(const scene::Scene& scene, const Expected& expected = {}) {
     CHECK(depths / n < expected.guides);
 }
 
-scene::Id<scene::Texture> texture(SceneBuilder& b, std::string type, scene::Id<scene::Image> image = {}, scene::ParamSet params = {}) {
+scene::Id<scene::Texture> texture(SceneBuilder& b, std::string type, scene::Id<scene::Image> image = {},
+                                  scene::ParamSet params = {}) {
     const auto id = b.scene.textures.next();
-    b.scene.textures.set(id, scene::Texture{.name = type, .type = std::move(type), .image = image, .params = std::move(params)},
-                         ++b.scene.clock);
+    b.scene.textures.set(
+        id, scene::Texture{.name = type, .type = std::move(type), .image = image, .params = std::move(params)},
+        ++b.scene.clock);
     return id;
 }
 scene::Value textured(scene::Value value, scene::Id<scene::Texture> texture) {
@@ -76,7 +79,8 @@ scene::Id<scene::Instance> floor_of(SceneBuilder& b, scene::Id<scene::Material> 
     return b.instance(b.quad({-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}), material);
 }
 void area_light(SceneBuilder& b, glm::vec3 radiance) { // over the scene, shining down
-    b.instance(b.quad({-2, -2, 6}, {-2, 2, 6}, {2, 2, 6}, {2, -2, 6}), b.diffuse(0, 0, 0), glm::dmat4(1), scene::Emission{radiance});
+    b.instance(b.quad({-2, -2, 6}, {-2, 2, 6}, {2, 2, 6}, {2, -2, 6}), b.diffuse(0, 0, 0), glm::dmat4(1),
+               scene::Emission{radiance});
 }
 void edit_instance(SceneBuilder& b, scene::Id<scene::Instance> id, auto&& change) {
     auto instance = b.scene.instances[id];
@@ -92,9 +96,13 @@ void environment_image(SceneBuilder& b, RestageMapping mapping) {
                 sky.push_back(sun ? 40.f : c * (1.f + 0.05f * float(y)));
         }
     const auto image = b.image(16, 16, 3, std::move(sky));
-    b.scene.environment = {scene::Environment{.name = "sky", .image = image, .mapping = mapping, .scale = glm::vec3(0.8f),
-                                              .light_to_world = glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(0.3, 1, 0.2))},
-                           ++b.scene.clock};
+    b.scene.environment = {
+        scene::Environment{.name = "sky",
+                           .image = image,
+                           .mapping = mapping,
+                           .scale = glm::vec3(0.8f),
+                           .light_to_world = glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(0.3, 1, 0.2))},
+        ++b.scene.clock};
 }
 
 // Spheres of every material plugin there is: behind with what its table says, in front with textures and roughness.
@@ -118,11 +126,9 @@ void gallery(SceneBuilder& b, std::size_t first, std::size_t count) {
     std::size_t i = 0;
     for (const auto& entry : plugins().registry.materials()) {
         const RestageMaterial1& table = *entry.table;
-        if (table.flags & (RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL))
-            continue;
+        if (table.flags & (RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) continue;
         const std::size_t k = i++;
-        if (k < first || k >= first + count)
-            continue;
+        if (k < first || k >= first + count) continue;
         const double x = 2.0 * (double(k - first) - 0.5 * double(count - 1));
         b.instance(ball, b.material(table.type), at(x, 1.8, 0.85, 0.85));
         scene::ParamSet params;
@@ -177,12 +183,16 @@ TEST_CASE("tracers agree: mixes and cut-outs") {
     const auto gold = b.material("conductor");
     const auto inner = mix(b.diffuse(0.7f, 0.1f, 0.1f), b.diffuse(0.1f, 0.2f, 0.7f), scene::Value::number(0.3f));
     const auto ball = b.sphere(24, 48), panel = b.quad({-1, 0, 0}, {1, 0, 0}, {1, 0, 2}, {-1, 0, 2});
-    floor_of(b, mix(b.diffuse(0.6f, 0.6f, 0.6f), b.diffuse(0.2f, 0.3f, 0.2f), textured(scene::Value::number(0), scaled)));
+    floor_of(b,
+             mix(b.diffuse(0.6f, 0.6f, 0.6f), b.diffuse(0.2f, 0.3f, 0.2f), textured(scene::Value::number(0), scaled)));
     b.instance(ball, mix(gold, inner, textured(scene::Value::number(0), amounts)), at(-3.2, 0, 0.9, 0.9));
-    b.instance(ball, mix(inner, {}, scene::Value::number(0.5f)), at(-1, 0.6, 0.9, 0.9)); // a missing child: the placeholder
+    b.instance(ball, mix(inner, {}, scene::Value::number(0.5f)),
+               at(-1, 0.6, 0.9, 0.9)); // a missing child: the placeholder
     b.instance(ball, mix(b.material("interface"), gold, scene::Value::number(0.5f)), at(-3, 2.6, 0.9, 0.9)); // likewise
-    edit_instance(b, b.instance(panel, b.diffuse(0.3f, 0.7f, 0.3f), at(1.2, -0.6, 0)), [&](auto& i) { i.alpha_texture = scaled; });
-    edit_instance(b, b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, -0.3, 0)), [&](auto& i) { i.alpha = 0.4f; });
+    edit_instance(b, b.instance(panel, b.diffuse(0.3f, 0.7f, 0.3f), at(1.2, -0.6, 0)),
+                  [&](auto& i) { i.alpha_texture = scaled; });
+    edit_instance(b, b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, -0.3, 0)),
+                  [&](auto& i) { i.alpha = 0.4f; });
     edit_instance(b, b.instance(ball, gold, at(1.2, 2, 0.9, 0.9)), [&](auto& i) { i.alpha = 0; }); // is not there
     b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, 1.5, 0)); // the same mesh, whole
     area_light(b, glm::vec3(6));
@@ -195,14 +205,16 @@ TEST_CASE("tracers agree: lamps without surface, lens, crop window, tabulated fi
     b.set_film(96, 54);
     b.set_camera({0, -11, 4.5}, {0, 0.2, 0.7}, {0, 0, 1}, 30);
     b.scene.film.value.crop = glm::vec4(0.1f, 0.8f, 0.2f, 0.9f);
-    b.scene.film.value.filter = {.kind = scene::FilterKind::mitchell, .radius = glm::vec2(2), .params = glm::vec2(1.f / 3)};
+    b.scene.film.value.filter = {
+        .kind = scene::FilterKind::mitchell, .radius = glm::vec2(2), .params = glm::vec2(1.f / 3)};
     auto camera = b.scene.cameras[b.scene.active_camera.value];
     camera.lens_radius = 0.15f;
     camera.focal_distance = 10;
     b.scene.cameras.set(b.scene.active_camera.value, camera, ++b.scene.clock);
     scene::ParamSet bumps;
     bumps.set("reflectance", scene::Value::color(0.6f, 0.5f, 0.4f));
-    bumps.set("normalmap", textured(scene::Value::color(0.5f, 0.5f, 1), texture(b, "imagemap", waves(b, 8, 3, 0.4f, 1.f))));
+    bumps.set("normalmap",
+              textured(scene::Value::color(0.5f, 0.5f, 1), texture(b, "imagemap", waves(b, 8, 3, 0.4f, 1.f))));
     floor_of(b, b.material("diffuse", bumps));
     const auto ball = b.sphere(24, 48);
     scene::ParamSet glossy;
@@ -214,9 +226,14 @@ TEST_CASE("tracers agree: lamps without surface, lens, crop window, tabulated fi
                scene::Emission{glm::vec3(3), true});
     b.instance(ball, b.material("interface"), at(-2, -2, 1)); // nothing to see
     b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(15, 10, 8), .light_to_world = at(-4, -3, 4)});
-    b.light({.kind = RESTAGE_LIGHT_SPOT, .value = glm::vec3(30, 40, 60), .light_to_world = glm::rotate(at(2, -2, 5), 3.0, glm::dvec3(1, 0, 0)),
-             .cone_angle = 25, .cone_delta = 10});
-    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(0.6f), .light_to_world = glm::rotate(glm::dmat4(1), 2.4, glm::dvec3(1, 0.3, 0))});
+    b.light({.kind = RESTAGE_LIGHT_SPOT,
+             .value = glm::vec3(30, 40, 60),
+             .light_to_world = glm::rotate(at(2, -2, 5), 3.0, glm::dvec3(1, 0, 0)),
+             .cone_angle = 25,
+             .cone_delta = 10});
+    b.light({.kind = RESTAGE_LIGHT_DISTANT,
+             .value = glm::vec3(0.6f),
+             .light_to_world = glm::rotate(glm::dmat4(1), 2.4, glm::dvec3(1, 0.3, 0))});
     b.scene.settings.value.clamp_indirect = 4;
     check_agreement(b.scene);
 }

@@ -25,7 +25,8 @@ void look_down(SceneBuilder& b) {
     b.set_camera({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.05f);
 }
 scene::Id<scene::Instance> ground(SceneBuilder& b, float albedo) {
-    return b.instance(b.quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}), b.diffuse(albedo, albedo, albedo));
+    return b.instance(b.quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}),
+                      b.diffuse(albedo, albedo, albedo));
 }
 
 } // namespace
@@ -55,7 +56,9 @@ TEST_CASE("distant light: irradiance times cosine") {
     SceneBuilder b;
     look_down(b);
     ground(b, 0.5f);
-    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(3), .light_to_world = glm::rotate(glm::dmat4(1), pi * 0.75, glm::dvec3(1, 0, 0))});
+    b.light({.kind = RESTAGE_LIGHT_DISTANT,
+             .value = glm::vec3(3),
+             .light_to_world = glm::rotate(glm::dmat4(1), pi * 0.75, glm::dvec3(1, 0, 0))});
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 3 * std::cos(pi / 4));
 }
 
@@ -69,7 +72,8 @@ TEST_CASE("sphere light: form factor of a sphere") {
     m[3] = {d * std::sin(pi / 4), 0, d * std::cos(pi / 4), 1};
     b.instance(b.sphere(96, 192, false, true), b.diffuse(0, 0, 0), m, scene::Emission{glm::vec3(5)});
     b.scene.settings.value.max_depth = 1;
-    check_mean(render_image(*make_renderer(tracer), b.scene, 256), 0.7 / pi * pi * 5 * (r * r) / (d * d) * std::cos(pi / 4));
+    check_mean(render_image(*make_renderer(tracer), b.scene, 256),
+               0.7 / pi * pi * 5 * (r * r) / (d * d) * std::cos(pi / 4));
 }
 
 TEST_CASE("triangle light over a plane: Lambert's formula") {
@@ -87,7 +91,8 @@ TEST_CASE("triangle light over a plane: Lambert's formula") {
     }
     const double irradiance = 2 / 2.0 * std::abs(sum);
     const bool faces_down = glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[0]) < 0;
-    auto mesh = b.mesh({.positions = {p[0], p[1], p[2]}, .triangles = {faces_down ? glm::uvec3(0, 1, 2) : glm::uvec3(0, 2, 1)}});
+    auto mesh = b.mesh(
+        {.positions = {p[0], p[1], p[2]}, .triangles = {faces_down ? glm::uvec3(0, 1, 2) : glm::uvec3(0, 2, 1)}});
     const auto id = b.instance(mesh, b.diffuse(0, 0, 0), glm::dmat4(1), scene::Emission{glm::vec3(2), two_sided});
     b.scene.settings.value.max_depth = 1;
     auto renderer = make_renderer(tracer);
@@ -107,7 +112,8 @@ TEST_CASE("a mirrored transform keeps the side that emits") {
     // emits down; mirrored in x it still emits down, because the normal is transformed, not recomputed
     auto mesh = b.quad({-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2});
     b.set_camera({8, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.05f); // past the light
-    b.instance(mesh, b.diffuse(0, 0, 0), glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)), scene::Emission{glm::vec3(2)});
+    b.instance(mesh, b.diffuse(0, 0, 0), glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)),
+               scene::Emission{glm::vec3(2)});
     b.scene.settings.value.max_depth = 1;
     // a square of half side a at height h over the point: four times the corner formula
     const double a = 0.5 * 2 / 2.0, k = a / std::sqrt(1 + a * a); // x = y = a/h = 1/2

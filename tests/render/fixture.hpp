@@ -22,8 +22,7 @@ struct Plugins { // of the build tree
     render::MaterialLookup lookup() {
         return [this](const std::string& type) -> std::optional<render::MaterialPlugin> {
             const auto* entry = registry.find_material(type);
-            if (!entry)
-                return std::nullopt;
+            if (!entry) return std::nullopt;
             return render::MaterialPlugin{entry->table, entry->plugin->folder};
         };
     }
@@ -33,20 +32,18 @@ inline Plugins& plugins() {
     return instance;
 }
 
-inline std::unique_ptr<render::Renderer> make_renderer(const std::string& tracer, render::RendererOptions options = {}) {
+inline std::unique_ptr<render::Renderer> make_renderer(const std::string& tracer,
+                                                       render::RendererOptions options = {}) {
     options.tracer = tracer;
     options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
     auto renderer = render::Renderer::create(options, plugins().lookup(), plugins().log);
-    if (!renderer)
-        FAIL(renderer.error().message);
+    if (!renderer) FAIL(renderer.error().message);
     return std::move(*renderer);
 }
 
 inline render::FilmImage render_image(render::Renderer& renderer, const scene::Scene& scene, std::uint32_t samples) {
-    if (auto ok = renderer.sync(scene); !ok)
-        FAIL(ok.error().message);
-    if (auto ok = renderer.trace(samples); !ok)
-        FAIL(ok.error().message);
+    if (auto ok = renderer.sync(scene); !ok) FAIL(ok.error().message);
+    if (auto ok = renderer.trace(samples); !ok) FAIL(ok.error().message);
     CHECK(renderer.stats().not_finite.empty());
     return renderer.image();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edit -> picture -> file -> picture: what the Session changes, the exporter writes and the importer reads back is the same
-// scene and the same picture; undone to the start, the export is the same bytes.
+// Edit -> picture -> file -> picture: what the Session changes, the exporter writes and the importer reads back is the
+// same scene and the same picture; undone to the start, the export is the same bytes.
 #include "base/file.hpp"
 #include "io/scene_compare.hpp"
 #include "render/agreement.hpp"
@@ -25,8 +25,7 @@ scene::Scene small(scene::Scene scene) {
 std::string all_files(const std::filesystem::path& folder) { // names and bytes, in order
     std::vector<std::filesystem::path> files;
     for (const auto& e : std::filesystem::recursive_directory_iterator(folder))
-        if (e.is_regular_file())
-            files.push_back(e.path());
+        if (e.is_regular_file()) files.push_back(e.path());
     std::sort(files.begin(), files.end());
     std::string all;
     for (const auto& f : files)
@@ -51,7 +50,9 @@ TEST_CASE("edits of the bundled scene survive export and import, in structure an
     session.scene().instances.each([&](auto id, const scene::Instance&) { ids.push_back(id); });
     REQUIRE(ids.size() > 8);
     const auto biggest = std::vector{*std::max_element(ids.begin(), ids.end(), [&](auto a, auto b) {
-        const auto n = [&](auto id) { return session.scene().meshes[session.scene().instances[id].mesh].data->triangles.size(); };
+        const auto n = [&](auto id) {
+            return session.scene().meshes[session.scene().instances[id].mesh].data->triangles.size();
+        };
         return n(a) < n(b);
     })};
     const auto before = trace_scene("embree", small(session.scene()), 16, 1);
@@ -70,11 +71,9 @@ TEST_CASE("edits of the bundled scene survive export and import, in structure an
         options.values.set("version", scene::Value::choice(version));
         const auto file = (folder / "edited" / (std::string(version) + ".pbrt")).string();
         const auto exported = session.export_to(file, options);
-        if (!exported)
-            FAIL(exported.error().message);
+        if (!exported) FAIL(exported.error().message);
         const auto again = io::import_scene(file, plugins().registry);
-        if (!again)
-            FAIL(again.error().message);
+        if (!again) FAIL(again.error().message);
         if (std::string(version) == "v3")
             continue; // v3 cannot say all of v4: what it loses is in the report; that it loads is what holds
         for (const auto& line : io::structural_differences(session.scene(), again->scene, plugins().registry))

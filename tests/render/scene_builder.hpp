@@ -13,7 +13,7 @@
 namespace restage::tests {
 
 class SceneBuilder {
-public:
+  public:
     scene::Scene scene;
 
     SceneBuilder() {
@@ -38,7 +38,8 @@ public:
     }
     scene::Id<scene::Material> material(std::string type, scene::ParamSet params = {}) {
         const auto id = scene.materials.next();
-        scene.materials.set(id, scene::Material{.name = type, .type = type, .params = std::move(params)}, ++scene.clock);
+        scene.materials.set(id, scene::Material{.name = type, .type = type, .params = std::move(params)},
+                            ++scene.clock);
         return id;
     }
     scene::Id<scene::Material> diffuse(float r, float g, float b) {
@@ -54,36 +55,46 @@ public:
             data.upper = glm::max(data.upper, p);
         }
         const auto id = scene.meshes.next();
-        scene.meshes.set(id, scene::Mesh{.name = name, .data = std::make_shared<scene::MeshData>(std::move(data))}, ++scene.clock);
+        scene.meshes.set(id, scene::Mesh{.name = name, .data = std::make_shared<scene::MeshData>(std::move(data))},
+                         ++scene.clock);
         return id;
     }
     scene::Id<scene::Instance> instance(scene::Id<scene::Mesh> mesh, scene::Id<scene::Material> material,
-                                        glm::dmat4 transform = glm::dmat4(1), std::optional<scene::Emission> emission = {}) {
+                                        glm::dmat4 transform = glm::dmat4(1),
+                                        std::optional<scene::Emission> emission = {}) {
         const auto id = scene.instances.next();
-        scene.instances.set(id, scene::Instance{.name = "instance", .mesh = mesh, .material = material,
-                                                .object_to_world = transform, .emission = emission}, ++scene.clock);
+        scene.instances.set(id,
+                            scene::Instance{.name = "instance",
+                                            .mesh = mesh,
+                                            .material = material,
+                                            .object_to_world = transform,
+                                            .emission = emission},
+                            ++scene.clock);
         return id;
     }
     // Two triangles a, b, c, d; the normal is cross(b-a, c-a).
     scene::Id<scene::Mesh> quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-        return mesh({.positions = {a, b, c, d}, .uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, .triangles = {{0, 1, 2}, {0, 2, 3}}}, "quad");
+        return mesh(
+            {.positions = {a, b, c, d}, .uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, .triangles = {{0, 1, 2}, {0, 2, 3}}},
+            "quad");
     }
     // Unit sphere, outward normals; scaled so that its area is the true sphere's when `same_area`.
-    scene::Id<scene::Mesh> sphere(int rows = 64, int columns = 128, bool shading_normals = true, bool same_area = false) {
+    scene::Id<scene::Mesh> sphere(int rows = 64, int columns = 128, bool shading_normals = true,
+                                  bool same_area = false) {
         scene::MeshData m;
         for (int i = 0; i <= rows; ++i)
             for (int j = 0; j <= columns; ++j) {
                 const double theta = std::numbers::pi * i / rows, phi = 2 * std::numbers::pi * j / columns;
-                m.positions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+                m.positions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                         std::cos(theta));
                 m.uvs.emplace_back(float(j) / columns, float(i) / rows);
             }
-        if (shading_normals)
-            m.normals = m.positions;
+        if (shading_normals) m.normals = m.positions;
         double area = 0;
         const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            const auto n = glm::cross(glm::dvec3(m.positions[b] - m.positions[a]), glm::dvec3(m.positions[c] - m.positions[a]));
-            if (glm::length(n) < 1e-9)
-                return;
+            const auto n =
+                glm::cross(glm::dvec3(m.positions[b] - m.positions[a]), glm::dvec3(m.positions[c] - m.positions[a]));
+            if (glm::length(n) < 1e-9) return;
             area += glm::length(n) / 2;
             m.triangles.emplace_back(a, b, c);
         };
@@ -102,7 +113,8 @@ public:
     void environment(glm::vec3 radiance) {
         scene.environment = {scene::Environment{.name = "sky", .scale = radiance}, ++scene.clock};
     }
-    scene::Id<scene::Image> image(std::uint32_t width, std::uint32_t height, std::uint32_t channels, std::vector<float> values) {
+    scene::Id<scene::Image> image(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+                                  std::vector<float> values) {
         auto data = std::make_shared<scene::PixelData>();
         *data = {.width = width, .height = height, .channels = channels, .values = std::move(values)};
         const auto id = scene.images.next();

@@ -8,9 +8,7 @@
 
 namespace restage::test {
 
-inline std::string data_image(const std::string& name) {
-    return RESTAGE_SOURCE_DIR "/tests/data/images/" + name;
-}
+inline std::string data_image(const std::string& name) { return RESTAGE_SOURCE_DIR "/tests/data/images/" + name; }
 
 // An empty folder of its own, gone at the end.
 class TemporaryFolder {

@@ -11,7 +11,11 @@ extern "C" {
 
 #define RESTAGE_DENOISER1 "restage.denoiser/1"
 
-typedef enum RestageDenoiseQuality { RESTAGE_DENOISE_FAST = 0, RESTAGE_DENOISE_BALANCED = 1, RESTAGE_DENOISE_HIGH = 2 } RestageDenoiseQuality;
+typedef enum RestageDenoiseQuality {
+    RESTAGE_DENOISE_FAST = 0,
+    RESTAGE_DENOISE_BALANCED = 1,
+    RESTAGE_DENOISE_HIGH = 2
+} RestageDenoiseQuality;
 
 typedef struct RestageDenoiseJob {
     uint32_t size;

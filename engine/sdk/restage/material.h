@@ -29,23 +29,23 @@ extern "C" {
 enum {
     RESTAGE_MATERIAL_STOCHASTIC = 1u,    /* eval/pdf/sample take an Rng */
     RESTAGE_MATERIAL_LOSSLESS = 2u,      /* the white furnace gives 1 when every COLOR is 1 (ADDITIVE: when they sum
-                                          * to 1) and every other parameter has its default */
+                                     * to 1) and every other parameter has its default */
     RESTAGE_MATERIAL_TRANSMISSIVE = 4u,  /* may scatter to the other side */
     RESTAGE_MATERIAL_NONRECIPROCAL = 8u, /* f(wo,wi) != f(wi,wo), declared */
     RESTAGE_MATERIAL_NULL = 16u,         /* no surface at all: rays pass (pbrt's `interface`) */
-    RESTAGE_MATERIAL_MIX = 32u,          /* chooses between its MATERIAL parameters `first` and `second` by `amount` */
-    RESTAGE_MATERIAL_TANGENT = 64u,      /* depends on the tangent: the frame's x axis follows dp/du (anisotropy) */
+    RESTAGE_MATERIAL_MIX = 32u, /* chooses between its MATERIAL parameters `first` and `second` by `amount` */
+    RESTAGE_MATERIAL_TANGENT = 64u, /* depends on the tangent: the frame's x axis follows dp/du (anisotropy) */
     /* Its lobes add up as the scene says (pbrt-v3's plastic): energy <= 1 only while its COLOR parameters, all but an
      * "opacity", sum to at most 1; tests scale them so. */
     RESTAGE_MATERIAL_ADDITIVE = 128u
 };
 
 typedef struct RestageMaterial1 {
-    uint32_t size;    /* sizeof(RestageMaterial1) as the plugin was built */
-    uint32_t flags;   /* RESTAGE_MATERIAL_* */
+    uint32_t size; /* sizeof(RestageMaterial1) as the plugin was built */
+    uint32_t flags; /* RESTAGE_MATERIAL_* */
     const char* type; /* "conductor": what scene files and ParamSets call it; unique over all plugins */
     const char* label;
-    const char* prefix;    /* of every GLSL name, without the underscore */
+    const char* prefix; /* of every GLSL name, without the underscore */
     const char* glsl_file; /* relative to the plugin's folder; NULL for MIX and NULL-surface materials */
     const RestageParam* params;
     uint32_t param_count;

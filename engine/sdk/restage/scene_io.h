@@ -3,10 +3,11 @@
  *
  * Handles are 1-based and per kind; 0 is none. Matrices are column-major double[16], object to world, right-handed or
  * mirrored as they come. Lengths are in the scene's own unit. Colours are linear sRGB primaries; radiometric values are
- * relative as in pbrt. `verbatim` holds what the importer did not understand, one "key value" line each, written back by
- * the exporter of the same format. A line "=id text" holds what the value `id` was before it was reduced (a spectrum that
- * became a colour), "=* text" what the whole thing was before it was approximated: the exporter writes it instead, and the
- * host drops it once that value, or any, is edited. Strings are UTF-8, never NULL ("" instead) in what the host gives. */
+ * relative as in pbrt. `verbatim` holds what the importer did not understand, one "key value" line each, written back
+ * by the exporter of the same format. A line "=id text" holds what the value `id` was before it was reduced (a spectrum
+ * that became a colour), "=* text" what the whole thing was before it was approximated: the exporter writes it instead,
+ * and the host drops it once that value, or any, is edited. Strings are UTF-8, never NULL ("" instead) in what the host
+ * gives. */
 #ifndef RESTAGE_SCENE_IO_H
 #define RESTAGE_SCENE_IO_H
 
@@ -48,12 +49,11 @@ typedef struct RestageImage { /* an image file, read by the host; or pixels, whe
 
 /* Texture types the engine evaluates, and their values (ids):
  *   constant      value (COLOR)
- *   imagemap      image by RestageTexture.image; scale (FLOAT, default 1), invert (BOOL), wrap (ENUM repeat|black|clamp)
- *   scale         tex (COLOR, texturable), scale (COLOR, texturable)              tex * scale
- *   mix           tex1, tex2 (COLOR, texturable), amount (FLOAT, texturable)      lerp
- *   checkerboard  tex1, tex2 (COLOR, texturable); on uv
- * All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping.
- * Other types are kept, written back, and shade as their `average` (COLOR). */
+ *   imagemap      image by RestageTexture.image; scale (FLOAT, default 1), invert (BOOL), wrap (ENUM
+ * repeat|black|clamp) scale         tex (COLOR, texturable), scale (COLOR, texturable)              tex * scale mix
+ * tex1, tex2 (COLOR, texturable), amount (FLOAT, texturable)      lerp checkerboard  tex1, tex2 (COLOR, texturable); on
+ * uv All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping. Other types are kept,
+ * written back, and shade as their `average` (COLOR). */
 typedef struct RestageTexture {
     RestageText text;
     const char* type;
@@ -67,7 +67,7 @@ typedef struct RestageMaterialDesc {
     RestageText text;
     const char* type;            /* of a material plugin */
     const RestageValue* values;  /* of its table; unset ones have the default. Besides, for any material: `bump` and
-                                    `normalmap` (TEXTURE). */
+                                   `normalmap` (TEXTURE). */
     uint32_t value_count;
 } RestageMaterialDesc;
 
@@ -100,13 +100,18 @@ typedef struct RestageGroup { /* something a user selects as one: an ObjectInsta
     RestageHandle parent;
 } RestageGroup;
 
-typedef enum RestageLightKind { RESTAGE_LIGHT_POINT = 1, RESTAGE_LIGHT_SPOT = 2, RESTAGE_LIGHT_DISTANT = 3 } RestageLightKind;
+typedef enum RestageLightKind {
+    RESTAGE_LIGHT_POINT = 1,
+    RESTAGE_LIGHT_SPOT = 2,
+    RESTAGE_LIGHT_DISTANT = 3
+} RestageLightKind;
 typedef struct RestageLight {
     RestageText text;
     uint32_t kind;
     float value[3];  /* point, spot: radiant intensity [W/sr]; distant: irradiance at normal incidence [W/m^2] */
     double light_to_world[16]; /* at the origin; spot and distant light travels along +z */
-    float cone_angle, cone_delta; /* spot [deg]: half angle, width of the smooth edge (pbrt: coneangle, conedeltaangle) */
+    float cone_angle,
+        cone_delta; /* spot [deg]: half angle, width of the smooth edge (pbrt: coneangle, conedeltaangle) */
 } RestageLight;
 
 typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } RestageMapping;
@@ -114,7 +119,7 @@ typedef struct RestageEnvironment {
     RestageText text;
     RestageHandle image;   /* 0 = constant */
     uint32_t mapping;      /* RestageMapping. EQUIRECT: pbrt-v3, z up, u = phi/2pi, v = theta/pi, row 0 = +z.
-                              OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4 */
+                         OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4 */
     float scale[3];        /* times the image; or the radiance itself */
     double light_to_world[16]; /* rotation (and mirror) */
 } RestageEnvironment;
@@ -191,8 +196,15 @@ typedef struct RestageImporter1 {
 /* Where an exporter reads. [worker]; handles are 1..count(kind), holes (removed things) give 0 from the getter.
  * Pointers live until the export ends. */
 typedef enum RestageKind {
-    RESTAGE_KIND_MESH = 1, RESTAGE_KIND_IMAGE, RESTAGE_KIND_TEXTURE, RESTAGE_KIND_MATERIAL, RESTAGE_KIND_MEDIUM,
-    RESTAGE_KIND_GROUP, RESTAGE_KIND_INSTANCE, RESTAGE_KIND_LIGHT, RESTAGE_KIND_CAMERA
+    RESTAGE_KIND_MESH = 1,
+    RESTAGE_KIND_IMAGE,
+    RESTAGE_KIND_TEXTURE,
+    RESTAGE_KIND_MATERIAL,
+    RESTAGE_KIND_MEDIUM,
+    RESTAGE_KIND_GROUP,
+    RESTAGE_KIND_INSTANCE,
+    RESTAGE_KIND_LIGHT,
+    RESTAGE_KIND_CAMERA
 } RestageKind;
 typedef struct RestageSceneReader1 {
     uint32_t size;

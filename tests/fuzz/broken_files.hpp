@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tests of broken input share: folders, the plugins, and a watch over time and memory.
+#pragma once
+
+#include "base/log.hpp"
+#include "plugin/registry.hpp"
+
+#include <sys/resource.h>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+
+namespace restage::test {
+
+inline const std::filesystem::path data_folder = std::filesystem::path(RESTAGE_SOURCE_DIR) / "tests/data";
+
+inline std::string read_bytes(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+class Folder { // empty, gone at the end
+  public:
+    Folder() {
+        std::random_device random;
+        path_ = std::filesystem::temp_directory_path() / ("restage-broken-" + std::to_string(random()));
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+class Importers {
+  public:
+    Importers() : registry(log_) {
+        const plugin::SearchPath path[] = {{RESTAGE_BINARY_DIR "/lib/restage/plugins", true}};
+        registry.scan(path);
+    }
+
+  private:
+    Log log_{[](LogLevel, std::string_view) {}};
+
+  public:
+    plugin::Registry registry;
+};
+
+class Watch {
+  public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    // How much the process has grown beyond its largest size so far. [MB]
+    double grown() const { return peak() - peak_; }
+    static double peak() {
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        return static_cast<double>(usage.ru_maxrss) / 1024;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double peak_ = peak();
+};
+
+} // namespace restage::test

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// libFuzzer on the image decoders. Run: fuzz_image tests/data/images -rss_limit_mb=2048 -malloc_limit_mb=1024
+
+#include "io/image_file_codecs.hpp"
+
+#include <cstdint>
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    using namespace restage::io;
+    if (size == 0) return 0;
+    if (is_exr(bytes))
+        (void)decode_exr(bytes, false);
+    else if (is_pfm(bytes))
+        (void)decode_pfm(bytes, false);
+    else if (is_hdr(bytes))
+        (void)decode_hdr(bytes, false);
+    else
+        (void)decode_stb(bytes, false);
+    return 0;
+}
