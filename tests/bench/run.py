@@ -28,15 +28,16 @@ class Bench:
     def __init__(self, args):
         self.restage = args.restage
         self.program = args.restage.parent / "restage_bench"
-        self.options = ["--runs", str(args.runs)] + (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
+        self.options = (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
         self.quick, self.runs = args.quick, args.runs
         self.cache = ROOT / "build/bench-references"
         if not self.program.exists():
             sys.exit(f"{self.program} is not there; build it: ninja restage_bench in the build folder")
 
-    def measure(self, *command, env=None):
+    def measure(self, *command, runs=None, env=None):
         """One call of restage_bench: its JSON."""
-        done = subprocess.run([str(self.program), *self.options, *map(str, command)], capture_output=True, text=True,
+        times = ["--runs", str(self.runs if runs is None else runs)]
+        done = subprocess.run([str(self.program), *times, *self.options, *map(str, command)], capture_output=True, text=True,
                               env={**os.environ, **(env or {})})
         if done.returncode:
             sys.exit(f"restage_bench {' '.join(map(str, command))}: {done.stderr.strip()}")
@@ -62,7 +63,7 @@ def features(bench):
     for variant in ("alone", "types", "features", "all"):
         with tempfile.TemporaryDirectory() as cache:
             env = {"RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
-            cold = bench.measure("features", variant, env=env)
+            cold = bench.measure("features", variant, runs=0, env=env)
             code = sum(f.stat().st_size for f in pathlib.Path(cache, "mesa").rglob("*") if f.is_file() and f.name != "index")
             warm = bench.measure("features", variant, env=env)
         rows[variant] = {**warm, "machine_code_cache_bytes": code, "first_sample_wall_cold": cold["first_sample_wall"],

@@ -66,8 +66,8 @@ typedef struct RestageTexture {
 typedef struct RestageMaterialDesc {
     RestageText text;
     const char* type;            /* of a material plugin */
-    const RestageValue* values;  /* of its table; unset ones have the default. Besides, for any material: `bump` and
-                                   `normalmap` (TEXTURE). */
+    /* Of its table; unset ones have the default. Besides, for any material: `bump` and `normalmap` (TEXTURE). */
+    const RestageValue* values;
     uint32_t value_count;
 } RestageMaterialDesc;
 
@@ -118,8 +118,9 @@ typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } Res
 typedef struct RestageEnvironment {
     RestageText text;
     RestageHandle image;   /* 0 = constant */
-    uint32_t mapping;      /* RestageMapping. EQUIRECT: pbrt-v3, z up, u = phi/2pi, v = theta/pi, row 0 = +z.
-                         OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4 */
+    /* RestageMapping. EQUIRECT: pbrt-v3, z up, u = phi/2pi, v = theta/pi, row 0 = +z.
+     * OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4. */
+    uint32_t mapping;
     float scale[3];        /* times the image; or the radiance itself */
     double light_to_world[16]; /* rotation (and mirror) */
 } RestageEnvironment;
