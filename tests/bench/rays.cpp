@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays a second in the room, and what the whole frame costs against Embree alone on the very same rays.
 #include "bench.hpp"
+#include "plain_tracer.hpp"
 #include "ray_recorder.hpp"
 #include "scenes.hpp"
 
@@ -29,6 +30,7 @@ Json measure_rays(const Options& o) {
     for (const auto& r : rays)
         shadows += r.shadow;
 
+    const PlainTracer tracer(scene);
     Json runs = Json::array();
     const std::uint32_t spp = o.quick ? 1 : 4;
     for (int i = 0; i < o.runs; ++i) {
@@ -36,6 +38,12 @@ Json measure_rays(const Options& o) {
         renderer->reset_stats();
         const Seconds frame = time([&] { check(renderer->trace(spp)); });
         const Seconds plain = time([&] { trace_plainly(rays, renderer->jobs()); });
+        PlainResult cpp;
+        const Seconds cpp_time = time([&] { cpp = tracer.trace(spp, renderer->jobs()); });
+        const auto film = renderer->image();
+        double luminance = 0;
+        for (const auto& c : film.color)
+            luminance += double(glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f))) / double(film.color.size());
         const double n = double(stats.rays + stats.shadow_rays);
         runs.push_back({{"rays", stats.rays},
                         {"shadow_rays", stats.shadow_rays},
@@ -47,7 +55,14 @@ Json measure_rays(const Options& o) {
                         {"share_tracing", stats.seconds_tracing / stats.seconds},
                         {"plain_mrays_wall", double(rays.size()) / plain.wall * 1e-6},
                         {"plain_mrays_cpu", double(rays.size()) / plain.cpu * 1e-6},
-                        {"frame_over_plain", frame.cpu / n * double(rays.size()) / plain.cpu}});
+                        {"frame_over_plain", frame.cpu / n * double(rays.size()) / plain.cpu},
+                        {"cpp_mrays_wall", double(cpp.rays + cpp.shadow_rays) / cpp_time.wall * 1e-6},
+                        {"cpp_mrays_cpu", double(cpp.rays + cpp.shadow_rays) / cpp_time.cpu * 1e-6},
+                        {"cpp_rays", cpp.rays},
+                        {"cpp_shadow_rays", cpp.shadow_rays},
+                        {"frame_over_cpp", frame.cpu / cpp_time.cpu},
+                        {"mean_luminance", luminance},
+                        {"cpp_mean_luminance", cpp.mean_luminance}});
     }
     return {{"samples", spp},
             {"rays_recorded", rays.size()},

@@ -66,6 +66,21 @@ void set_sky(SceneBuilder& b, const Mapping& m, std::vector<float> values, const
 
 } // namespace
 
+namespace {
+
+struct Sun {
+    glm::dvec3 toward;
+    glm::dmat4 turn; // of the sky
+};
+const Sun suns[] = {
+    {glm::dvec3(0.5, 0.3, 0.8), glm::dmat4(1)},
+    {glm::dvec3(-0.6, 0.5, 0.4), glm::rotate(glm::dmat4(1), 2.2, glm::dvec3(1, 0.5, 0.2))},
+    {glm::dvec3(0.01, -0.005, 1), glm::dmat4(1)}, // in the row at the pole
+    {glm::dvec3(0.5, 0.3, 0.8), glm::scale(glm::rotate(glm::dmat4(1), -0.3, glm::dvec3(0, 1, 1)), glm::dvec3(-30))},
+};
+
+} // namespace
+
 TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
     const std::string tracer = GENERATE("embree", "vulkan");
     for (const auto strategy : {render::Strategy::mis, render::Strategy::light_only}) {
@@ -73,12 +88,9 @@ TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
         options.strategy = strategy;
         const auto renderer = make_renderer(tracer, options);
         for (const Mapping& m : {equirect, octahedral})
-            for (const auto& [toward, turn] :
-                 {std::pair{glm::dvec3(0.5, 0.3, 0.8), glm::dmat4(1)},
-                  {glm::dvec3(-0.6, 0.5, 0.4), glm::rotate(glm::dmat4(1), 2.2, glm::dvec3(1, 0.5, 0.2))},
-                  {glm::dvec3(0.01, -0.005, 1), glm::dmat4(1)}, // in the row at the pole
-                  {glm::dvec3(0.5, 0.3, 0.8),
-                   glm::scale(glm::rotate(glm::dmat4(1), -0.3, glm::dvec3(0, 1, 1)), glm::dvec3(-30))}}) {
+            for (const Sun& sun : suns) {
+                const glm::dvec3 toward = sun.toward;
+                const glm::dmat4 turn = sun.turn;
                 const glm::dmat3 rotation(glm::dvec3(turn[0]) / glm::length(glm::dvec3(turn[0])),
                                           glm::dvec3(turn[1]) / glm::length(glm::dvec3(turn[1])),
                                           glm::dvec3(turn[2]) / glm::length(glm::dvec3(turn[2])));

@@ -63,7 +63,8 @@ TEST_CASE("sampler: the second Sobol dimension by its direction numbers") {
 }
 
 TEST_CASE("sampler: every elementary interval of the first 2^k samples holds one point") {
-    for (const auto [seed, pair] : {std::pair{1u, 0u}, {0xdeadbeefu, 3u}, {77u, 40u}, {0u, 0u}}) {
+    for (const auto& [seed, pair] :
+         std::vector<std::pair<unsigned, unsigned>>{{1, 0}, {0xdeadbeef, 3}, {77, 40}, {0, 0}}) {
         const auto points = sequence(seed, pair, 4096);
         for (int k = 0; k <= 12; ++k)
             for (int a = 0; a <= k; ++a) { // 2^a columns, 2^(k-a) rows
