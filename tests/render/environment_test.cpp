@@ -91,9 +91,9 @@ TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
             for (const Sun& sun : suns) {
                 const glm::dvec3 toward = sun.toward;
                 const glm::dmat4 turn = sun.turn;
-                const glm::dmat3 rotation(glm::dvec3(turn[0]) / glm::length(glm::dvec3(turn[0])),
-                                          glm::dvec3(turn[1]) / glm::length(glm::dvec3(turn[1])),
-                                          glm::dvec3(turn[2]) / glm::length(glm::dvec3(turn[2])));
+                const glm::dmat3 linear(turn);
+                const glm::dmat3 rotation{glm::normalize(linear[0]), glm::normalize(linear[1]),
+                                          glm::normalize(linear[2])};
                 const auto at = texel_of(m, glm::normalize(glm::transpose(rotation) * toward));
                 const double geometry =
                     m.integrate(at.x, at.y, [&](const glm::dvec3& w) { return std::max(0.0, (rotation * w).z); });
