@@ -107,6 +107,23 @@ std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
     return value;
 }
 
+// Sizes of the picture, of which stb says only that this is no PNG, and of the chunks, which stb allocates unseen.
+Result<> check_png_chunks(std::string_view bytes) {
+    constexpr std::size_t signature = 8, frame = 12; // a chunk: length, name, data, checksum
+    if (bytes.size() >= signature + 16)
+        RESTAGE_CHECK(check_image_size(big_endian(bytes, 16), big_endian(bytes, 20), bytes.size()));
+    for (std::size_t at = signature; at + frame <= bytes.size();) {
+        const std::uint32_t length = big_endian(bytes, at);
+        const std::string_view name = bytes.substr(at + 4, 4);
+        if (length > bytes.size() - at - frame)
+            return fail(
+                fmt::format("truncated: a chunk claims {} bytes, more than the file has (byte {})", length, at));
+        if (name == "IEND") break;
+        at += frame + length;
+    }
+    return {};
+}
+
 // stb_image before 2.28 writes behind its Huffman tables when one claims more than 256 codes. Walks over the markers as
 // stb does and refuses that; whatever else is wrong, stb finds.
 Result<> check_jpeg_tables(std::string_view bytes) {
@@ -150,8 +167,7 @@ Result<> check_channels(const std::string& path, const scene::PixelData& image) 
 } // namespace
 
 Result<DecodedImage> decode_stb(std::string_view bytes, bool header_only) {
-    if (bytes.size() >= 24 && bytes.starts_with("\x89PNG")) // of absurd sizes stb says only that it is no PNG
-        RESTAGE_CHECK(check_image_size(big_endian(bytes, 16), big_endian(bytes, 20), bytes.size()));
+    if (bytes.starts_with("\x89PNG")) RESTAGE_CHECK(check_png_chunks(bytes));
     if (bytes.starts_with("\xff\xd8")) RESTAGE_CHECK(check_jpeg_tables(bytes));
     Source source{bytes};
     DecodedImage image;
