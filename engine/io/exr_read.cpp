@@ -30,37 +30,6 @@ namespace {
 
 constexpr std::uint64_t max_values = 1ull << 31; // 8 GiB in memory
 
-// Walks over the attributes of all headers: OpenEXR allocates the size that an attribute claims before it looks whether
-// the file is that long.
-Result<> check_attributes(std::string_view bytes) {
-    constexpr std::uint32_t multi_part = 0x1000;
-    const auto integer = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        for (std::size_t i = 4; i-- > 0;)
-            value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
-        return value;
-    };
-    const Error truncated{"EXR: truncated: the file ends inside its header"};
-    if (bytes.size() < 8) return tl::unexpected(truncated);
-    const bool several = (integer(4) & multi_part) != 0;
-    for (std::size_t at = 8;;) {
-        if (at >= bytes.size()) return tl::unexpected(truncated);
-        if (bytes[at] == 0) { // the end of a header; two in a row end the last of several
-            ++at;
-            if (!several || at >= bytes.size() || bytes[at] == 0) return {};
-            continue;
-        }
-        const std::size_t name_end = bytes.find('\0', at);
-        const std::size_t type_end = name_end == bytes.npos ? bytes.npos : bytes.find('\0', name_end + 1);
-        if (type_end == bytes.npos || bytes.size() - type_end < 5) return tl::unexpected(truncated);
-        const std::uint32_t size = integer(type_end + 1);
-        if (size > bytes.size() - type_end - 5)
-            return fail(fmt::format("EXR: attribute '{}' claims {} bytes, more than the file has",
-                                    bytes.substr(at, std::min<std::size_t>(name_end - at, 64)), size));
-        at = type_end + 5 + size;
-    }
-}
-
 struct Window {
     std::uint32_t width = 0, height = 0;
     Imath::Box2i box;
@@ -228,7 +197,7 @@ Result<DecodedImage> decode_luminance_chroma(std::string_view bytes, bool header
 }
 
 Result<DecodedImage> decode(std::string_view bytes, bool header_only) {
-    RESTAGE_CHECK(check_attributes(bytes));
+    RESTAGE_CHECK(check_exr_header(bytes));
     ExrMemoryInput stream(bytes);
     Imf::MultiPartInputFile file(stream);
     const Imf::Header& header = file.header(0);
@@ -259,7 +228,7 @@ Result<DecodedImage> decode(std::string_view bytes, bool header_only) {
 
 Result<ExrImage> read_layers(std::string_view bytes) {
     if (!is_exr(bytes)) return fail("not an EXR file");
-    RESTAGE_CHECK(check_attributes(bytes));
+    RESTAGE_CHECK(check_exr_header(bytes));
     ExrMemoryInput stream(bytes);
     Imf::MultiPartInputFile file(stream);
     const Imf::Header& header = file.header(0);

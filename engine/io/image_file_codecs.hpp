@@ -22,6 +22,8 @@ struct DecodedImage {
 bool is_pfm(std::string_view bytes);
 Result<DecodedImage> decode_pfm(std::string_view bytes, bool header_only);
 bool is_exr(std::string_view bytes);
+// To be asked before OpenEXR sees the bytes: it allocates what an attribute claims before it looks whether it is there.
+Result<> check_exr_header(std::string_view bytes);
 Result<DecodedImage> decode_exr(std::string_view bytes, bool header_only);
 bool is_hdr(std::string_view bytes);
 Result<DecodedImage> decode_hdr(std::string_view bytes, bool header_only);

@@ -128,7 +128,7 @@ Result<> check_png_chunks(std::string_view bytes) {
 // stb does and refuses that; whatever else is wrong, stb finds.
 Result<> check_jpeg_tables(std::string_view bytes) {
     const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<std::uint8_t>(bytes[at]) : 0u; };
-    constexpr std::uint32_t define_huffman = 0xc4, start_of_scan = 0xda, end_of_image = 0xd9;
+    constexpr std::uint32_t define_huffman = 0xc4, end_of_image = 0xd9;
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
         if (byte(at) != 0xff || byte(at + 1) == 0xff || byte(at + 1) == 0) { // fill, or data of a scan
             ++at;
@@ -141,14 +141,14 @@ Result<> check_jpeg_tables(std::string_view bytes) {
             continue;
         }
         const std::size_t length = byte(at + 2) << 8 | byte(at + 3), end = at + 2 + length;
-        for (std::size_t table = at + 4; marker == define_huffman && table + 17 <= end;) {
+        for (std::size_t table = at + 4; marker == define_huffman && table < end;) {
             std::size_t codes = 0;
             for (std::size_t i = 1; i <= 16; ++i)
                 codes += byte(table + i);
             if (codes > 256) return fail(fmt::format("a Huffman table claims {} codes (byte {})", codes, table));
             table += 17 + codes;
         }
-        at = marker == start_of_scan ? at + 2 : std::max(end, at + 2);
+        at = std::max(end, at + 2);
     }
     return {};
 }
