@@ -33,18 +33,18 @@ Result<scene::PixelData> load(const std::string& path, Log& log) {
     return image;
 }
 
-// Luminance with the variance that the file's own "stderr" layer tells; nullopt when it has none.
-Result<std::optional<io::Estimate>> load_estimate(const std::string& path, const scene::PixelData& image) {
-    if (!path.ends_with(".exr") && !path.ends_with(".EXR")) return std::nullopt;
+// Luminance with the variance that the file's own "stderr" layer tells; empty when it has none.
+Result<io::Estimate> load_estimate(const std::string& path, const scene::PixelData& image) {
+    if (!path.ends_with(".exr") && !path.ends_with(".EXR")) return io::Estimate{};
     RESTAGE_TRY(const io::ExrImage exr, io::read_exr(path));
     const io::ExrLayer* layer = exr.find("stderr");
-    if (!layer || layer->values.empty()) return std::nullopt;
+    if (!layer || layer->values.empty()) return io::Estimate{};
     const auto index = [&](const char* name) {
         return std::find(layer->channels.begin(), layer->channels.end(), name) - layer->channels.begin();
     };
     const auto count = static_cast<std::ptrdiff_t>(layer->channels.size());
     const std::ptrdiff_t y = index("Y"), rgb[3] = {index("R"), index("G"), index("B")};
-    if (y == count && (rgb[0] == count || rgb[1] == count || rgb[2] == count)) return std::nullopt;
+    if (y == count && (rgb[0] == count || rgb[1] == count || rgb[2] == count)) return io::Estimate{};
     io::Estimate estimate{.width = image.width, .height = image.height, .luminance = io::luminance(image)};
     // Errors are those of the path-traced picture; where it was denoised, that is layer "noisy".
     if (const io::ExrLayer* noisy = exr.find("noisy"); noisy && noisy->channels.size() == 3 && !noisy->values.empty())
@@ -65,7 +65,7 @@ Result<std::optional<io::Estimate>> load_estimate(const std::string& path, const
 
 struct Reference {
     scene::PixelData image;
-    std::optional<io::Estimate> estimate;
+    io::Estimate estimate; // empty = not known
 };
 
 Result<Reference> load_reference(const Options& options, Log& log) {
@@ -148,14 +148,14 @@ std::string to_text(const io::Comparison& c, const std::optional<io::ZTest>& z) 
 
 Result<int> run(const Options& options, Log& log) {
     RESTAGE_TRY(const scene::PixelData a, load(options.a, log));
-    RESTAGE_TRY(const std::optional<io::Estimate> estimate_a, load_estimate(options.a, a));
+    RESTAGE_TRY(const io::Estimate estimate_a, load_estimate(options.a, a));
     RESTAGE_TRY(const Reference b, load_reference(options, log));
     const auto comparison = io::compare_images(a, b.image, options.compare);
     if (!comparison)
         return fail(options.a + ", " + (options.halves.empty() ? options.b : options.halves[0]), comparison.error());
     std::optional<io::ZTest> z;
-    if (estimate_a && b.estimate) {
-        RESTAGE_TRY(z, io::z_test(*estimate_a, *b.estimate));
+    if (!estimate_a.luminance.empty() && !b.estimate.luminance.empty()) {
+        RESTAGE_TRY(z, io::z_test(estimate_a, b.estimate));
     }
     if (!options.diff.empty()) RESTAGE_CHECK(io::write_png(options.diff, io::difference_image(a, b.image)));
     if (!options.z_map.empty()) {
