@@ -8,6 +8,9 @@
 #include "pictures.hpp"
 #include "render/denoise.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace restage::bench {
 namespace {
 
@@ -21,8 +24,23 @@ struct Config {
 
 constexpr float clip = 0.001f; // as tests/golden/references.py
 
-double rel_mse(const scene::PixelData& a, const scene::PixelData& reference) {
-    return take(io::compare_images(a, reference, {.clip = clip})).rel_mse;
+struct Error {
+    double rel_mse = 0, trimmed = 0;
+};
+// relMSE, and the same without the thousandth of the pixels that differ most: one sample of a bright light at its edge,
+// or one firefly, otherwise decides the mean of all.
+Error error_of(scene::PixelData a, scene::PixelData reference) {
+    Error e{.rel_mse = take(io::compare_images(a, reference, {.clip = clip})).rel_mse};
+    io::clip_fireflies(a, reference, clip);
+    std::vector<double> pixels(a.values.size() / 3);
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        const double r = reference.values[i], d = a.values[i] - r;
+        pixels[i / 3] += d * d / (r * r + io::rel_mse_epsilon) / 3;
+    }
+    std::sort(pixels.begin(), pixels.end());
+    pixels.resize(pixels.size() - pixels.size() / 1000);
+    e.trimmed = std::accumulate(pixels.begin(), pixels.end(), 0.0) / double(pixels.size());
+    return e;
 }
 
 } // namespace
@@ -65,19 +83,23 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
                 spent.wall += t.wall;
                 spent.cpu += t.cpu;
                 const auto film = renderer->image();
+                const Error raw = error_of(picture(film.color, film, exposure), reference);
                 rows.push_back({{"config", config.name},
                                 {"seed", seed},
                                 {"samples", n},
                                 {"wall", spent.wall},
                                 {"cpu", spent.cpu},
-                                {"rel_mse", rel_mse(picture(film.color, film, exposure), reference)}});
+                                {"rel_mse", raw.rel_mse},
+                                {"trimmed", raw.trimmed}});
                 if (!config.denoised || !denoiser) continue;
                 std::vector<glm::vec3> clean;
                 const Seconds d =
                     time([&] { clean = take(render::denoise(film, *denoiser, RESTAGE_DENOISE_HIGH, o.threads)); });
                 rows.back()["denoise_wall"] = d.wall;
                 rows.back()["denoise_cpu"] = d.cpu;
-                rows.back()["rel_mse_denoised"] = rel_mse(picture(clean, film, exposure), reference);
+                const Error denoised = error_of(picture(clean, film, exposure), reference);
+                rows.back()["rel_mse_denoised"] = denoised.rel_mse;
+                rows.back()["trimmed_denoised"] = denoised.trimmed;
             }
         }
     }
@@ -85,7 +107,7 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
     Json result = {{"width", a.width},
                    {"height", a.height},
                    {"clip", clip},
-                   {"reference_noise", rel_mse(a, reference)},
+                   {"reference_noise", error_of(a, reference).rel_mse},
                    {"rows", rows}};
     if (!denoiser) result["not_denoised"] = reason;
     return result;
