@@ -91,6 +91,7 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, const Spirv& sha
     ComputePipeline self;
     self.device_ = &device;
     self.push_constant_bytes_ = push_constant_bytes;
+    self.shader_bytes_ = shader.words.size() * sizeof(std::uint32_t);
     Modules modules(device);
     RESTAGE_TRY(const VkShaderModule module, modules.create(shader));
     RESTAGE_TRY(self.layout_, create_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, push_constant_bytes, name));
@@ -122,6 +123,7 @@ ComputePipeline& ComputePipeline::operator=(ComputePipeline&& other) noexcept {
     std::swap(pipeline_, other.pipeline_);
     std::swap(layout_, other.layout_);
     std::swap(push_constant_bytes_, other.push_constant_bytes_);
+    std::swap(shader_bytes_, other.shader_bytes_);
     return *this;
 }
 
@@ -147,6 +149,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
         for (const auto& [other, index] : known)
             if (other == shader) return index;
         RESTAGE_TRY(const VkShaderModule module, modules.create(*shader));
+        self.shader_bytes_ += shader->words.size() * sizeof(std::uint32_t);
         stage_infos.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                                .stage = stage,
                                .module = module,
@@ -248,6 +251,7 @@ RayTracingPipeline& RayTracingPipeline::operator=(RayTracingPipeline&& other) no
     std::swap(pipeline_, other.pipeline_);
     std::swap(layout_, other.layout_);
     std::swap(push_constant_bytes_, other.push_constant_bytes_);
+    std::swap(shader_bytes_, other.shader_bytes_);
     std::swap(binding_table_, other.binding_table_);
     std::swap(raygen_, other.raygen_);
     std::swap(misses_, other.misses_);

@@ -36,12 +36,14 @@ class ComputePipeline {
     VkPipeline handle() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
     std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
+    std::size_t shader_bytes() const { return shader_bytes_; } // of SPIR-V that it was made from
 
   private:
     Device* device_ = nullptr;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     std::uint32_t push_constant_bytes_ = 0;
+    std::size_t shader_bytes_ = 0;
 };
 
 // One kind of surface: what runs at the closest hit, and (nullptr: nothing) at every candidate hit that is not opaque.
@@ -74,6 +76,7 @@ class RayTracingPipeline {
     VkPipeline handle() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
     std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
+    std::size_t shader_bytes() const { return shader_bytes_; } // of SPIR-V that it was made from
     // Push constants are visible to all of them.
     static constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
                                                  VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
@@ -85,6 +88,7 @@ class RayTracingPipeline {
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     std::uint32_t push_constant_bytes_ = 0;
+    std::size_t shader_bytes_ = 0;
     Buffer binding_table_;
     VkStridedDeviceAddressRegionKHR raygen_{}, misses_{}, hits_{}, callables_{};
 };

@@ -80,9 +80,21 @@ Result<RayTracingPipeline> create(Device& device, const RayTracingRequest& reque
         callables.push_back(at(i));
     for (const auto& group : request.hit_groups)
         groups.push_back({at(group.closest_hit), at(group.any_hit)});
-    return RayTracingPipeline::create(
-        device, {.raygen = at(request.raygen), .misses = misses, .hit_groups = groups, .callables = callables},
-        request.push_constant_bytes, request.constants, request.name.c_str());
+    return RayTracingPipeline::create(device,
+                                      {.raygen = at(request.raygen),
+                                       .misses = misses,
+                                       .hit_groups = groups,
+                                       .callables = callables,
+                                       .callable_constants = request.callable_constants},
+                                      request.push_constant_bytes, request.constants, request.name.c_str());
+}
+
+std::vector<SpecConstant> constants_of(const ComputeRequest& request) { return request.constants; }
+std::vector<SpecConstant> constants_of(const RayTracingRequest& request) {
+    std::vector<SpecConstant> all = request.constants;
+    for (const auto& own : request.callable_constants)
+        all.insert(all.end(), own.begin(), own.end());
+    return all;
 }
 
 std::vector<const ShaderSource*> sources_of(const ComputeRequest& request) { return {&request.shader}; }
@@ -91,6 +103,10 @@ std::vector<const ShaderSource*> sources_of(const RayTracingRequest& request) {
     for (const ShaderSource& source : request.shaders)
         sources.push_back(&source);
     return sources;
+}
+
+tl::unexpected<Error> cancelled(const std::string& name) {
+    return fail("building pipeline " + name + " was cancelled");
 }
 
 } // namespace
@@ -138,12 +154,15 @@ struct PipelineBuilder::Impl {
     Result<Pipeline> make(const Request& request) {
         std::vector<Spirv> shaders;
         for (const ShaderSource* source : sources_of(request)) {
+            if (request.stop.stop_requested()) return cancelled(request.name);
             RESTAGE_TRY(Spirv spirv, compiler.compile(*source));
             shaders.push_back(std::move(spirv));
         }
         const bool cpu = device.info().type == DeviceType::cpu;
-        const std::uint64_t id = identity(shaders, request.constants, device.info());
+        const std::uint64_t id = identity(shaders, constants_of(request), device.info());
+        if (request.stop.stop_requested()) return cancelled(request.name);
         if (cpu && stalls == Stalls::avoid && !marks.has(id)) warm(request, shaders);
+        if (request.stop.stop_requested()) return cancelled(request.name);
         RESTAGE_TRY(Pipeline pipeline, create(device, request, shaders));
         if (cpu) {
             RESTAGE_CHECK(run_nothing(device, pipeline));
@@ -161,8 +180,7 @@ struct PipelineBuilder::Impl {
         {
             std::lock_guard lock(mutex);
             jobs.push_back([this, promise, kept](bool stop) {
-                promise->set_value(stop ? Result<Pipeline>(fail("building pipeline " + kept->name + " was cancelled"))
-                                        : make<Pipeline>(*kept));
+                promise->set_value(stop ? Result<Pipeline>(cancelled(kept->name)) : make<Pipeline>(*kept));
             });
         }
         wake.notify_one();

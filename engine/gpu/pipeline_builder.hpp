@@ -11,6 +11,7 @@
 
 #include <future>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ComputeRequest {
     std::uint32_t push_constant_bytes = 0;
     std::vector<SpecConstant> constants;
     std::string name;
+    std::stop_token stop; // asked between steps; a step that is begun (a second or two at worst) ends first
 };
 
 struct RayTracingRequest {
@@ -33,9 +35,11 @@ struct RayTracingRequest {
     std::vector<std::size_t> misses;
     std::vector<Group> hit_groups;
     std::vector<std::size_t> callables;
+    std::vector<std::vector<SpecConstant>> callable_constants; // see RayTracingShaders
     std::uint32_t push_constant_bytes = 0;
     std::vector<SpecConstant> constants;
     std::string name;
+    std::stop_token stop;
 };
 
 // [any] thread. The device and the compiler outlive it. Requests are begun in the order in which they came.

@@ -2,9 +2,8 @@
 // The `embree` tracer: a wavefront. Kernels generate, shade (one a material type, over a queue of its hits) and
 // accumulate; between two bounces one CPU pass lets Embree answer the shadow rays of the last vertex and find the next
 // hits, in natural path order and in place, and queues each hit for its type's kernel.
-#include "base/file.hpp"
 #include "render/embree_scene.hpp"
-#include "render/tracer.hpp"
+#include "render/wave_kernels.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -22,11 +21,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: stays near the caches, amortises a submit
 constexpr std::uint32_t group_size = 64;      // of the kernels
 constexpr std::size_t chunk = 2048;           // paths a job
-constexpr std::uint8_t type_none = 255, type_escape = 254;
+constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
 
 class EmbreeTracer final : public Tracer {
   public:
-    explicit EmbreeTracer(const TracerContext& c) : c_(c) {}
+    explicit EmbreeTracer(const TracerContext& c) : c_(c), kernels_(c) {}
     const char* name() const override { return "embree"; }
 
     Result<void> start() {
@@ -46,18 +45,19 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
         RESTAGE_CHECK(embree_->update(scene, changes));
-        if (changes.shaders) pipelines_ready_ = false;
-        return {};
+        return changes.shaders ? kernels_.select(scene) : Result<void>{};
     }
+    bool adopt() override { return kernels_.adopt(); }
+    std::optional<CompileProgress> compiling() const override { return kernels_.compiling(); }
 
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
-        RESTAGE_CHECK(make_pipelines(scene, request));
+        RESTAGE_TRY(bool going, kernels_.begin(request.keep_going));
         const std::uint32_t pixels = film.width() * film.height();
         // A wave holds all pixels some samples each, or part of the pixels one sample each.
         const std::uint32_t samples = std::clamp(wave_paths / std::max(pixels, 1u), 1u, request.samples);
-        for (std::uint32_t s = 0; s < request.samples; s += samples)
-            for (std::uint32_t p = 0; p < pixels; p += wave_paths) {
+        for (std::uint32_t s = 0; going && s < request.samples; s += samples)
+            for (std::uint32_t p = 0; going && p < pixels; p += wave_paths) {
                 if (request.keep_going && !request.keep_going()) return finish(scene, start);
                 shared::FrameData f{};
                 f.first_pixel = p;
@@ -70,7 +70,7 @@ class EmbreeTracer final : public Tracer {
                 f.seed = request.seed;
                 f.film = film.pixels();
                 f.film_guides = film.guides();
-                RESTAGE_CHECK(wave(scene, f));
+                RESTAGE_TRY(going, wave(scene, f, request.keep_going));
             }
         return finish(scene, start);
     }
@@ -78,50 +78,15 @@ class EmbreeTracer final : public Tracer {
   private:
     Result<void> finish(const GpuScene& scene, Clock::time_point start) {
         stats_.seconds += seconds_since(start);
+        stats_.shader_bytes = kernels_.shader_bytes();
         auto counts = counters_.span<std::uint32_t>();
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
             if (counts[i]) stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
         return {};
     }
 
-    Result<void> make_pipelines(const GpuScene& scene, const TraceRequest& request) {
-        if (pipelines_ready_ && guides_on_ == request.guides && strategy_ == request.strategy) return {};
-        stats_.shader_bytes = 0;
-        const auto kernel = [&](const gpu::ShaderSource& source, const MaterialType* type,
-                                gpu::ComputePipeline& out) -> Result<void> {
-            RESTAGE_TRY(const auto spirv, c_.compiler.compile(source));
-            stats_.shader_bytes += spirv.words.size() * 4;
-            const auto constants = spec_constants(scene.features(), request.guides, request.strategy, type);
-            RESTAGE_TRY(out, gpu::ComputePipeline::create(c_.device, spirv, sizeof(shared::WavePush), constants,
-                                                          source.name.c_str()));
-            return {};
-        };
-        const auto file = [&](const char* name) -> Result<gpu::ShaderSource> {
-            RESTAGE_TRY(auto text, read_file(c_.shader_dir / name));
-            return gpu::ShaderSource{.name = (c_.shader_dir / name).string(), .text = std::move(text)};
-        };
-        RESTAGE_TRY(const auto generate, file("wave_generate.comp"));
-        RESTAGE_TRY(const auto escape, file("wave_escape.comp"));
-        RESTAGE_TRY(const auto accumulate, file("wave_accumulate.comp"));
-        RESTAGE_CHECK(kernel(generate, nullptr, generate_));
-        RESTAGE_CHECK(kernel(escape, nullptr, escape_));
-        RESTAGE_CHECK(kernel(accumulate, nullptr, accumulate_));
-        if (scene.types().size() > type_escape) return fail("a scene may use at most 254 material types");
-        shade_.clear();
-        shade_.resize(scene.types().size());
-        for (std::size_t i = 0; i < shade_.size(); ++i) {
-            const MaterialType& type = scene.types()[i];
-            if (!type.plugin.table || !type.plugin.table->glsl_file) continue;
-            RESTAGE_CHECK(
-                kernel(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute), &type, shade_[i]));
-        }
-        pipelines_ready_ = true;
-        guides_on_ = request.guides;
-        strategy_ = request.strategy;
-        return {};
-    }
-
-    Result<void> wave(const GpuScene& scene, shared::FrameData& f) {
+    // False: keep_going said to stop, and the film has nothing of this wave.
+    Result<bool> wave(const GpuScene& scene, shared::FrameData& f, const std::function<bool()>& keep_going) {
         f.scene = scene.address();
         f.rays = rays_.address();
         f.shadows = shadows_.address();
@@ -133,25 +98,25 @@ class EmbreeTracer final : public Tracer {
         const std::uint32_t count = f.pixel_count * f.samples;
         stats_.paths += count;
 
-        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, generate_, 0, count); }));
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.generate(), 0, count); }));
         active_.resize(count);
         for (std::uint32_t i = 0; i < count; ++i)
             active_[i] = i;
         for (;;) {
             trace_rays(scene);
             if (active_.empty() && !escaped_) break;
+            RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
+            if (!ready) return false;
             RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
                 std::uint32_t first = 0;
-                for (std::size_t t = 0; t < type_count_.size(); ++t) {
-                    if (type_count_[t] && t == type_escape)
-                        dispatch(list, escape_, first, type_count_[t]);
-                    else if (type_count_[t])
-                        dispatch(list, shade_[t], first, type_count_[t]);
+                for (std::size_t t = 0; t < type_none; ++t) {
+                    if (type_count_[t]) dispatch(list, kernels_.shade(t), first, type_count_[t]);
                     first += type_count_[t];
                 }
             }));
         }
-        return submit([&](gpu::CommandList& list) { dispatch(list, accumulate_, 0, f.pixel_count); });
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, f.pixel_count); }));
+        return true;
     }
 
     void dispatch(gpu::CommandList& list, const gpu::ComputePipeline& kernel, std::uint32_t first,
@@ -258,10 +223,8 @@ class EmbreeTracer final : public Tracer {
     TracerContext c_;
     std::unique_ptr<EmbreeScene> embree_;
     gpu::Buffer rays_, shadows_, paths_, guides_, queue_, counters_, frame_;
-    gpu::ComputePipeline generate_, escape_, accumulate_;
-    std::vector<gpu::ComputePipeline> shade_; // by material type
-    bool pipelines_ready_ = false, guides_on_ = false, escaped_ = false;
-    Strategy strategy_ = Strategy::mis;
+    WaveKernels kernels_;
+    bool escaped_ = false;
     gpu::CommandList list_;
     std::vector<std::uint32_t> active_, next_active_;
     std::vector<std::uint8_t> types_; // by path

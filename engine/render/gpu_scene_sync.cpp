@@ -38,19 +38,22 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     const auto old_types = types_;
     for (auto& t : types_) {
         t.textured = 0;
-        t.bump = false;
+        t.bump = t.used = false;
     }
     const std::uint32_t fallback = type_index("diffuse"); // what a missing plugin's materials look like
     if (!types_[fallback].plugin.table)
         return fail(
             "no plugin for the material type \"diffuse\": Restage's own plugins were not found; look at "
             "`restage plugins`");
+    types_[fallback].used = true;
     std::vector<shared::MaterialData> records(scene.materials.size() + 1);
     std::vector<std::uint32_t> words;
     mix_amount_.assign(records.size(), 0.5f);
     mix_texture_.assign(records.size(), 0);
     const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type) {
         record.type = type;
+        const auto color = stand_in_color(*types_[type].plugin.table, params);
+        words.insert(words.end(), color.begin(), color.end());
         record.params = std::uint32_t(words.size());
         const auto packed = pack_material(*types_[type].plugin.table, params);
         words.insert(words.end(), packed.begin(), packed.end());
@@ -66,6 +69,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         if (!used[id.value]) return;
         const std::uint32_t index = type_index(m.type);
         MaterialType& type = types_[index];
+        type.used = true;
         if (!type.plugin.table) return;
         if (type.mix()) {
             record.type = index;
@@ -101,7 +105,8 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     });
     changes.shaders |= old_types.size() != types_.size();
     for (std::size_t i = 0; i < old_types.size() && !changes.shaders; ++i)
-        changes.shaders = old_types[i].textured != types_[i].textured || old_types[i].bump != types_[i].bump;
+        changes.shaders = old_types[i].textured != types_[i].textured || old_types[i].bump != types_[i].bump ||
+                          old_types[i].used != types_[i].used;
     materials_.assign(std::move(records));
     params_.assign(std::move(words));
     RESTAGE_CHECK(materials_.flush(*device_));

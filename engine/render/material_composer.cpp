@@ -2,6 +2,7 @@
 #include "render/material_composer.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace restage::render {
 namespace {
@@ -35,18 +36,36 @@ std::string read_value(const RestageParam& p, std::uint32_t at) {
     }
 }
 
-} // namespace
+std::string default_value(const RestageParam& p) {
+    switch (p.type) {
+        case RESTAGE_COLOR:
+            return fmt::format("vec3({}, {}, {})", p.def[0], p.def[1], p.def[2]);
+        case RESTAGE_FLOAT:
+            return fmt::format("float({})", p.def[0]);
+        case RESTAGE_BOOL:
+            return p.def[0] != 0 ? "true" : "false";
+        default:
+            return fmt::format("{}", int(p.def[0]));
+    }
+}
 
-gpu::ShaderSource compose_material(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
+gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage,
+                          bool stand_in) {
     const RestageMaterial1& table = *type.plugin.table;
     const std::string prefix = table.prefix;
     std::string fields, fetch;
     std::uint32_t at = 0;
+    bool colored = false;
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& line = table.params[i];
         const auto n = value_words(line);
         if (n == 0) continue;
         fields += fmt::format("    {} {};\n", glsl_type(line), line.id);
+        if (stand_in) {
+            const bool color = line.type == RESTAGE_COLOR && std::exchange(colored, true) == false;
+            fetch += fmt::format("    m.{} = {};\n", line.id, color ? read_value(line, 0) : default_value(line));
+            continue;
+        }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
         if (type.textured >> i & 1) // a slot nobody has textured carries no texture code
             fetch += fmt::format("    if (w.at[at + {0}] != 0u) m.{1} = texture_eval(scene, w.at[at + {0}], uv).{2};\n",
@@ -57,7 +76,7 @@ gpu::ShaderSource compose_material(const MaterialType& type, const std::string& 
     const char* rng = (table.flags & RESTAGE_MATERIAL_STOCHASTIC) ? ", rng" : "";
 
     gpu::ShaderSource source;
-    source.name = "<composed for " + type.type + ">";
+    source.name = stand_in ? "<stand-in>" : "<composed for " + type.type + ">";
     source.stage = stage;
     source.include_dirs = {type.plugin.folder};
     source.text = fmt::format(
@@ -74,7 +93,7 @@ struct {p}_Params {{
 Material material_fetch(SceneData scene, uint at, vec2 uv) {{
     UintArray w = UintArray(scene.params);
     Material m;
-{fetch}    return m;
+{before}{fetch}    return m;
 }}
 vec3 material_eval(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_eval(m, wo, wi{rng}); }}
 float material_pdf(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_pdf(m, wo, wi{rng}); }}
@@ -82,10 +101,20 @@ BsdfSample material_sample(Material m, vec3 wo, vec3 u, inout Rng rng) {{ return
 vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 #include "{main}"
 )",
-        fmt::arg("p", prefix), fmt::arg("fields", fields), fmt::arg("fetch", fetch), fmt::arg("rng", rng),
+        fmt::arg("p", prefix), fmt::arg("fields", fields), fmt::arg("fetch", fetch),
+        fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),
         fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
         fmt::arg("rt", stage == gpu::ShaderStage::compute ? "" : "#extension GL_EXT_ray_tracing : require\n"));
     return source;
+}
+
+} // namespace
+
+gpu::ShaderSource compose_material(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
+    return compose(type, main_file, stage, false);
+}
+gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
+    return compose(type, main_file, stage, true);
 }
 
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guides, Strategy strategy,

@@ -24,6 +24,10 @@ enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };
 // `main_file`: "wave_shade.glsl" or what another tracer wraps around path_step.
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage);
 
+// What runs in place of a material that is still being compiled: `type` (diffuse) with its defaults, in the material's
+// own colour; see MaterialData::params.
+gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage);
+
 // For a material's shader: what this type uses; or for a kernel without material.
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures&, bool guides, Strategy,
                                               const MaterialType* = nullptr);

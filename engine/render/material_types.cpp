@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/material_types.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace restage::render {
@@ -45,6 +46,23 @@ std::vector<std::uint32_t> pack_material(const RestageMaterial1& table, const sc
                 words.push_back(std::uint32_t(std::int32_t(value.v[0])));
         }
         if (line.flags & RESTAGE_PARAM_TEXTURABLE) words.push_back(value.texture.value);
+    }
+    return words;
+}
+
+std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1& table, const scene::ParamSet& params) {
+    scene::Value color = scene::Value::color(.5f, .5f, .5f);
+    for (std::uint32_t i = 0; i < table.param_count; ++i) {
+        const RestageParam& line = table.params[i];
+        if (line.type != RESTAGE_COLOR || line.max != 1) continue;
+        const scene::Value* set = params.find(line.id);
+        color = set ? *set : scene::default_value(line);
+        break;
+    }
+    std::array<std::uint32_t, 3> words{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float v = color.v[color.type == RESTAGE_FLOAT ? 0 : k];
+        words[k] = std::bit_cast<std::uint32_t>(v > 0 ? std::min(v, 0.9f) : 0.f);
     }
     return words;
 }

@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 
 #include <restage/material.h>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -25,6 +26,7 @@ struct MaterialType {
     std::string type;
     MaterialPlugin plugin;
     std::uint64_t textured = 0; // bit i: some material of the scene has a texture in table line i
+    bool used = false;          // by a visible instance; types are never taken away
     bool bump = false;          // some material of the type has a bump or normal map
     bool mix() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_MIX); }
     bool null_surface() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_NULL); }
@@ -39,5 +41,9 @@ inline std::uint32_t line_words(const RestageParam& p) {
 
 // The words of one material: values of the table's lines in order, defaults where nothing is set.
 std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::ParamSet&);
+
+// What the material looks like while its shader is being compiled: its first colour that is a reflectance, or grey.
+// Lies in the three words before its own, for compose_stand_in.
+std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1&, const scene::ParamSet&);
 
 } // namespace restage::render

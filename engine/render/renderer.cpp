@@ -40,7 +40,13 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     const auto& info = self->device_->info();
     const bool use_vulkan =
         wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);
-    const TracerContext context{*self->device_, *self->compiler_, self->jobs_, log, self->options_.shader_dir};
+    const TracerContext context{.device = *self->device_,
+                                .compiler = *self->compiler_,
+                                .jobs = self->jobs_,
+                                .log = log,
+                                .shader_dir = self->options_.shader_dir,
+                                .strategy = options.strategy,
+                                .stand_ins = options.stand_ins};
     if (use_vulkan) {
         RESTAGE_TRY(self->tracer_, make_vulkan_tracer(context));
     } else {
@@ -82,13 +88,13 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
 }
 
 Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_going) {
+    if (tracer_->adopt()) reset();
     TraceRequest request;
     request.first_sample = samples_;
     request.samples = samples;
     request.seed = options_.seed;
     request.crop_x = crop_origin_.x;
     request.crop_y = crop_origin_.y;
-    request.strategy = options_.strategy;
     bool stopped = false;
     request.keep_going = [&] {
         stopped = stopped || (keep_going && !keep_going());

@@ -17,8 +17,11 @@ struct RendererOptions {
     unsigned threads = 0;          // for Embree; 0 = all
     std::uint32_t seed = 0;
     Strategy strategy = Strategy::mis;
+    // False: trace() waits until what it needs is compiled. True (for an editor): it does not; meanwhile a material
+    // looks as it did before it changed, or, being new, like a diffuse one of its colour. See Renderer::compiling().
+    bool stand_ins = false;
     std::filesystem::path shader_dir; // empty = <program>/../share/restage/shaders
-    std::filesystem::path cache_dir;  // empty = base's cache_dir()
+    std::filesystem::path cache_dir; // empty = base's cache_dir()
 };
 
 class Renderer {
@@ -29,8 +32,12 @@ class Renderer {
 
     // Follows the scene. When something changed that the picture shows, the film starts again.
     Result<void> sync(const scene::Scene& scene);
-    // Adds `samples` to every pixel. `keep_going` is asked every few ms; false stops early and is no error.
+    // Adds `samples` to every pixel; first starts the film again if something compiled has changed the picture.
+    // `keep_going` is asked every few ms; false stops early and is no error.
     Result<void> trace(std::uint32_t samples, std::function<bool()> keep_going = {});
+
+    // What workers compile now; nullopt: the picture is (or, before trace() has begun, may be) the scene's own.
+    std::optional<CompileProgress> compiling() const { return tracer_->compiling(); }
 
     std::uint32_t samples() const { return samples_; } // a pixel, since the last reset
     FilmImage image() const { return film_ ? film_->read() : FilmImage{}; }

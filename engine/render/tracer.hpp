@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace restage::render {
@@ -21,14 +22,14 @@ struct TracerContext {
     Jobs& jobs;
     Log& log;
     std::filesystem::path shader_dir;
+    Strategy strategy = Strategy::mis;
+    bool stand_ins = false; // see RendererOptions
 };
 
 struct TraceRequest {
     std::uint32_t first_sample = 0, samples = 1; // a pixel
     std::uint32_t seed = 0;
     std::uint32_t crop_x = 0, crop_y = 0; // of the film's first pixel within the camera's
-    bool guides = true;
-    Strategy strategy = Strategy::mis;
     // Asked between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.
     std::function<bool()> keep_going;
 };
@@ -40,13 +41,24 @@ struct TraceStats {
     std::size_t shader_bytes = 0; // SPIR-V of all kernels in use
 };
 
+// What workers compile meanwhile.
+struct CompileProgress {
+    std::string what; // a material type, or a part of the tracer
+    std::size_t left = 0; // things to compile, `what` among them
+    double seconds = 0; // since `what` was asked for
+};
+
 class Tracer {
   public:
     virtual ~Tracer() = default;
     virtual const char* name() const = 0;
-    // Brings pipelines and acceleration structures up to date.
+    // Brings acceleration structures up to date, and notes which shaders the scene now wants.
     virtual Result<void> update(const GpuScene& scene, const SceneChanges& changes) = 0;
-    // Adds samples to the film; waits.
+    // Uses from now on what has been compiled in the meantime. True: it looks different, the film must start again.
+    // What the last trace() did not need is no longer compiled: an edit that is undone cancels what it asked for.
+    virtual bool adopt() = 0;
+    virtual std::optional<CompileProgress> compiling() const = 0;
+    // Adds samples to the film; waits. Shaders are compiled when a path first needs them.
     virtual Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) = 0;
     const TraceStats& stats() const { return stats_; }
     void reset_stats() { stats_ = {.shader_bytes = stats_.shader_bytes}; }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The `vulkan` tracer: one ray-tracing pipeline. Raygen loops over a path, a callable a material type does the path
-// step, a Blas a mesh and one Tlas over the instances find the hits. A frame goes to the device in rectangles whose
-// size follows from measured time, so that no submission holds the device for long.
+// step, a Blas a mesh and one Tlas over the instances find the hits. The pipeline is built on a worker. A frame goes to
+// the device in rectangles whose size follows from measured time, so that no submission holds the device for long.
 #include "base/file.hpp"
 #include "gpu/accel.hpp"
 #include "gpu/pipeline.hpp"
-#include "render/tracer.hpp"
+#include "render/pipeline_store.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -25,13 +25,16 @@ constexpr std::uint32_t least_side = 8; // of a rectangle, in pixels: coherent r
 
 constexpr std::uint32_t group_opaque = 0, group_cut_out = 1;
 
+// Callables of a pipeline for so many types: room for more that come to the scene while it still renders.
+std::size_t callable_slots(std::size_t types) { return (types / 32 + 1) * 32; }
+
 struct Rectangle {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
 class VulkanTracer final : public Tracer {
   public:
-    explicit VulkanTracer(const TracerContext& c) : c_(c) {}
+    explicit VulkanTracer(const TracerContext& c) : c_(c), store_(c) {}
     const char* name() const override { return "vulkan"; }
 
     Result<void> start() {
@@ -45,7 +48,7 @@ class VulkanTracer final : public Tracer {
     }
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
-        if (changes.shaders) pipeline_ready_ = false;
+        if (changes.shaders) RESTAGE_CHECK(select(scene));
         if (!changes.meshes.empty()) RESTAGE_CHECK(build_meshes(scene, changes));
         const auto n = std::uint32_t(scene.instances().size());
         const bool grown = !tlas_ || n > tlas_.capacity();
@@ -65,8 +68,25 @@ class VulkanTracer final : public Tracer {
         return tlas_.build();
     }
 
+    bool adopt() override {
+        store_.settle();
+        if (!wanted_) return false;
+        store_.keep(wanted_);
+        if (wanted_->building()) return false;
+        if (wanted_->pipeline) {
+            arrive();
+            return std::exchange(shown_, false);
+        }
+        if (shown_) c_.log.error(wanted_->error); // it stays as it looks now, until something changes
+        if (shown_) wanted_ = nullptr;
+        return false;
+    }
+    std::optional<CompileProgress> compiling() const override { return store_.compiling(); }
+
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
+        RESTAGE_TRY(const bool ready, prepare(scene, request.keep_going));
+        if (!ready) return {};
         shared::FrameData f{};
         f.scene = scene.address();
         f.film = film.pixels();
@@ -78,11 +98,11 @@ class VulkanTracer final : public Tracer {
         f.crop_width = film.width();
         f.pixel_count = film.width() * film.height();
         f.seed = request.seed;
-        RESTAGE_CHECK(make_pipeline(scene, request, f));
         f.samples = request.samples;
         RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
         RESTAGE_CHECK(trace_rectangles(film, request));
         stats_.seconds += seconds_since(start);
+        stats_.shader_bytes = pipeline_->shader_bytes();
         auto counts = counters_.span<std::uint32_t>();
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
             if (counts[i]) stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
@@ -125,62 +145,97 @@ class VulkanTracer final : public Tracer {
         return out;
     }
 
-    // One callable a material type, at the type's index. `f`: what a dry run is given.
-    Result<void> make_pipeline(const GpuScene& scene, const TraceRequest& request, const shared::FrameData& f) {
-        if (pipeline_ready_ && guides_on_ == request.guides && strategy_ == request.strategy) return {};
-        stats_.shader_bytes = 0;
-        const auto compile = [&](const gpu::ShaderSource& source) -> Result<gpu::Spirv> {
-            auto spirv = c_.compiler.compile(source);
-            if (spirv) stats_.shader_bytes += spirv->words.size() * 4;
-            return spirv;
-        };
-        const auto file = [&](const char* name, gpu::ShaderStage stage) -> Result<gpu::Spirv> {
-            RESTAGE_TRY(auto text, read_file(c_.shader_dir / name));
-            return compile({.name = (c_.shader_dir / name).string(), .text = std::move(text), .stage = stage});
-        };
-        RESTAGE_TRY(const auto raygen, file("trace.rgen", gpu::ShaderStage::raygen));
-        RESTAGE_TRY(const auto miss, file("trace.rmiss", gpu::ShaderStage::miss));
-        RESTAGE_TRY(const auto closest_hit, file("trace.rchit", gpu::ShaderStage::closest_hit));
-        RESTAGE_TRY(const auto any_hit, file("trace.rahit", gpu::ShaderStage::any_hit));
-
-        const auto& types = scene.types();
-        std::vector<gpu::Spirv> steps(types.size());
-        std::vector<const gpu::Spirv*> callables(types.size(), nullptr);
-        std::vector<std::vector<gpu::SpecConstant>> callable_constants(types.size());
-        bool mixes = false;
-        for (std::size_t i = 0; i < types.size(); ++i) {
-            mixes |= types[i].mix();
-            if (!types[i].plugin.table || !types[i].plugin.table->glsl_file) continue;
-            RESTAGE_TRY(steps[i],
-                        compile(compose_material(types[i], "trace_material.glsl", gpu::ShaderStage::callable)));
-            callables[i] = &steps[i];
-            callable_constants[i] = spec_constants(scene.features(), request.guides, request.strategy, &types[i]);
+    // One callable a material type, at the type's index. `plain`: a stand-in for all of them.
+    Result<gpu::RayTracingRequest> request(const GpuScene& scene, bool plain) const {
+        gpu::RayTracingRequest r{.misses = {1},
+                                 .hit_groups = {{2, gpu::RayTracingRequest::none}, {2, 3}},
+                                 .push_constant_bytes = sizeof(shared::TracePush),
+                                 .name = "path tracer"};
+        const std::pair<const char*, gpu::ShaderStage> files[] = {{"trace.rgen", gpu::ShaderStage::raygen},
+                                                                  {"trace.rmiss", gpu::ShaderStage::miss},
+                                                                  {"trace.rchit", gpu::ShaderStage::closest_hit},
+                                                                  {"trace.rahit", gpu::ShaderStage::any_hit}};
+        for (const auto& [name, stage] : files) {
+            const auto path = c_.shader_dir / name;
+            RESTAGE_TRY(auto text, read_file(path));
+            r.shaders.push_back({.name = path.string(), .text = std::move(text), .stage = stage});
         }
-        // Types without GLSL (mixes are resolved before, interfaces are not hit) keep their index.
-        const std::size_t placeholder = scene.materials()[0].type;
-        for (std::size_t i = 0; i < types.size(); ++i)
-            if (!callables[i]) {
-                callables[i] = callables[placeholder];
-                callable_constants[i] = callable_constants[placeholder];
+        const auto& types = scene.types();
+        const std::size_t placeholder = scene.materials()[0].type; // the first type of all
+        const auto shader = [&](gpu::ShaderSource source) {
+            r.shaders.push_back(std::move(source));
+            return r.shaders.size() - 1;
+        };
+        std::size_t stand_in = 0; // the index of its shader; 0: there is none yet
+        const auto add_stand_in = [&] {
+            if (!stand_in)
+                stand_in =
+                    shader(compose_stand_in(types[placeholder], "trace_material.glsl", gpu::ShaderStage::callable));
+            r.callables.push_back(stand_in);
+            r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy));
+        };
+        bool mixes = c_.stand_ins;
+        for (const MaterialType& type : types) {
+            mixes |= type.mix();
+            if (!plain && type.used && type.plugin.table && type.plugin.table->glsl_file) {
+                r.callables.push_back(
+                    shader(compose_material(type, "trace_material.glsl", gpu::ShaderStage::callable)));
+                r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));
+            } else if (plain || c_.stand_ins) {
+                add_stand_in();
+            } else { // never called (mixes are resolved before, interfaces are not hit), but keeps its index
+                r.callables.push_back(r.callables.at(placeholder));
+                r.callable_constants.push_back(r.callable_constants.at(placeholder));
             }
-        auto constants = spec_constants(scene.features(), request.guides, request.strategy);
-        constants.push_back({9, mixes});
-        const gpu::Spirv* const misses[] = {&miss};
-        const gpu::HitGroup groups[] = {{&closest_hit, nullptr}, {&closest_hit, &any_hit}};
-        RESTAGE_TRY(pipeline_, gpu::RayTracingPipeline::create(c_.device,
-                                                               {.raygen = &raygen,
-                                                                .misses = misses,
-                                                                .hit_groups = groups,
-                                                                .callables = callables,
-                                                                .callable_constants = callable_constants},
-                                                               sizeof(shared::TracePush), constants, "path tracer"));
-        // The driver compiles at the first launch (lavapipe); out of the way of the time measured below.
-        RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1)))); // no samples: raygen returns
-        RESTAGE_CHECK(submit({0, 0, 1, 1}, 0, 1));
-        pipeline_ready_ = true;
-        guides_on_ = request.guides;
-        strategy_ = request.strategy;
+        }
+        while (c_.stand_ins && r.callables.size() < callable_slots(types.size()))
+            add_stand_in();
+        r.constants = spec_constants(scene.features(), true, c_.strategy);
+        r.constants.push_back({9, mixes});
+        return r;
+    }
+
+    Result<void> select(const GpuScene& scene) {
+        RESTAGE_TRY(auto made, request(scene, false));
+        wanted_ = store_.want("path tracer", std::move(made));
+        wanted_types_.clear();
+        for (const auto& type : scene.types())
+            wanted_types_.push_back(type.type);
+        shown_ = false;
+        if (wanted_->pipeline) arrive();
         return {};
+    }
+    void arrive() {
+        pipeline_ = wanted_->pipeline;
+        pipeline_types_ = wanted_types_;
+        wanted_ = nullptr;
+    }
+
+    // A pipeline for the scene; perhaps one with stand-ins. False: keep_going said to stop.
+    Result<bool> prepare(const GpuScene& scene, const std::function<bool()>& keep_going) {
+        if (!wanted_) return true;
+        if (wanted_->cancelled()) RESTAGE_CHECK(select(scene)); // it was not wanted long enough
+        if (!wanted_) return true;
+        if (!c_.stand_ins) {
+            RESTAGE_TRY(const bool built, store_.wait(wanted_, keep_going));
+            if (built) arrive();
+            return built;
+        }
+        store_.keep(wanted_);
+        const std::size_t n = std::min(pipeline_types_.size(), wanted_types_.size());
+        const bool fits =
+            pipeline_ && wanted_types_.size() <= callable_slots(pipeline_types_.size()) &&
+            std::equal(pipeline_types_.begin(), pipeline_types_.begin() + std::ptrdiff_t(n), wanted_types_.begin());
+        if (!fits) { // the first pipeline, or one of another scene
+            RESTAGE_TRY(auto made, request(scene, true));
+            const auto plain = store_.want("stand-in", std::move(made));
+            RESTAGE_TRY(const bool built, store_.wait(plain, keep_going));
+            if (!built) return false;
+            pipeline_ = plain->pipeline;
+            pipeline_types_ = wanted_types_;
+        }
+        shown_ = true;
+        return true;
     }
 
     Result<void> trace_rectangles(const Film& film, const TraceRequest& request) {
@@ -224,7 +279,7 @@ class VulkanTracer final : public Tracer {
         for (std::uint32_t s = 0; s < samples; ++s) {
             if (s > 0) list_.barrier(); // the next sample adds to the same pixels
             const shared::TracePush push{frame_.address(), tlas_.address(), r.x, r.y, first_sample + s, 0};
-            list_.trace(pipeline_, gpu::push_bytes(push), r.width, r.height);
+            list_.trace(*pipeline_, gpu::push_bytes(push), r.width, r.height);
         }
         return c_.device.submit_and_wait(list_);
     }
@@ -232,10 +287,13 @@ class VulkanTracer final : public Tracer {
     TracerContext c_;
     std::map<std::uint32_t, gpu::Blas> blas_; // by Id<Mesh>::value
     gpu::Tlas tlas_; // index = InstanceData index
-    gpu::RayTracingPipeline pipeline_;
+    PipelineStore<gpu::RayTracingPipeline> store_;
+    std::shared_ptr<const gpu::RayTracingPipeline> pipeline_;
+    std::vector<std::string> pipeline_types_; // of its callables
+    PipelineStore<gpu::RayTracingPipeline>::EntryPtr wanted_; // nullptr: pipeline_ is what it should be
+    std::vector<std::string> wanted_types_;
+    bool shown_ = false; // the film saw something else than what is wanted
     gpu::Buffer counters_, frame_;
-    bool pipeline_ready_ = false, guides_on_ = false;
-    Strategy strategy_ = Strategy::mis;
     gpu::CommandList list_;
     std::uint32_t instances_ = 0; // in tlas_
     std::uint32_t paths_now_ = 1024; // a submission

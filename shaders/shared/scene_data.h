@@ -62,7 +62,7 @@ struct InstanceData { // 168 bytes
 
 struct MaterialData { // 32 bytes
     uint type;           // index of the material type in this scene
-    uint params;         // first word in SceneData.params
+    uint params;         // first word in SceneData.params; before it, three of the colour that stands in for it
     uint bump;           // texture or 0
     uint normal_map;     // texture or 0
     uint id;             // Id<Material>

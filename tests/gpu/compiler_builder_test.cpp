@@ -95,6 +95,22 @@ TEST_CASE("a builder that is gone answers every request", "[builder]") {
     device.silent();
 }
 
+TEST_CASE("a request that is told to stop before its turn is not built", "[builder]") {
+    TestDevice device;
+    const ShaderCompiler compiler({});
+    PipelineBuilder builder(*device, compiler, 1);
+    auto first = builder.build(adder(1));
+    std::stop_source stop;
+    ComputeRequest request = adder(2);
+    request.stop = stop.get_token();
+    stop.request_stop();
+    const auto result = builder.build(std::move(request)).get();
+    REQUIRE_FALSE(result.has_value());
+    CHECK_THAT(result.error().message, Catch::Matchers::ContainsSubstring("adder 2 was cancelled"));
+    CHECK(first.get().has_value());
+    device.silent();
+}
+
 TEST_CASE("ray-tracing pipelines are built too, and shaders may be shared by groups", "[builder]") {
     Log quiet([](LogLevel, std::string_view) {});
     if (!Device::create({.require_ray_tracing = true}, quiet)) SKIP("no device here traces rays");
@@ -103,7 +119,8 @@ TEST_CASE("ray-tracing pipelines are built too, and shaders may be shared by gro
     const std::string head = glsl_head + "#extension GL_EXT_ray_tracing : require\n";
     RayTracingRequest request{.misses = {1},
                               .hit_groups = {{2, 3}, {2, RayTracingRequest::none}},
-                              .callables = {4},
+                              .callables = {4, 5},
+                              .callable_constants = {{{3, 7}}, {{3, 100}}},
                               .push_constant_bytes = 16,
                               .name = "two groups"};
     request.shaders = {
@@ -118,6 +135,7 @@ void main() {
     traceRayEXT(accelerationStructureEXT(push.tlas), 0, 0xff, 0, 0, 0, vec3(0), 0.0, vec3(0, 0, 1), 1.0, 0);
     called = hit;
     executeCallableEXT(0, 0);
+    executeCallableEXT(1, 0);
     push.dst.v = called;
 })",
          .stage = ShaderStage::raygen},
@@ -129,7 +147,12 @@ void main() {
          .stage = ShaderStage::closest_hit},
         {.name = "any", .text = head + "void main() { ignoreIntersectionEXT; }\n", .stage = ShaderStage::any_hit},
         {.name = "call",
-         .text = head + "layout(location = 0) callableDataInEXT uint c;\nvoid main() { c *= 7; }\n",
+         .text = head + "layout(location = 0) callableDataInEXT uint c;\n"
+                        "layout(constant_id = 3) const uint factor = 1;\nvoid main() { c *= factor; }\n",
+         .stage = ShaderStage::callable},
+        {.name = "call another",
+         .text = head + "layout(location = 0) callableDataInEXT uint c;\n"
+                        "layout(constant_id = 3) const uint more = 1;\nvoid main() { c += more; }\n",
          .stage = ShaderStage::callable}};
     PipelineBuilder builder(*device, compiler, 1);
     const RayTracingPipeline pipeline = value(builder.build(request).get());
@@ -140,6 +163,6 @@ void main() {
     const std::array<VkDeviceAddress, 2> push{tlas.address(), out.address()};
     list.trace(pipeline, push_bytes(push), 1, 1);
     ok(device->submit_and_wait(list));
-    CHECK(out.span<std::uint32_t>()[0] == 21);
+    CHECK(out.span<std::uint32_t>()[0] == 121); // 3 * 7 + 100
     device.silent();
 }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/wave_kernels.hpp"
+
+#include "base/file.hpp"
+#include "render/material_composer.hpp"
+
+namespace restage::render {
+
+Result<void> WaveKernels::select(const GpuScene& scene) {
+    features_ = scene.features();
+    types_ = scene.types();
+    stand_in_type_ = scene.materials()[0].type;
+    if (types_.size() > escape) return fail("a scene may use at most 254 material types");
+    slots_.resize(types_.size());
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        if (slots_[i].what != types_[i].type) slots_[i] = {.what = types_[i].type}; // another scene
+        slots_[i].settled = slots_[i].shown = false;
+        slots_[i].wanted = nullptr;
+    }
+    for (Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_}) {
+        slot->settled = false;
+        slot->wanted = nullptr;
+    }
+    for (Slot* slot : {&generate_, &accumulate_})
+        RESTAGE_CHECK(ask(*slot));
+    return {};
+}
+
+Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
+    gpu::ComputeRequest r{.push_constant_bytes = sizeof(shared::WavePush), .name = slot.what};
+    const MaterialType* type = nullptr;
+    if (&slot == &stand_in_) {
+        r.shader = compose_stand_in(types_[stand_in_type_], "wave_shade.glsl", gpu::ShaderStage::compute);
+    } else if (&slot >= slots_.data() && &slot < slots_.data() + slots_.size()) {
+        type = &types_[std::size_t(&slot - slots_.data())];
+        r.shader = compose_material(*type, "wave_shade.glsl", gpu::ShaderStage::compute);
+    } else {
+        const auto path = c_.shader_dir / slot.what;
+        RESTAGE_TRY(auto text, read_file(path));
+        r.shader = {.name = path.string(), .text = std::move(text)};
+    }
+    r.constants = spec_constants(features_, true, c_.strategy, type);
+    return r;
+}
+
+Result<void> WaveKernels::ask(Slot& slot) {
+    if (slot.settled) return {};
+    if (slot.wanted && !slot.wanted->cancelled()) {
+        store_.keep(slot.wanted);
+    } else {
+        RESTAGE_TRY(auto made, request(slot));
+        slot.wanted = store_.want(slot.what, std::move(made));
+    }
+    return {};
+}
+
+void WaveKernels::arrive(Slot& slot) {
+    slot.now = slot.wanted->pipeline;
+    slot.wanted = nullptr;
+    slot.settled = true;
+    slot.shown = false;
+}
+
+Result<bool> WaveKernels::wait(Slot& slot, const std::function<bool()>& keep_going) {
+    if (slot.settled) return true;
+    RESTAGE_TRY(const bool built, store_.wait(slot.wanted, keep_going));
+    if (built) arrive(slot);
+    return built;
+}
+
+Result<bool> WaveKernels::begin(const std::function<bool()>& keep_going) {
+    for (Slot* slot : {&generate_, &accumulate_}) {
+        RESTAGE_CHECK(ask(*slot));
+        RESTAGE_TRY(const bool built, wait(*slot, keep_going));
+        if (!built) return false;
+    }
+    return true;
+}
+
+Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::function<bool()>& keep_going) {
+    const auto slot_of = [&](std::size_t t) { return t == escape ? &escape_ : &slots_[t]; };
+    bool stand_in = false;
+    for (std::size_t t = 0; t < hits.size(); ++t) {
+        if (!hits[t] || slot_of(t)->settled) continue;
+        Slot& slot = *slot_of(t);
+        RESTAGE_CHECK(ask(slot)); // all that is missing, before waiting for the first of it
+        if (!c_.stand_ins || slot.shown) continue;
+        if (slot.wanted->pipeline)
+            arrive(slot); // built before: nothing else was shown
+        else if (t != escape)
+            slot.shown = true;
+    }
+    for (std::size_t t = 0; t < hits.size(); ++t) {
+        if (!hits[t] || slot_of(t)->settled) continue;
+        if (c_.stand_ins && t != escape) {
+            stand_in |= !slot_of(t)->now;
+            continue;
+        }
+        RESTAGE_TRY(const bool built, wait(*slot_of(t), keep_going));
+        if (!built) return false;
+    }
+    if (!stand_in) return true;
+    RESTAGE_CHECK(ask(stand_in_));
+    return wait(stand_in_, keep_going);
+}
+
+const gpu::ComputePipeline& WaveKernels::shade(std::size_t type) const {
+    if (type == escape) return *escape_.now;
+    return slots_[type].now ? *slots_[type].now : *stand_in_.now;
+}
+
+bool WaveKernels::adopt() {
+    store_.settle();
+    bool different = false;
+    for (Slot& slot : slots_) {
+        if (slot.settled || !slot.wanted) continue;
+        store_.poll(slot.wanted);
+        if (slot.wanted->building()) continue;
+        if (slot.wanted->pipeline) {
+            different |= slot.shown;
+            arrive(slot);
+        } else {
+            if (slot.shown && !slot.wanted->cancelled()) { // it stays as it looks now, until something changes
+                c_.log.error(slot.wanted->error);
+                slot.settled = true;
+            }
+            slot.wanted = nullptr;
+        }
+    }
+    return different;
+}
+
+std::size_t WaveKernels::shader_bytes() const {
+    std::size_t sum = 0;
+    for (const Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_})
+        if (slot->now) sum += slot->now->shader_bytes();
+    for (const Slot& slot : slots_)
+        if (slot.now) sum += slot.now->shader_bytes();
+    return sum;
+}
+
+} // namespace restage::render

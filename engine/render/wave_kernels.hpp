@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels of the wavefront, each built on a worker when a path first needs it: a material type that no path meets
+// costs nothing. Until a kernel is built, the wave waits, or (TracerContext::stand_ins) runs the one before it, or a
+// stand-in.
+#pragma once
+
+#include "render/pipeline_store.hpp"
+
+#include <array>
+#include <span>
+
+namespace restage::render {
+
+class WaveKernels {
+  public:
+    static constexpr std::uint8_t escape = 254; // counts as a type: paths that left the scene
+
+    explicit WaveKernels(const TracerContext& c) : c_(c), store_(c) {}
+
+    // Types and features are those of `scene` from now on. Begins what every wave needs.
+    Result<void> select(const GpuScene& scene);
+    // Waits for what every wave needs. False: keep_going said to stop.
+    Result<bool> begin(const std::function<bool()>& keep_going);
+    // Makes kernels ready for hits of these types (index: type; value: hits). False: keep_going said to stop.
+    Result<bool> need(std::span<const std::uint32_t> hits, const std::function<bool()>& keep_going);
+
+    const gpu::ComputePipeline& generate() const { return *generate_.now; }
+    const gpu::ComputePipeline& accumulate() const { return *accumulate_.now; }
+    const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); `escape` too
+
+    bool adopt(); // see Tracer
+    std::optional<CompileProgress> compiling() const { return store_.compiling(); }
+    std::size_t shader_bytes() const; // SPIR-V of the kernels in use
+
+  private:
+    using Store = PipelineStore<gpu::ComputePipeline>;
+    struct Slot {
+        std::string what; // a type, or a file
+        std::shared_ptr<const gpu::ComputePipeline> now; // what runs; nullptr: a stand-in
+        Store::EntryPtr wanted; // what should; nullptr: not asked for yet, or arrived
+        bool settled = false; // `now` is what should run
+        bool shown = false; // something else was seen in the film
+    };
+    Result<gpu::ComputeRequest> request(const Slot& slot) const;
+    Result<void> ask(Slot& slot);
+    Result<bool> wait(Slot& slot, const std::function<bool()>& keep_going);
+    void arrive(Slot& slot);
+
+    TracerContext c_;
+    Store store_;
+    SceneFeatures features_;
+    std::vector<MaterialType> types_;
+    std::uint32_t stand_in_type_ = 0;
+    std::vector<Slot> slots_; // by type
+    Slot generate_{.what = "wave_generate.comp"}, escape_{.what = "wave_escape.comp"},
+        accumulate_{.what = "wave_accumulate.comp"}, stand_in_{.what = "stand-in"};
+};
+
+} // namespace restage::render
