@@ -85,17 +85,23 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
     return imported;
 }
 
+Result<glm::uvec2> parse_size(const std::string& text, const char* option) {
+    unsigned w = 0, h = 0;
+    const char* end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, w);
+    const auto y = x.ptr < end && *x.ptr == 'x' ? std::from_chars(x.ptr + 1, end, h) : x;
+    if (x.ec != std::errc() || y.ec != std::errc() || y.ptr != end || w == 0 || h == 0 || w > 65536 || h > 65536)
+        return fail(std::string(option) + " " + text +
+                    ": a size is WxH with both between 1 and 65536, for example 640x360");
+    return glm::uvec2(w, h);
+}
+
 Result<void> apply_options(const RenderOptions& o, scene::Scene& scene) {
     if (!o.size.empty()) {
-        unsigned w = 0, h = 0;
-        const char* end = o.size.data() + o.size.size();
-        const auto x = std::from_chars(o.size.data(), end, w);
-        const auto y = x.ptr < end && *x.ptr == 'x' ? std::from_chars(x.ptr + 1, end, h) : x;
-        if (x.ec != std::errc() || y.ec != std::errc() || y.ptr != end || w == 0 || h == 0 || w > 65536 || h > 65536)
-            return fail("--size " + o.size + ": a size is WxH with both between 1 and 65536, for example 640x360");
+        RESTAGE_TRY(const auto size, parse_size(o.size, "--size"));
         auto film = scene.film.value;
-        film.width = w;
-        film.height = h;
+        film.width = size.x;
+        film.height = size.y;
         scene.film = {film, ++scene.clock};
     }
     auto settings = scene.settings.value;

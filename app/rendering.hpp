@@ -36,6 +36,9 @@ render::MaterialLookup material_lookup(plugin::Registry& registry);
 // With a progress bar; notes the report's counts in the log.
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path);
 
+// "640x360" as width and height in pixels; `option` is named in the error.
+Result<glm::uvec2> parse_size(const std::string& text, const char* option);
+
 // Puts size, depth and roulette of the options into the scene.
 Result<void> apply_options(const RenderOptions& options, scene::Scene& scene);
 

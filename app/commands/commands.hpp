@@ -11,6 +11,7 @@ class App;
 
 namespace restage::app {
 
+void add_edit(CLI::App& program, Context& context);
 void add_demo(CLI::App& program, Context& context);
 void add_render(CLI::App& program, Context& context);
 void add_info(CLI::App& program, Context& context);
@@ -20,7 +21,7 @@ void add_plugins(CLI::App& program, Context& context);
 
 // In the order `restage --help` shows them.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
-    add_demo, add_render, add_info, add_convert, add_compare, add_plugins,
+    add_edit, add_demo, add_render, add_info, add_convert, add_compare, add_plugins,
 };
 
 } // namespace restage::app

@@ -9,8 +9,7 @@ using namespace scene;
 
 Result<> Session::open(const std::string& path, const io::ImportOptions& options) {
     RESTAGE_TRY(io::ImportedScene imported, io::import_scene(path, registry_, options));
-    adopt(std::move(imported.scene), std::move(imported.report));
-    path_ = path;
+    adopt(std::move(imported.scene), std::move(imported.report), path);
     return {};
 }
 
@@ -26,7 +25,7 @@ void touch(Table<T>& slots, Version version) {
 
 } // namespace
 
-void Session::adopt(Scene scene, io::Report report) {
+void Session::adopt(Scene scene, io::Report report, std::string path) {
     // Whoever compares versions must not take a slot of the new scene for one of the old: all of them are changed now.
     const Version now = std::max(scene.clock, scene_.clock) + 1;
     scene_ = std::move(scene);
@@ -43,7 +42,7 @@ void Session::adopt(Scene scene, io::Report report) {
     scene_.environment.version = scene_.active_camera.version = scene_.film.version = scene_.settings.version = now;
     history_ = {};
     report_ = std::move(report);
-    path_.clear();
+    path_ = std::move(path);
 }
 
 bool Session::edit(Edit edit, std::string_view gesture) { return history_.push(scene_, std::move(edit), gesture); }

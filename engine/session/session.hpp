@@ -25,7 +25,7 @@ class Session {
 
     // Replaces what is open; when it fails, what is open stays.
     Result<> open(const std::string& path, const io::ImportOptions& = {});
-    void adopt(scene::Scene, io::Report = {}); // a scene made in code
+    void adopt(scene::Scene, io::Report = {}, std::string path = {}); // a scene made in code, or read elsewhere
 
     const scene::Scene& scene() const { return scene_; }
     scene::Version version() const { return scene_.clock; } // grows with every change

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage edit [SCENE]: the desktop editor. It is also what `restage SCENE` and `restage` alone do where there is a display.
+#include "commands.hpp"
+#include "editor/run_editor.hpp"
+#include "rendering.hpp"
+
+#include <memory>
+
+namespace restage::app {
+
+void add_edit(CLI::App& program, Context& context) {
+    auto o = std::make_shared<editor::RunOptions>();
+    auto size = std::make_shared<std::string>();
+    auto* command = program.add_subcommand("edit", "Open the desktop editor");
+    command->add_option("SCENE", o->scene, "Scene file")->check(CLI::ExistingFile);
+    command->add_option("--scale", o->scale, "Size of text and widgets (default: the monitor's)")->check(CLI::Range(0.5, 4.0));
+    command->add_option("--window", *size, "Size of the window WxH");
+    command->add_option("--config", o->config_dir, "Folder for layout, preferences and recovery files");
+    command->add_option("--probe", o->probe, "For tests: write the editor's state as JSON to this file when it changes");
+    command->add_option("--tracer", o->renderer.tracer, "embree or vulkan (default: by device)")
+        ->check(CLI::IsMember({"embree", "vulkan"}));
+    command->add_option("--device", o->renderer.device, "Vulkan device: its number or part of its name");
+    command->add_option("--threads", o->renderer.threads, "Threads of the embree tracer (0 = all)");
+    command->add_flag("--validation", o->renderer.validation, "Turn Vulkan's validation layers on");
+    command->callback([&context, o, size] {
+        context.choose([o, size]() -> Result<int> {
+            if (!size->empty()) {
+                RESTAGE_TRY(const auto parsed, parse_size(*size, "--window"));
+                o->size = parsed;
+            }
+            return editor::run_editor(*o);
+        });
+    });
+}
+
+} // namespace restage::app

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "actions.hpp"
+
+#include "editor.hpp"
+#include "session/navigation.hpp"
+#include "session/raycast.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+#include <imgui_internal.h>
+
+namespace restage::editor {
+
+namespace {
+
+bool has_selection(const Editor& e) { return !e.selection.empty(); }
+bool has_objects(const Editor& e) { return !e.selection.instances().empty(); }
+bool has_scene(const Editor& e) { return e.scene().instances.live() > 0; }
+
+void remove_selected(Editor& e) {
+    const auto ids = e.selection.instances();
+    const auto light = e.selection.light();
+    e.edit([ids, light](const scene::Scene& s) {
+        return light ? scene::remove(s, light) : scene::remove_instances(s, ids);
+    });
+}
+
+void duplicate_selected(Editor& e) {
+    // A little to the side, so that the copy is seen: a tenth of its size along the world axis that is most across the view.
+    const scene::Bounds bounds = e.selection.bounds(e.scene());
+    const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(right[i]) > std::abs(right[axis])) axis = i;
+    glm::dvec3 step(0);
+    step[axis] = (right[axis] < 0 ? -1 : 1) * (bounds.empty() ? 0 : std::max(bounds.size()[axis] * 1.05, bounds.radius() * 0.1));
+    auto made = e.session_for_changes().duplicate(e.selection.instances(), glm::translate(glm::dmat4(1), step));
+    if (made) e.selection.set(*made);
+    else e.notices.add(LogLevel::error, made.error().message);
+}
+
+void frame_bounds(Editor& e, const scene::Bounds& bounds) {
+    if (bounds.empty()) return;
+    scene::Camera camera = e.camera();
+    session::frame(camera, bounds, e.film_aspect());
+    e.edit([camera](const scene::Scene& s) {
+        return scene::set_camera(s, s.active_camera.value, camera, "Frame");
+    });
+}
+
+void drop_to_floor(Editor& e) {
+    // Down from the lowest point of what is selected, all of it as one.
+    const auto ids = e.selection.instances();
+    const scene::Bounds bounds = e.selection.bounds(e.scene());
+    if (bounds.empty()) return;
+    const glm::dvec3 up = e.up();
+    const double lowest = std::min(glm::dot(bounds.lower, up), glm::dot(bounds.upper, up));
+    const glm::dvec3 c = bounds.center();
+    const double height = std::abs(glm::dot(bounds.size(), up));
+    const glm::dvec3 from = c + up * (lowest - glm::dot(c, up) + 1e-3 * height);
+    const auto hits = session::raycast_all(e.scene(), from, -up, [&](InstanceId id) { return e.selection.contains(id); });
+    if (hits.empty()) {
+        e.notices.add(LogLevel::info, "There is nothing below to stand on");
+        return;
+    }
+    const glm::dmat4 move = glm::translate(glm::dmat4(1), -up * (hits[0].t - 1e-3 * height));
+    e.edit([ids, move](const scene::Scene& s) {
+        auto edit = scene::move_instances(s, ids, move);
+        if (edit) edit->label = "Drop to floor";
+        return edit;
+    });
+}
+
+void set_hidden(Editor& e, bool hidden) {
+    const auto ids = e.selection.instances();
+    e.edit([ids, hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
+}
+
+void isolate(Editor& e) {
+    std::vector<InstanceId> others;
+    e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
+        if (!e.selection.contains(id) && !instance.hidden && !instance.emission) others.push_back(id);
+    });
+    e.edit([others](const scene::Scene& s) {
+        auto edit = scene::set_hidden(s, others, true);
+        if (edit) edit->label = "Isolate";
+        return edit;
+    });
+}
+
+void show_all(Editor& e) {
+    std::vector<InstanceId> hidden;
+    e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
+        if (instance.hidden) hidden.push_back(id);
+    });
+    e.edit([hidden](const scene::Scene& s) {
+        auto edit = scene::set_hidden(s, hidden, false);
+        if (edit) edit->label = "Show all";
+        return edit;
+    });
+}
+
+void select_all(Editor& e) {
+    std::vector<InstanceId> all;
+    e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
+        if (!instance.hidden && !e.locked.contains(id.value)) all.push_back(id);
+    });
+    e.selection.set(all);
+}
+
+template <GizmoMode mode>
+void set_gizmo(Editor& e) {
+    e.view.gizmo = mode;
+}
+template <GizmoMode mode>
+bool is_gizmo(const Editor& e) {
+    return e.view.gizmo == mode;
+}
+
+// The order is the menus'. Keys as in Unity and Maya; the second ones as in Blender.
+constexpr auto actions = std::to_array<Action>({
+    {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Take the last change back",
+     [](const Editor& e) { return e.session().history().position() > 0; }, [](Editor& e) { e.undo(); }},
+    {"edit.redo", "Redo", ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z,
+     "Do again what was taken back",
+     [](const Editor& e) { return e.session().history().position() < e.session().history().size(); },
+     [](Editor& e) { e.redo(); }},
+    {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
+     "Copy the selected objects; copies share geometry and material", has_objects, duplicate_selected},
+    {"edit.delete", "Delete", ImGuiKey_Delete, ImGuiKey_X, "Remove what is selected", has_selection, remove_selected},
+    {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Let the selected objects fall onto what is below", has_objects,
+     drop_to_floor},
+    {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
+     has_scene, select_all},
+    {"select.none", "None", ImGuiKey_Escape, 0, "Select nothing; leave the entered group",
+     [](const Editor& e) { return has_selection(e) || e.selection.entered(); },
+     [](Editor& e) {
+         e.selection.clear();
+         e.selection.enter({});
+     }},
+    {"select.hide", "Hide", ImGuiKey_H, 0, "Hide the selected objects", has_objects,
+     [](Editor& e) { set_hidden(e, true); }},
+    {"select.isolate", "Isolate", ImGuiMod_Shift | ImGuiKey_H, 0, "Hide all others (lamps stay)", has_objects, isolate},
+    {"select.show_all", "Show all", ImGuiMod_Alt | ImGuiKey_H, 0, "Show what was hidden", has_scene, show_all},
+    {"select.lock", "Lock", ImGuiMod_Ctrl | ImGuiKey_L, 0, "Selected objects cannot be picked by clicks any more",
+     has_objects,
+     [](Editor& e) {
+         for (const InstanceId id : e.selection.instances())
+             e.locked.insert(id.value);
+         e.selection.clear();
+     }},
+    {"select.unlock_all", "Unlock all", 0, 0, "Every object can be picked again",
+     [](const Editor& e) { return !e.locked.empty(); }, [](Editor& e) { e.locked.clear(); }},
+    {"view.frame_selected", "Frame selected", ImGuiKey_F, ImGuiKey_KeypadDecimal,
+     "Move the camera so that the selection fills the picture", has_selection,
+     [](Editor& e) { frame_bounds(e, e.selection.bounds(e.scene())); }},
+    {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is seen", has_scene,
+     [](Editor& e) { frame_bounds(e, scene::world_bounds(e.scene())); }},
+    {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
+     is_gizmo<GizmoMode::select>},
+    {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G, "Handles that move; Ctrl snaps, Alt copies", nullptr,
+     set_gizmo<GizmoMode::move>, is_gizmo<GizmoMode::move>},
+    {"view.gizmo_rotate", "Rotate tool", ImGuiKey_E, ImGuiKey_R, "Handles that turn; Ctrl snaps", nullptr,
+     set_gizmo<GizmoMode::rotate>, is_gizmo<GizmoMode::rotate>},
+    {"view.gizmo_scale", "Scale tool", ImGuiKey_R, ImGuiKey_S, "Handles that stretch; Ctrl snaps", nullptr,
+     set_gizmo<GizmoMode::scale>, is_gizmo<GizmoMode::scale>},
+    {"view.local", "Local axes", ImGuiKey_L, 0, "Handles along the object's own axes instead of the world's", nullptr,
+     [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const Editor& e) { return e.view.local_axes; }},
+    {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
+     [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const Editor& e) { return e.view.denoise; }},
+    {"view.overlays", "Overlays", ImGuiMod_Shift | ImGuiKey_O, 0, "Outlines, handles and notes over the picture", nullptr,
+     [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
+     [](const Editor& e) { return e.view.show_overlays; }},
+    {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
+     [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const Editor& e) { return e.view.show_panels; }},
+});
+
+} // namespace
+
+std::span<const Action> all_actions() { return actions; }
+
+const Action* find_action(std::string_view id) {
+    const auto found = std::find_if(actions.begin(), actions.end(), [&](const Action& a) { return a.id == id; });
+    return found == actions.end() ? nullptr : &*found;
+}
+
+ImGuiKeyChord key_of(const Action& action, KeyPreset preset) {
+    return preset == KeyPreset::blender && action.blender_key ? action.blender_key : action.key;
+}
+
+std::string_view key_text(ImGuiKeyChord key) { return key ? ImGui::GetKeyChordName(key) : ""; }
+
+void run_shortcuts(Editor& editor) {
+    const ImGuiIO& io = ImGui::GetIO();
+    // While text is typed, a dialog is open, or the camera flies on WASD, keys mean something else.
+    if (io.WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ||
+        ImGui::IsMouseDown(ImGuiMouseButton_Right))
+        return;
+    for (const Action& action : actions) {
+        const ImGuiKeyChord key = key_of(action, editor.view.keys);
+        if (key && ImGui::IsKeyChordPressed(key)) editor.run(action.id);
+    }
+}
+
+void menu_item(Editor& editor, std::string_view id) {
+    const Action* action = find_action(id);
+    if (!action) return;
+    const bool enabled = !action->enabled || action->enabled(editor);
+    const std::string key(key_text(key_of(*action, editor.view.keys)));
+    if (ImGui::MenuItem(action->label, key.c_str(), action->checked && action->checked(editor), enabled))
+        editor.run(id);
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", action->tooltip);
+    editor.mark(action->id);
+}
+
+bool action_button(Editor& editor, std::string_view id, const char* label) {
+    const Action* action = find_action(id);
+    if (!action) return false;
+    const bool on = action->checked && action->checked(editor);
+    const bool enabled = !action->enabled || action->enabled(editor);
+    ImGui::BeginDisabled(!enabled);
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    const bool pressed = ImGui::Button(label ? label : action->label);
+    if (on) ImGui::PopStyleColor();
+    ImGui::EndDisabled();
+    editor.mark(action->id);
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled)) {
+        const std::string key(key_text(key_of(*action, editor.view.keys)));
+        ImGui::SetTooltip("%s%s%s%s\n%s", action->label, key.empty() ? "" : " (", key.c_str(), key.empty() ? "" : ")",
+                          action->tooltip);
+    }
+    if (pressed) editor.run(id);
+    return pressed;
+}
+
+} // namespace restage::editor

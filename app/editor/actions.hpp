@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Actions: everything a menu, a key or a button can do, by name. One table gives menus, shortcuts, the help page and the
+// command palette; a button asks for an action by its id.
+#pragma once
+
+#include <imgui.h>
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace restage::editor {
+
+class Editor;
+
+enum class KeyPreset { standard, blender };
+
+struct Action {
+    const char* id;       // "edit.undo"; the part before the dot is its menu
+    const char* label;    // "Undo"
+    ImGuiKeyChord key;    // 0 = none
+    ImGuiKeyChord blender_key; // of the Blender-like preset; 0 = the same
+    const char* tooltip;  // one sentence
+    bool (*enabled)(const Editor&); // null = always
+    void (*run)(Editor&);
+    bool (*checked)(const Editor&) = nullptr; // null = it is no switch
+};
+
+std::span<const Action> all_actions();
+const Action* find_action(std::string_view id);
+ImGuiKeyChord key_of(const Action& action, KeyPreset preset);
+std::string_view key_text(ImGuiKeyChord key); // "Ctrl+Z"; "" = none. Valid until the next call
+
+// Runs what keys ask for; call once a frame, with nothing else wanting the keyboard.
+void run_shortcuts(Editor& editor);
+// A menu entry, or a button, of that action, with its shortcut and tooltip.
+void menu_item(Editor& editor, std::string_view id);
+bool action_button(Editor& editor, std::string_view id, const char* label = nullptr);
+
+} // namespace restage::editor

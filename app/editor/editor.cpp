@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "editor.hpp"
+
+#include "panels/panels.hpp"
+#include "session/navigation.hpp"
+#include "theme.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace restage::editor {
+
+Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
+    : options_(std::move(options)), log_(log), session_(registry),
+      live_(std::make_unique<session::LiveView>(registry, log, options_.renderer, options_.wake)),
+      opening_(registry, options_.wake) {
+    for (const Panel& panel : all_panels())
+        panels_open_[panel.title] = panel.open;
+}
+
+Editor::~Editor() = default;
+
+const scene::Camera& Editor::camera() const {
+    static const scene::Camera none;
+    const scene::Camera* found = scene().cameras.find(camera_id());
+    return found ? *found : none;
+}
+
+double Editor::film_aspect() const {
+    const scene::Film& film = scene().film.value;
+    return double(std::max(film.width, 1u)) / std::max(film.height, 1u);
+}
+
+std::string Editor::title() const {
+    const std::string name =
+        session_.path().empty() ? "untitled" : std::filesystem::path(session_.path()).filename().string();
+    return fmt::format("{}{} - Restage", session_.modified() ? "* " : "", name);
+}
+
+bool Editor::animating() const {
+    return notices.fading() || opening_.running() || !pending_.empty() || !modals_.empty();
+}
+
+std::shared_ptr<const session::Frame> Editor::shown_frame() const {
+    return live_->best(view.denoise && view.display.layer == session::Layer::color);
+}
+
+// --- asking ------------------------------------------------------------------------------------------------------------
+
+void Editor::edit(Builder builder, std::string gesture) {
+    pending_.push_back({.builder = std::move(builder), .gesture = std::move(gesture)});
+}
+
+void Editor::open(const std::filesystem::path& path) {
+    opening_.start(std::filesystem::absolute(path), Opening::Purpose::replace);
+}
+
+void Editor::insert(const std::filesystem::path& path) {
+    opening_.start(std::filesystem::absolute(path), Opening::Purpose::insert);
+}
+
+void Editor::undo() {
+    const std::string label(session_.history().undo_label());
+    if (session_.undo()) notices.add(LogLevel::info, "Undone: " + label);
+}
+
+void Editor::redo() {
+    const std::string label(session_.history().redo_label());
+    if (session_.redo()) notices.add(LogLevel::info, "Redone: " + label);
+}
+
+void Editor::request_quit() {
+    if (!session_.modified()) {
+        quit_ = true;
+        return;
+    }
+    show_modal("Unsaved changes", [](Editor& e) {
+        ImGui::TextUnformatted("The scene has changes that are not saved.");
+        ImGui::Spacing();
+        if (ImGui::Button("Discard and quit")) {
+            e.quit_ = true;
+            return false;
+        }
+        e.mark("quit.discard");
+        ImGui::SameLine();
+        return !ImGui::Button("Cancel") && !ImGui::IsKeyPressed(ImGuiKey_Escape);
+    });
+}
+
+// --- a frame -----------------------------------------------------------------------------------------------------------
+
+void Editor::frame() {
+    marks_.clear();
+    follow_opening();
+    run_shortcuts(*this);
+    draw_panels();
+    draw_modals();
+    // A gesture ends when nothing is held any more.
+    if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+        !ImGui::IsMouseDown(ImGuiMouseButton_Right) && !ImGui::IsMouseDown(ImGuiMouseButton_Middle))
+        end_gesture_ = true;
+    apply_pending();
+    refresh_picture();
+}
+
+void Editor::follow_opening() {
+    auto result = opening_.take();
+    if (!result) return;
+    if (!*result) {
+        if (!opening_.was_cancelled()) notices.add(LogLevel::error, result->error().message);
+        return;
+    }
+    io::ImportedScene& imported = **result;
+    session_.adopt(std::move(imported.scene), std::move(imported.report), opening_.path().string());
+    ++document_;
+    original_ = scene();
+    selection = {};
+    locked.clear();
+    up_ = session::guess_up(camera());
+    const auto approximated = session_.report().count(RESTAGE_APPROXIMATED),
+               dropped = session_.report().count(RESTAGE_DROPPED);
+    notices.add(LogLevel::info, fmt::format("{}: {} objects", opening_.path().filename().string(),
+                                            scene().instances.live()));
+    if (approximated + dropped > 0)
+        notices.add(LogLevel::warning, fmt::format("{} things approximated, {} dropped: see Import report",
+                                                   approximated, dropped));
+}
+
+void Editor::apply_pending() {
+    for (const std::string& id : std::exchange(actions_to_run_, {}))
+        if (const Action* action = find_action(id); action && (!action->enabled || action->enabled(*this)))
+            action->run(*this);
+    for (Pending& pending : std::exchange(pending_, {})) {
+        if (pending.work) {
+            pending.work();
+            continue;
+        }
+        if (auto changed = session_.edit(pending.builder(scene()), pending.gesture); !changed)
+            notices.add(LogLevel::error, changed.error().message);
+    }
+    if (std::exchange(end_gesture_, false)) session_.end_gesture();
+    selection.prune(scene());
+}
+
+void Editor::refresh_picture() {
+    const scene::Settings& settings = scene().settings.value;
+    const Shown wanted{.version = session_.version(),
+                       .size = picture_size_,
+                       .document = document_,
+                       .original = show_original && original_,
+                       .samples = view.samples ? view.samples : settings.samples,
+                       .seconds = view.seconds,
+                       .error = view.error};
+    if (wanted == asked_ || scene().instances.live() == 0) return;
+    asked_ = wanted;
+    scene::Scene shown = scene();
+    if (wanted.original) {
+        // The camera stays where it is now, so that the two can be compared.
+        shown = *original_;
+        shown.cameras = scene().cameras;
+        shown.active_camera = scene().active_camera;
+        shown.film = scene().film;
+    }
+    live_->show(std::move(shown), {.size = wanted.size,
+                                   .document = document_ * 2 + (wanted.original ? 1 : 0),
+                                   .samples = wanted.samples,
+                                   .seconds = wanted.seconds,
+                                   .error = wanted.error});
+}
+
+// --- panels ------------------------------------------------------------------------------------------------------------
+
+bool Editor::panel_open(std::string_view title) const {
+    const auto found = panels_open_.find(title);
+    return found != panels_open_.end() && found->second;
+}
+
+void Editor::open_panel(std::string_view title, bool open) { panels_open_[std::string(title)] = open; }
+
+void Editor::draw_menu() {
+    if (!ImGui::BeginMainMenuBar()) return;
+    std::string_view last;
+    bool shown = false;
+    for (const Action& action : all_actions()) {
+        const std::string_view id = action.id;
+        const std::string_view menu = id.substr(0, id.find('.'));
+        if (menu != last) {
+            if (shown) ImGui::EndMenu();
+            std::string label(menu);
+            label[0] = char(std::toupper(static_cast<unsigned char>(label[0])));
+            shown = ImGui::BeginMenu(label.c_str());
+            mark("menu." + std::string(menu));
+            last = menu;
+        }
+        if (shown) menu_item(*this, id);
+    }
+    if (shown) ImGui::EndMenu();
+    if (ImGui::BeginMenu("Panels")) {
+        for (const Panel& panel : all_panels()) {
+            ImGui::MenuItem(panel.title, nullptr, &panels_open_[panel.title]);
+            ImGui::SetItemTooltip("%s", panel.tooltip);
+        }
+        ImGui::EndMenu();
+    }
+    // What goes on, at the right end.
+    const session::ViewStatus status = live_->status();
+    const char* state = status.state == session::ViewState::starting    ? "starting the renderer"
+                        : status.state == session::ViewState::preparing ? "preparing"
+                        : status.state == session::ViewState::failed    ? "cannot render"
+                                                                        : "";
+    if (*state) {
+        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(state).x - 24 * ImGui::GetStyle().FontScaleMain);
+        ImGui::TextColored(status.state == session::ViewState::failed ? colors::error : colors::dim, "%s", state);
+        if (!status.text.empty()) ImGui::SetItemTooltip("%s", status.text.c_str());
+    }
+    ImGui::EndMainMenuBar();
+}
+
+namespace {
+
+// Where panels are when no layout file says otherwise.
+void first_layout(ImGuiID space, ImVec2 size) {
+    ImGui::DockBuilderRemoveNode(space);
+    ImGui::DockBuilderAddNode(space, ImGuiDockNodeFlags_DockSpace);
+    ImGui::DockBuilderSetNodeSize(space, size);
+    ImGuiID center = space;
+    const ImGuiID left = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, 0.19f, nullptr, &center);
+    const ImGuiID right = ImGui::DockBuilderSplitNode(center, ImGuiDir_Right, 0.30f, nullptr, &center);
+    const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, 0.24f, nullptr, &center);
+    for (const Panel& panel : all_panels())
+        ImGui::DockBuilderDockWindow(panel.title, panel.dock == Dock::left     ? left
+                                                  : panel.dock == Dock::right  ? right
+                                                  : panel.dock == Dock::bottom ? bottom
+                                                                               : center);
+    if (ImGuiDockNode* node = ImGui::DockBuilderGetNode(center)) node->LocalFlags |= ImGuiDockNodeFlags_AutoHideTabBar;
+    ImGui::DockBuilderFinish(space);
+}
+
+} // namespace
+
+void Editor::draw_panels() {
+    draw_menu();
+    const ImGuiViewport* main = ImGui::GetMainViewport();
+    const ImGuiID space = ImGui::GetID("dockspace");
+    if (!view.show_panels) { // the picture alone
+        ImGui::SetNextWindowPos(main->WorkPos);
+        ImGui::SetNextWindowSize(main->WorkSize);
+        ImGui::DockSpaceOverViewport(space, main, ImGuiDockNodeFlags_KeepAliveOnly);
+        ImGui::Begin("##picture alone", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
+                                                     ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoMove |
+                                                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+        draw_viewport(*this);
+        ImGui::End();
+        return;
+    }
+    if (!ImGui::DockBuilderGetNode(space)) first_layout(space, main->WorkSize);
+    ImGui::DockSpaceOverViewport(space, main, ImGuiDockNodeFlags_PassthruCentralNode);
+    for (const Panel& panel : all_panels()) {
+        bool& open = panels_open_[panel.title];
+        if (!open) continue;
+        const bool picture = panel.draw == draw_viewport;
+        if (picture) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+        const bool visible = ImGui::Begin(panel.title, picture ? nullptr : &open,
+                                          picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
+        if (picture) ImGui::PopStyleVar();
+        if (visible) panel.draw(*this);
+        ImGui::End();
+    }
+}
+
+void Editor::show_modal(std::string title, std::function<bool(Editor&)> body) {
+    modals_.push_back({std::move(title), std::move(body)});
+}
+
+void Editor::draw_modals() {
+    if (modals_.empty()) return;
+    Modal& modal = modals_.front(); // one at a time
+    if (!modal.opened) ImGui::OpenPopup(modal.title.c_str());
+    modal.opened = true;
+    const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
+    ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, {0.5f, 0.5f});
+    bool keep = true;
+    if (ImGui::BeginPopupModal(modal.title.c_str(), nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        keep = modal.body(*this);
+        if (!keep) ImGui::CloseCurrentPopup();
+        ImGui::EndPopup();
+    } else {
+        keep = false;
+    }
+    if (!keep) modals_.pop_front();
+}
+
+void Editor::mark(const std::string& name) {
+    const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+    marks_[name] = {a.x, a.y, b.x, b.y};
+}
+
+} // namespace restage::editor

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Editor: the desktop program without its window: a Session, the live picture of it, and what the user sees of both.
+// Panels are functions of the editor's state that *ask* for changes (edit(), run()); what they asked for is done at one
+// place, after all of them are drawn. Everything here is [main] and inside a Dear ImGui frame unless it says otherwise.
+#pragma once
+
+#include "actions.hpp"
+#include "gizmo.hpp"
+#include "notices.hpp"
+#include "opening.hpp"
+#include "selection.hpp"
+#include "viewport.hpp"
+#include "session/display.hpp"
+#include "session/live_view.hpp"
+#include "session/session.hpp"
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace restage::editor {
+
+struct EditorOptions {
+    render::RendererOptions renderer;
+    std::function<void()> wake; // [any] asks for another frame
+    std::filesystem::path config_dir; // layout, preferences; "" = nothing is remembered
+};
+
+enum class GizmoMode { select, move, rotate, scale };
+
+// How things are shown; no part of the document, so none of it is undone or restarts the picture.
+struct ViewSettings {
+    session::DisplaySettings display;
+    bool denoise = true;
+    bool show_overlays = true;   // outlines, gizmo, names
+    bool show_panels = true;     // Tab
+    float resolution = 1;        // picture pixels a screen pixel
+    GizmoMode gizmo = GizmoMode::move;
+    bool local_axes = false;
+    float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // scene units, deg, factor
+    KeyPreset keys = KeyPreset::standard;
+    float fly_speed = 1; // times the scene's size a few seconds
+    std::uint32_t samples = 0; // where the live picture stops; 0 = the scene's number
+    double seconds = 0, error = 0;
+};
+
+class Editor {
+  public:
+    Editor(plugin::Registry& registry, Log& log, EditorOptions options);
+    ~Editor();
+    Editor(const Editor&) = delete;
+    Editor& operator=(const Editor&) = delete;
+
+    // Builds one frame of the UI, then does what it asked for.
+    void frame();
+    bool quit_confirmed() const { return quit_; }
+    void request_quit(); // asks about unsaved changes first
+    // What the window's title says.
+    std::string title() const;
+    // True while frames should follow each other without waiting for events (flying, a fading notice).
+    bool animating() const;
+
+    // --- the document -------------------------------------------------------------------------------------------------
+    const session::Session& session() const { return session_; }
+    const scene::Scene& scene() const { return session_.scene(); }
+    const plugin::Registry& registry() const { return session_.registry(); }
+    scene::Id<scene::Camera> camera_id() const { return scene().active_camera.value; }
+    const scene::Camera& camera() const; // a default one where the scene has none
+    double film_aspect() const;
+    const glm::dvec3& up() const { return up_; }
+
+    // Asks for an edit. The builder sees the scene as it is when its turn comes; an error becomes a notice. Edits with
+    // the same gesture, until the mouse button or the widget is let go, are one step of the history.
+    using Builder = std::function<Result<scene::Edit>(const scene::Scene&)>;
+    void edit(Builder builder, std::string gesture = {});
+    // Asks for something that is more than an edit, at the same place. Runs in order with the edits.
+    void later(std::function<void()> work) { pending_.push_back({.work = std::move(work)}); }
+    void end_gesture() { end_gesture_ = true; }
+    session::Session& session_for_changes() { return session_; } // only inside later() and actions
+
+    void open(const std::filesystem::path& path); // asks about unsaved changes first
+    void insert(const std::filesystem::path& path); // a file as new objects
+    Opening& opening() { return opening_; }
+    void undo();
+    void redo();
+
+    // --- what is shown -------------------------------------------------------------------------------------------------
+    Selection selection;
+    InstanceId hovered; // under the mouse in the viewport or the outliner
+    ViewSettings view;
+    session::LiveView& live() { return *live_; }
+    const session::LiveView& live() const { return *live_; }
+    std::shared_ptr<const session::Frame> shown_frame() const;
+    void set_picture_size(glm::uvec2 size) { picture_size_ = size; } // by the viewport
+    bool show_original = false; // the scene as it was opened, while a key is held
+    std::set<std::uint32_t> locked; // Id<Instance>::value: not picked by clicks
+    Notices notices;
+    GizmoDrag gizmo_drag;
+    Viewport viewport;
+    std::optional<scene::Id<scene::Material>> material_clipboard;
+
+    // --- panels --------------------------------------------------------------------------------------------------------
+    void run(std::string_view action) { actions_to_run_.emplace_back(action); }
+    bool panel_open(std::string_view title) const;
+    void open_panel(std::string_view title, bool open = true);
+    // A modal that shows until its function returns false.
+    void show_modal(std::string title, std::function<bool(Editor&)> body);
+
+    // Names the last item for tests that drive the program from outside: see probe().
+    void mark(const std::string& name);
+    // State and marks as JSON, for tests.
+    std::string probe() const;
+
+  private:
+    struct Pending {
+        Builder builder;
+        std::string gesture;
+        std::function<void()> work;
+    };
+    struct Modal {
+        std::string title;
+        std::function<bool(Editor&)> body;
+        bool opened = false;
+    };
+    void draw_menu();
+    void draw_panels();
+    void draw_modals();
+    void apply_pending();
+    void follow_opening();
+    void refresh_picture();
+
+    EditorOptions options_;
+    Log& log_;
+    session::Session session_;
+    std::unique_ptr<session::LiveView> live_;
+    Opening opening_;
+    std::vector<Pending> pending_;
+    std::vector<std::string> actions_to_run_;
+    bool end_gesture_ = false;
+    glm::dvec3 up_{0, 1, 0};
+    std::uint64_t document_ = 1; // of ViewOptions
+    std::optional<scene::Scene> original_; // as opened
+    std::map<std::string, bool, std::less<>> panels_open_;
+    std::deque<Modal> modals_;
+    bool quit_ = false;
+
+    glm::uvec2 picture_size_{640, 360};
+    struct Shown { // what the live picture was last asked for
+        scene::Version version = 0;
+        glm::uvec2 size{0};
+        std::uint64_t document = 0;
+        bool original = false;
+        std::uint32_t samples = 0;
+        double seconds = 0, error = 0;
+        bool operator==(const Shown&) const = default;
+    } asked_;
+    std::map<std::string, ImVec4> marks_; // min.x min.y max.x max.y of the last frame
+};
+
+} // namespace restage::editor

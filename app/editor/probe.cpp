@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Editor::probe(): what tests that drive the program with real mouse and key events need to know of it.
+#include "editor.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace restage::editor {
+
+std::string Editor::probe() const {
+    using nlohmann::json;
+    json j;
+    const auto& history = session_.history();
+    j["path"] = session_.path();
+    j["modified"] = session_.modified();
+    j["version"] = session_.version();
+    j["opening"] = opening_.running();
+    j["history"] = {{"size", history.size()}, {"position", history.position()}, {"undo", history.undo_label()}};
+    for (std::size_t i = 0; i < history.size(); ++i)
+        j["history"]["labels"].push_back(history.label(i));
+    j["counts"] = {{"instances", scene().instances.live()},
+                   {"materials", scene().materials.live()},
+                   {"textures", scene().textures.live()},
+                   {"lights", scene().lights.live()}};
+    j["selection"] = json::array();
+    for (const InstanceId id : selection.instances()) {
+        const scene::Instance* instance = scene().instances.find(id);
+        if (!instance) continue;
+        const glm::dvec3 p(instance->object_to_world[3]);
+        const scene::Material* material = scene().materials.find(instance->material);
+        j["selection"].push_back({{"id", id.value},
+                                  {"name", instance->name},
+                                  {"position", {p.x, p.y, p.z}},
+                                  {"material", material ? material->name : ""},
+                                  {"type", material ? material->type : ""}});
+    }
+    const glm::dvec3 eye(camera().camera_to_world[3]);
+    j["camera"] = {eye.x, eye.y, eye.z};
+    const session::ViewStatus status = live_->status();
+    const auto frame = live_->frame(), clean = live_->denoised();
+    j["view"] = {{"state", int(status.state)},
+                 {"text", status.text},
+                 {"samples", status.samples},
+                 {"divider", status.divider},
+                 {"asked", asked_.version},
+                 {"request", frame ? frame->request : 0},
+                 {"seconds", frame ? frame->seconds : 0.0},
+                 {"denoised_request", clean ? clean->request : 0},
+                 {"denoised_seconds", clean ? clean->seconds : 0.0},
+                 {"hovered", hovered.value}};
+    for (const auto& [name, r] : marks_)
+        j["marks"][name] = {r.x, r.y, r.z, r.w};
+    for (const auto& line : notices.lines())
+        j["log"].push_back(line.text);
+    return j.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+} // namespace restage::editor

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_editor.hpp"
+
+#include "base/file.hpp"
+#include "editor.hpp"
+#include "window.hpp"
+
+#include <cstdio>
+
+namespace restage::editor {
+
+Result<int> run_editor(const RunOptions& options) {
+    // The order matters: what comes later goes first. The editor outlives the window, see texture.hpp.
+    Notices* notices = nullptr;
+    Log log([&](LogLevel level, std::string_view line) {
+        if (level != LogLevel::debug) std::fprintf(stderr, "restage: %.*s\n", int(line.size()), line.data());
+        if (notices) notices->add(level, std::string(line));
+    });
+    plugin::Registry registry(log);
+    registry.scan(plugin::Registry::default_paths());
+
+    std::filesystem::path config = options.config_dir;
+    if (config.empty()) {
+        RESTAGE_TRY(config, user_data_dir());
+    }
+    std::error_code ignored;
+    std::filesystem::create_directories(config, ignored);
+    RESTAGE_TRY(const auto bin, executable_dir());
+
+    // Frames are asked for from threads before and after the window's life: GLFW ignores that.
+    Editor editor(registry, log, {.renderer = options.renderer, .wake = Window::wake, .config_dir = config});
+    notices = &editor.notices;
+    RESTAGE_TRY(const auto window, Window::create({.size = options.size,
+                                                   .device = options.renderer.device,
+                                                   .validation = options.renderer.validation,
+                                                   .scale = options.scale,
+                                                   .fonts = bin.parent_path() / "share/restage/fonts",
+                                                   .layout = config / "layout.ini"},
+                                                  log));
+    if (!options.scene.empty()) editor.open(options.scene);
+
+    std::string title, probe;
+    while (!editor.quit_confirmed()) {
+        window->wait(editor.animating() || editor.viewport.navigating() ? 0.016 : 0.5);
+        if (window->close_requested()) {
+            window->refuse_close();
+            editor.request_quit();
+        }
+        glm::vec2 where(0);
+        for (const auto& path : window->take_dropped(where))
+            editor.open(path);
+        if (!window->begin_frame()) continue;
+        editor.frame();
+        RESTAGE_CHECK(window->end_frame());
+        if (editor.title() != title) window->set_title(title = editor.title());
+        if (!options.probe.empty())
+            if (std::string now = editor.probe(); now != probe) {
+                RESTAGE_CHECK(write_file_atomic(options.probe, now));
+                probe = std::move(now);
+            }
+    }
+    return 0;
+}
+
+} // namespace restage::editor

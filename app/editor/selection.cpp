@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "selection.hpp"
+
+#include <algorithm>
+
+namespace restage::editor {
+
+bool Selection::contains(InstanceId id) const {
+    return std::find(instances_.begin(), instances_.end(), id) != instances_.end();
+}
+
+void Selection::set(std::span<const InstanceId> ids, Mode mode) {
+    light_ = {};
+    if (mode == Mode::replace) instances_.clear();
+    const bool all_there = std::all_of(ids.begin(), ids.end(), [&](InstanceId id) { return contains(id); });
+    for (const InstanceId id : ids) {
+        const auto found = std::find(instances_.begin(), instances_.end(), id);
+        if (found != instances_.end()) instances_.erase(found);
+        if (mode != Mode::toggle || !all_there) instances_.push_back(id);
+    }
+}
+
+void Selection::set_light(scene::Id<scene::Light> light) {
+    instances_.clear();
+    light_ = light;
+}
+
+void Selection::clear() {
+    instances_.clear();
+    light_ = {};
+}
+
+void Selection::prune(const scene::Scene& scene) {
+    std::erase_if(instances_, [&](InstanceId id) { return !scene.instances.find(id); });
+    if (!scene.lights.find(light_)) light_ = {};
+    if (!scene.groups.find(entered_)) entered_ = {};
+}
+
+bool is_within(const scene::Scene& scene, GroupId inner, GroupId outer) {
+    for (const scene::Group* group = scene.groups.find(inner); group; inner = group->parent, group = scene.groups.find(inner))
+        if (inner == outer) return true;
+    return false;
+}
+
+std::vector<InstanceId> instances_in(const scene::Scene& scene, GroupId group) {
+    std::vector<InstanceId> found;
+    scene.instances.each([&](InstanceId id, const scene::Instance& instance) {
+        if (is_within(scene, instance.group, group)) found.push_back(id);
+    });
+    return found;
+}
+
+GroupId Selection::click_group(const scene::Scene& scene, InstanceId id) const {
+    const scene::Instance* instance = scene.instances.find(id);
+    if (!instance) return {};
+    GroupId outermost;
+    for (GroupId group = instance->group; group && group != entered_;) {
+        outermost = group;
+        const scene::Group* item = scene.groups.find(group);
+        group = item ? item->parent : GroupId{};
+    }
+    // The entered group is not around it: the pick leaves that group.
+    return outermost;
+}
+
+std::vector<InstanceId> Selection::click_target(const scene::Scene& scene, InstanceId id) const {
+    const GroupId group = click_group(scene, id);
+    if (!group) return {id};
+    auto all = instances_in(scene, group);
+    // The one that was hit is the active one.
+    std::erase(all, id);
+    all.push_back(id);
+    return all;
+}
+
+scene::Bounds Selection::bounds(const scene::Scene& scene) const {
+    scene::Bounds bounds;
+    for (const InstanceId id : instances_)
+        if (scene.instances.find(id)) bounds.add(scene::world_bounds(scene, id));
+    if (const scene::Light* light = scene.lights.find(light_)) bounds.add(glm::dvec3(light->light_to_world[3]));
+    return bounds;
+}
+
+} // namespace restage::editor

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture: pixels that Dear ImGui can draw. Uploading and freeing are its backend's affair.
+#pragma once
+
+#include <imgui.h>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace restage::editor {
+
+// A picture whose size changes often (the viewport's): one texture a size is kept, so that going back and forth between
+// coarse and fine makes none. It outlives the window, whose end frees what is on the device.
+class Texture {
+  public:
+    Texture() = default;
+    ~Texture();
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+
+    // RGBA, row 0 on top. Shows from this frame on.
+    void set(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> rgba);
+    bool ready() const { return current_ != nullptr; }
+    ImTextureRef ref() const { return current_->GetTexRef(); }
+
+  private:
+    void retire_others();
+    ImTextureData* current_ = nullptr;
+    std::map<std::pair<int, int>, ImTextureData*> sizes_;
+};
+
+} // namespace restage::editor

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Theme: fonts, colours and spacing of the editor, for any scale.
+#pragma once
+
+#include <filesystem>
+#include <imgui.h>
+
+namespace restage::editor {
+
+// Call once after the context is made. A font that is missing leaves Dear ImGui's own.
+void apply_theme(float scale, const std::filesystem::path& fonts);
+
+namespace colors {
+inline constexpr ImVec4 accent{0.96f, 0.62f, 0.22f, 1}; // selection, active things
+inline constexpr ImVec4 hover{0.55f, 0.78f, 0.98f, 1};
+inline constexpr ImVec4 good{0.45f, 0.78f, 0.47f, 1};
+inline constexpr ImVec4 warning{0.95f, 0.76f, 0.30f, 1};
+inline constexpr ImVec4 error{0.95f, 0.42f, 0.38f, 1};
+inline constexpr ImVec4 dim{0.60f, 0.62f, 0.66f, 1};
+} // namespace colors
+
+} // namespace restage::editor

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewport.hpp"
+
+#include "editor.hpp"
+#include "panels/panels.hpp"
+#include "session/navigation.hpp"
+#include "session/raycast.hpp"
+#include "theme.hpp"
+
+#include <ImGuizmo.h>
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace restage::editor {
+
+void draw_viewport(Editor& editor) { editor.viewport.draw(editor); }
+
+void Viewport::draw(Editor& e) {
+    ImGuizmo::BeginFrame();
+    draw_toolbar(e);
+
+    // The picture has the film's shape, as large as fits.
+    const ImVec2 space = ImGui::GetContentRegionAvail(), origin = ImGui::GetCursorScreenPos();
+    const double aspect = e.film_aspect();
+    size = {space.x, float(space.x / aspect)};
+    if (size.y > space.y) size = {float(space.y * aspect), space.y};
+    size = {std::max(std::floor(size.x), 16.f), std::max(std::floor(size.y), 16.f)};
+    corner = {std::floor(origin.x + (space.x - size.x) / 2), std::floor(origin.y + (space.y - size.y) / 2)};
+    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+    e.set_picture_size(glm::max(glm::uvec2(size.x * pixels.x * e.view.resolution, size.y * pixels.y * e.view.resolution),
+                                glm::uvec2(16)));
+
+    ImGui::SetCursorScreenPos(corner);
+    ImGui::SetNextItemAllowOverlap();
+    ImGui::InvisibleButton("##picture", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    e.mark("picture");
+    const bool over = ImGui::IsItemHovered();
+    const ImVec2 end(corner.x + size.x, corner.y + size.y);
+
+    update_textures(e);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    if (picture_.ready()) draw->AddImage(picture_.ref(), corner, end);
+    else {
+        const char* text = e.opening().running() ? "Opening..." : "Open a scene with Ctrl+O, or drop a file here";
+        const ImVec2 extent = ImGui::CalcTextSize(text);
+        draw->AddText({corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2},
+                      ImGui::GetColorU32(colors::dim), text);
+    }
+    bool gizmo = false;
+    if (e.view.show_overlays && picture_.ready()) {
+        if (outline_.ready()) draw->AddImage(outline_.ref(), corner, end);
+        gizmo = draw_gizmo(e, corner, size);
+        draw_overlays(e);
+    }
+    navigate(e, over);
+    pick(e, over, gizmo);
+    draw_status(e);
+    e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
+}
+
+glm::dvec2 Viewport::film_point(ImVec2 screen) const {
+    return {(screen.x - corner.x) / size.x, (screen.y - corner.y) / size.y};
+}
+
+InstanceId Viewport::instance_at(const Editor& e, ImVec2 screen) const {
+    const glm::dvec2 p = film_point(screen);
+    if (!drawn_ || p.x < 0 || p.y < 0 || p.x >= 1 || p.y >= 1) return {};
+    const render::FilmImage& image = drawn_->image;
+    const auto x = std::uint32_t(p.x * image.width), y = std::uint32_t(p.y * image.height);
+    const InstanceId id{image.instance_id[std::size_t(y) * image.width + x]};
+    return e.scene().instances.find(id) ? id : InstanceId{};
+}
+
+// --- drawing -----------------------------------------------------------------------------------------------------------
+
+void Viewport::draw_toolbar(Editor& e) {
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    ImGui::SetCursorPos({6 * scale, ImGui::GetCursorPosY() + 4 * scale});
+    action_button(e, "view.gizmo_select", "Select");
+    ImGui::SameLine(0, 2 * scale);
+    action_button(e, "view.gizmo_move", "Move");
+    ImGui::SameLine(0, 2 * scale);
+    action_button(e, "view.gizmo_rotate", "Rotate");
+    ImGui::SameLine(0, 2 * scale);
+    action_button(e, "view.gizmo_scale", "Scale");
+    ImGui::SameLine();
+    action_button(e, "view.local", e.view.local_axes ? "Local" : "World");
+    ImGui::SameLine();
+    const std::string missing = e.live().denoiser_missing();
+    ImGui::BeginDisabled(!missing.empty());
+    action_button(e, "view.denoise", "Denoise");
+    ImGui::EndDisabled();
+    if (!missing.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("Not available: %s", missing.c_str());
+    ImGui::SameLine();
+    static constexpr const char* layers[] = {"Picture", "Albedo", "Normal", "Depth", "Objects", "Materials", "Error"};
+    int layer = int(e.view.display.layer);
+    ImGui::SetNextItemWidth(96 * scale);
+    if (ImGui::Combo("##layer", &layer, layers, IM_ARRAYSIZE(layers))) e.view.display.layer = session::Layer(layer);
+    ImGui::SetItemTooltip("What is shown: the picture, a guide image, or the estimated relative error (dark 0.1 %%, white 100 %%)");
+    e.mark("toolbar.layer");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(90 * scale);
+    ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");
+    ImGui::SetItemTooltip("Exposure of the view [stops]; changes no file and restarts nothing. Ctrl+click to type");
+    e.mark("toolbar.exposure");
+    ImGui::SameLine();
+    static constexpr const char* tones[] = {"sRGB", "Filmic"};
+    int tone = int(e.view.display.tone);
+    ImGui::SetNextItemWidth(78 * scale);
+    if (ImGui::Combo("##tone", &tone, tones, IM_ARRAYSIZE(tones))) e.view.display.tone = session::ToneCurve(tone);
+    ImGui::SetItemTooltip("How radiance becomes screen values: clipped as in a saved PNG, or with soft highlights");
+    e.mark("toolbar.tone");
+}
+
+void Viewport::update_textures(Editor& e) {
+    const auto frame = e.shown_frame();
+    if (!frame) return;
+    session::DisplaySettings settings = e.view.display;
+    settings.scale = e.scene().film.value.exposure;
+    const auto same = [](const session::DisplaySettings& a, const session::DisplaySettings& b) {
+        return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
+    };
+    if (frame != drawn_ || !same(settings, drawn_settings_)) {
+        session::to_display(frame->image, settings, pixels_);
+        picture_.set(frame->image.width, frame->image.height, pixels_);
+        drawn_ = frame;
+        drawn_settings_ = settings;
+    }
+    // Outlines: the edge of what is selected or hovered, from the instance ids.
+    OutlineKey key{frame.get(), e.selection.instances(), {}};
+    if (e.hovered) key.hovered = e.selection.click_target(e.scene(), e.hovered);
+    if (key == outlined_) return;
+    const render::FilmImage& image = frame->image;
+    std::vector<std::uint8_t> mark(e.scene().instances.size() + 1, 0); // 1 hovered, 2 selected
+    for (const InstanceId id : key.hovered)
+        mark[id.value] = 1;
+    for (const InstanceId id : key.selected)
+        if (id.value < mark.size()) mark[id.value] = 2;
+    outlined_ = std::move(key);
+    const auto at = [&](int x, int y) -> std::uint8_t {
+        x = std::clamp(x, 0, int(image.width) - 1);
+        y = std::clamp(y, 0, int(image.height) - 1);
+        const std::uint32_t id = image.instance_id[std::size_t(y) * image.width + std::size_t(x)];
+        return id < mark.size() ? mark[id] : 0;
+    };
+    const std::uint32_t ring[3] = {0, ImGui::GetColorU32(colors::hover), ImGui::GetColorU32(colors::accent)};
+    const int width = frame->divider > 1 ? 1 : 2;
+    pixels_.assign(std::size_t(image.width) * image.height, 0);
+    for (int y = 0; y < int(image.height); ++y)
+        for (int x = 0; x < int(image.width); ++x) {
+            const std::uint8_t own = at(x, y);
+            std::uint8_t near = 0;
+            for (int d = 1; d <= width; ++d)
+                near = std::max({near, at(x - d, y), at(x + d, y), at(x, y - d), at(x, y + d)});
+            if (near > own) pixels_[std::size_t(y) * image.width + std::size_t(x)] = ring[near];
+        }
+    outline_.set(image.width, image.height, pixels_);
+}
+
+void Viewport::draw_overlays(Editor& e) {
+    // Lights without a surface, as marks that can be clicked.
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const float r = 6 * ImGui::GetStyle().FontScaleMain;
+    draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+    e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
+        if (light.kind == RESTAGE_LIGHT_DISTANT) return;
+        const glm::dvec3 p = session::project(e.camera(), glm::dvec3(light.light_to_world[3]), e.film_aspect());
+        if (p.z <= 0) return;
+        const ImVec2 c(corner.x + float(p.x) * size.x, corner.y + float(p.y) * size.y);
+        const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::accent : colors::warning);
+        draw->AddCircle(c, r, color, 0, 2);
+        for (int i = 0; i < 8; ++i) {
+            const float a = float(i) * 0.785398f;
+            draw->AddLine({c.x + std::cos(a) * r * 1.3f, c.y + std::sin(a) * r * 1.3f},
+                          {c.x + std::cos(a) * r * 1.8f, c.y + std::sin(a) * r * 1.8f}, color, 1.5f);
+        }
+    });
+    draw->PopClipRect();
+}
+
+void Viewport::draw_status(Editor& e) {
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    const ImVec2 end(corner.x + size.x, corner.y + size.y);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const session::ViewStatus status = e.live().status();
+    std::string text;
+    if (status.state == session::ViewState::failed) text = status.text;
+    else if (drawn_)
+        text = fmt::format("{}x{}  {} spp{}  {:.1f} % error  {:.2f} Msamples/s", drawn_->image.width, drawn_->image.height,
+                           std::max(status.divider > 1 ? 1u : status.samples, 1u), drawn_->denoised ? " denoised" : "",
+                           std::min(drawn_->relative_error * 100, 999.0), status.samples_per_second * 1e-6);
+    if (!text.empty()) {
+        const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+        const ImVec2 a(corner.x + 6 * scale, end.y - extent.y - 10 * scale);
+        draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale}, {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale},
+                            IM_COL32(16, 16, 18, 180), 3 * scale);
+        draw->AddText(a, ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
+                      text.c_str());
+    }
+    if (e.opening().running()) {
+        ImGui::SetCursorScreenPos({corner.x + 12 * scale, corner.y + 12 * scale});
+        ImGui::BeginChild("opening", {320 * scale, 0}, ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
+        ImGui::Text("Opening %s", e.opening().path().filename().string().c_str());
+        ImGui::ProgressBar(e.opening().progress(), {-1, 0}, e.opening().stage().c_str());
+        if (ImGui::Button("Cancel")) e.opening().cancel();
+        e.mark("opening.cancel");
+        ImGui::EndChild();
+    }
+}
+
+// --- navigating --------------------------------------------------------------------------------------------------------
+
+glm::dvec3 Viewport::pivot(const Editor& e) const {
+    if (orbit_center_) return *orbit_center_;
+    const scene::Bounds chosen = e.selection.bounds(e.scene());
+    if (!chosen.empty()) return chosen.center();
+    // What is in the middle of the picture; else somewhere in the scene.
+    const session::ViewRay ray = session::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
+    if (drawn_ && !drawn_->image.depth.empty()) {
+        const auto& image = drawn_->image;
+        const float depth = image.depth[std::size_t(image.height / 2) * image.width + image.width / 2];
+        if (depth > 0 && std::isfinite(depth)) return ray.origin + glm::normalize(ray.direction) * double(depth);
+    }
+    const scene::Bounds all = scene::world_bounds(e.scene());
+    return ray.origin + glm::normalize(ray.direction) * (all.empty() ? 1.0 : all.radius());
+}
+
+void Viewport::set_camera(Editor& e, const scene::Camera& camera, const char* gesture) {
+    e.edit(
+        [camera](const scene::Scene& s) {
+            if (!s.active_camera.value) return Result<scene::Edit>(fail("the scene has no camera"));
+            return scene::set_camera(s, s.active_camera.value, camera);
+        },
+        gesture);
+}
+
+void Viewport::navigate(Editor& e, bool over) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool alt = io.KeyAlt && !ImGuizmo::IsUsing() && !ImGuizmo::IsOver();
+    if (over && navigation_ == Navigation::none) {
+        if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle))
+            navigation_ = e.view.keys == KeyPreset::blender && !io.KeyShift ? Navigation::orbit : Navigation::pan;
+        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) navigation_ = alt ? Navigation::dolly : Navigation::fly;
+        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt) navigation_ = Navigation::orbit;
+    }
+    const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ||
+                      ImGui::IsMouseDown(ImGuiMouseButton_Right);
+    if (navigation_ != Navigation::none && !held) {
+        navigation_ = Navigation::none;
+        e.end_gesture();
+    }
+
+    const double aspect = e.film_aspect();
+    scene::Camera camera = e.camera();
+    const glm::dvec2 delta(io.MouseDelta.x / size.y, io.MouseDelta.y / size.y); // of the picture's height
+    const bool moved = delta.x != 0 || delta.y != 0;
+    // The world turns with the mouse: the camera goes the other way. Mirrored cameras see it the other way round.
+    const bool mirrored = glm::determinant(glm::dmat3(camera.camera_to_world)) < 0;
+    const double turn = mirrored ? -3.0 : 3.0; // [rad] a picture height
+    switch (navigation_) {
+    case Navigation::none: break;
+    case Navigation::orbit:
+        if (moved) {
+            session::orbit(camera, pivot(e), e.up(), {delta.x * turn, -delta.y * 3.0});
+            set_camera(e, camera, "navigate");
+        }
+        break;
+    case Navigation::pan:
+        if (moved) {
+            const double distance = glm::length(pivot(e) - glm::dvec3(camera.camera_to_world[3]));
+            session::pan(camera, delta, std::max(distance, 1e-6), aspect);
+            set_camera(e, camera, "navigate");
+        }
+        break;
+    case Navigation::dolly:
+        if (moved) {
+            session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
+            set_camera(e, camera, "navigate");
+        }
+        break;
+    case Navigation::fly: {
+        if (io.MouseWheel != 0) e.view.fly_speed = std::clamp(e.view.fly_speed * std::pow(1.25f, io.MouseWheel), 0.01f, 100.f);
+        if (moved) session::look(camera, e.up(), {-delta.x * turn * 0.5, -delta.y * 1.5});
+        glm::dvec3 go(0);
+        const auto key = [](ImGuiKey k) { return ImGui::IsKeyDown(k) ? 1.0 : 0.0; };
+        go.x = key(ImGuiKey_D) - key(ImGuiKey_A);
+        go.y = key(ImGuiKey_E) - key(ImGuiKey_Q);
+        go.z = key(ImGuiKey_W) - key(ImGuiKey_S);
+        const double radius = std::max(scene::world_bounds(e.scene()).radius(), 1e-6);
+        const double speed = radius * 0.25 * e.view.fly_speed * (io.KeyShift ? 4 : 1); // a second
+        if (go != glm::dvec3(0)) session::translate_local(camera, go * speed * double(std::min(io.DeltaTime, 0.1f)));
+        if (moved || go != glm::dvec3(0)) set_camera(e, camera, "navigate");
+        break;
+    }
+    }
+
+    if (over && io.MouseWheel != 0 && navigation_ == Navigation::none) {
+        // Towards what is under the mouse.
+        const session::ViewRay ray = session::view_ray(camera, film_point(io.MousePos), aspect);
+        double distance = glm::length(pivot(e) - ray.origin);
+        if (const InstanceId id = instance_at(e, io.MousePos); id && drawn_) {
+            const glm::dvec2 p = film_point(io.MousePos);
+            const auto& image = drawn_->image;
+            const float depth = image.depth[std::size_t(p.y * image.height) * image.width + std::size_t(p.x * image.width)];
+            if (depth > 0 && std::isfinite(depth)) distance = depth;
+        }
+        session::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance, 1 - std::pow(0.88, double(io.MouseWheel)));
+        // Turns of the wheel that follow each other are one step.
+        if (ImGui::GetTime() - wheel_time_ > 0.7) e.end_gesture();
+        wheel_time_ = ImGui::GetTime();
+        set_camera(e, camera, "wheel");
+    }
+}
+
+// --- picking -----------------------------------------------------------------------------------------------------------
+
+void Viewport::pick(Editor& e, bool over, bool gizmo) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
+    const bool free = over && !gizmo && navigation_ == Navigation::none;
+    if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
+
+    if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        // Into the group; on nothing, or a single object: what is there becomes the centre of orbits.
+        const InstanceId id = pickable(instance_at(e, io.MousePos));
+        if (const GroupId group = e.selection.click_group(e.scene(), id)) {
+            e.selection.enter(group);
+            const InstanceId ids[] = {id};
+            e.selection.set(ids);
+            pressed_ = false;
+            return;
+        }
+        const session::ViewRay ray = session::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
+        if (const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
+            orbit_center_ = hits[0].position;
+    }
+    if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+        pressed_ = true;
+        press_ = io.MousePos;
+    }
+    if (!pressed_) return;
+    const bool far = std::abs(io.MousePos.x - press_.x) + std::abs(io.MousePos.y - press_.y) > 6;
+    boxing_ = boxing_ || far;
+    const Selection::Mode mode = io.KeyCtrl    ? Selection::Mode::toggle
+                                 : io.KeyShift ? Selection::Mode::add
+                                               : Selection::Mode::replace;
+    if (boxing_) {
+        ImDrawList* draw = ImGui::GetWindowDrawList();
+        draw->AddRectFilled(press_, io.MousePos, ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.12f}));
+        draw->AddRect(press_, io.MousePos, ImGui::GetColorU32(colors::accent));
+    }
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
+    pressed_ = false;
+    if (std::exchange(boxing_, false)) {
+        // Everything that is seen in the box.
+        std::set<std::uint32_t> seen;
+        if (drawn_) {
+            const glm::dvec2 a = film_point(press_), b = film_point(io.MousePos);
+            const glm::dvec2 lo = glm::clamp(glm::min(a, b), 0.0, 1.0), hi = glm::clamp(glm::max(a, b), 0.0, 1.0);
+            const auto& image = drawn_->image;
+            for (auto y = std::uint32_t(lo.y * image.height); y < std::uint32_t(hi.y * image.height); ++y)
+                for (auto x = std::uint32_t(lo.x * image.width); x < std::uint32_t(hi.x * image.width); ++x)
+                    seen.insert(image.instance_id[std::size_t(y) * image.width + x]);
+        }
+        std::vector<InstanceId> ids;
+        for (const std::uint32_t value : seen)
+            if (const InstanceId id = pickable({value}); e.scene().instances.find(id))
+                for (const InstanceId part : e.selection.click_target(e.scene(), id))
+                    if (std::find(ids.begin(), ids.end(), part) == ids.end()) ids.push_back(part);
+        e.selection.set(ids, mode);
+        return;
+    }
+    // A light's mark comes first.
+    scene::Id<scene::Light> light;
+    if (e.view.show_overlays)
+        e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& l) {
+            const glm::dvec3 p = session::project(e.camera(), glm::dvec3(l.light_to_world[3]), e.film_aspect());
+            const float r = 9 * ImGui::GetStyle().FontScaleMain;
+            if (l.kind != RESTAGE_LIGHT_DISTANT && p.z > 0 &&
+                std::hypot(corner.x + float(p.x) * size.x - io.MousePos.x, corner.y + float(p.y) * size.y - io.MousePos.y) < r)
+                light = id;
+        });
+    if (light) {
+        e.selection.set_light(light);
+        return;
+    }
+    InstanceId id = pickable(instance_at(e, io.MousePos));
+    // The same place again: what is behind.
+    const bool again = std::abs(io.MousePos.x - last_click_.x) + std::abs(io.MousePos.y - last_click_.y) < 3;
+    behind_ = again && mode == Selection::Mode::replace ? behind_ + 1 : 0;
+    last_click_ = io.MousePos;
+    if (behind_ > 0) {
+        const session::ViewRay ray = session::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
+        const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction,
+                                               [&](InstanceId hit) { return e.locked.contains(hit.value); });
+        if (!hits.empty()) id = hits[behind_ % hits.size()].instance;
+    }
+    if (!id) {
+        if (mode == Selection::Mode::replace) e.selection.clear();
+        return;
+    }
+    if (e.selection.entered() && !is_within(e.scene(), e.scene().instances[id].group, e.selection.entered()))
+        e.selection.enter({});
+    e.selection.set(e.selection.click_target(e.scene(), id), mode);
+}
+
+} // namespace restage::editor

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Viewport: the picture, what lies over it (outlines, handles, notes), and what the mouse does in it: navigate, pick, drop.
+#pragma once
+
+#include "selection.hpp"
+#include "session/display.hpp"
+#include "session/live_view.hpp"
+#include "texture.hpp"
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace restage::editor {
+
+class Editor;
+
+class Viewport {
+  public:
+    void draw(Editor& editor);
+
+    // The picture's rectangle on screen, of the last frame.
+    ImVec2 corner{0, 0}, size{1, 1};
+    // Where a screen point lies in the picture: (0,0) top left, (1,1) bottom right.
+    glm::dvec2 film_point(ImVec2 screen) const;
+    // The object seen there in the shown picture; none outside.
+    InstanceId instance_at(const Editor& editor, ImVec2 screen) const;
+    bool navigating() const { return navigation_ != Navigation::none; }
+
+  private:
+    enum class Navigation { none, orbit, pan, dolly, fly };
+    void draw_toolbar(Editor& editor);
+    void update_textures(Editor& editor);
+    void draw_overlays(Editor& editor);
+    void draw_status(Editor& editor);
+    void navigate(Editor& editor, bool over);
+    void pick(Editor& editor, bool over, bool gizmo);
+    void set_camera(Editor& editor, const scene::Camera& camera, const char* gesture);
+    glm::dvec3 pivot(const Editor& editor) const;
+
+    Texture picture_, outline_;
+    std::shared_ptr<const session::Frame> drawn_; // what picture_ holds
+    session::DisplaySettings drawn_settings_;
+    struct OutlineKey {
+        const session::Frame* frame = nullptr;
+        std::vector<InstanceId> selected;
+        std::vector<InstanceId> hovered;
+        bool operator==(const OutlineKey&) const = default;
+    } outlined_;
+    std::vector<std::uint32_t> pixels_;
+
+    Navigation navigation_ = Navigation::none;
+    std::optional<glm::dvec3> orbit_center_; // set by a double click
+    double wheel_time_ = 0;                  // of the last turn
+    ImVec2 press_{0, 0};
+    bool pressed_ = false, boxing_ = false;
+    ImVec2 last_click_{-1, -1};
+    std::size_t behind_ = 0; // how often the same point was clicked
+};
+
+} // namespace restage::editor

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window.hpp"
+
+#include "gpu/device.hpp"
+#include "theme.hpp"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_vulkan.h>
+#include <algorithm>
+#include <implot.h>
+
+namespace restage::editor {
+
+namespace {
+
+// What Dear ImGui's backend has no way to return.
+VkResult last_failure = VK_SUCCESS; // [main]
+void note_failure(VkResult result) {
+    if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) last_failure = result;
+}
+
+std::string glfw_error() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "unknown reason";
+}
+
+} // namespace
+
+struct Window::Impl {
+    GLFWwindow* window = nullptr;
+    std::unique_ptr<gpu::Device> device;
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    ImGui_ImplVulkanH_Window swap;
+    std::string layout_path;
+    std::vector<std::filesystem::path> dropped;
+    glm::vec2 dropped_at{0};
+    float scale = 1;
+    bool imgui = false, imgui_glfw = false, imgui_vulkan = false;
+    bool stale = false; // the swapchain does not fit the window any more
+
+    ~Impl() {
+        if (device) static_cast<void>(device->wait_idle());
+        if (imgui_vulkan) ImGui_ImplVulkan_Shutdown();
+        if (imgui_glfw) ImGui_ImplGlfw_Shutdown();
+        if (imgui) {
+            ImPlot::DestroyContext();
+            ImGui::DestroyContext();
+        }
+        if (swap.Swapchain)
+            ImGui_ImplVulkanH_DestroyWindow(device->instance(), device->handle(), &swap, nullptr);
+        if (surface) vkDestroySurfaceKHR(device->instance(), surface, nullptr);
+        device.reset();
+        if (window) glfwDestroyWindow(window);
+        glfwTerminate();
+    }
+
+    void resize() {
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(window, &width, &height);
+        if (width <= 0 || height <= 0) return;
+        if (stale || swap.Width != width || swap.Height != height) {
+            ImGui_ImplVulkanH_CreateOrResizeWindow(device->instance(), device->physical_device(), device->handle(), &swap,
+                                                   device->queue_family(), nullptr, width, height, 2, 0);
+            swap.FrameIndex = 0;
+            stale = false;
+        }
+    }
+
+    Result<void> present(ImDrawData* draw) {
+        auto& semaphores = swap.FrameSemaphores[static_cast<int>(swap.SemaphoreIndex)];
+        VkResult result = vkAcquireNextImageKHR(device->handle(), swap.Swapchain, UINT64_MAX,
+                                                semaphores.ImageAcquiredSemaphore, VK_NULL_HANDLE, &swap.FrameIndex);
+        if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) stale = true;
+        if (result == VK_ERROR_OUT_OF_DATE_KHR) return {};
+        if (result < 0) return device->error(result, "drawing the window");
+        auto& frame = swap.Frames[static_cast<int>(swap.FrameIndex)];
+        note_failure(vkWaitForFences(device->handle(), 1, &frame.Fence, VK_TRUE, UINT64_MAX));
+        note_failure(vkResetFences(device->handle(), 1, &frame.Fence));
+        note_failure(vkResetCommandPool(device->handle(), frame.CommandPool, 0));
+        const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+        note_failure(vkBeginCommandBuffer(frame.CommandBuffer, &begin));
+        const VkRenderPassBeginInfo pass{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                         .renderPass = swap.RenderPass,
+                                         .framebuffer = frame.Framebuffer,
+                                         .renderArea = {.extent = {static_cast<std::uint32_t>(swap.Width),
+                                                                   static_cast<std::uint32_t>(swap.Height)}},
+                                         .clearValueCount = 1,
+                                         .pClearValues = &swap.ClearValue};
+        vkCmdBeginRenderPass(frame.CommandBuffer, &pass, VK_SUBPASS_CONTENTS_INLINE);
+        ImGui_ImplVulkan_RenderDrawData(draw, frame.CommandBuffer);
+        vkCmdEndRenderPass(frame.CommandBuffer);
+        note_failure(vkEndCommandBuffer(frame.CommandBuffer));
+        const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+        const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                                  .waitSemaphoreCount = 1,
+                                  .pWaitSemaphores = &semaphores.ImageAcquiredSemaphore,
+                                  .pWaitDstStageMask = &stage,
+                                  .commandBufferCount = 1,
+                                  .pCommandBuffers = &frame.CommandBuffer,
+                                  .signalSemaphoreCount = 1,
+                                  .pSignalSemaphores = &semaphores.RenderCompleteSemaphore};
+        note_failure(vkQueueSubmit(device->queue(), 1, &submit, frame.Fence));
+        const VkPresentInfoKHR present{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+                                       .waitSemaphoreCount = 1,
+                                       .pWaitSemaphores = &semaphores.RenderCompleteSemaphore,
+                                       .swapchainCount = 1,
+                                       .pSwapchains = &swap.Swapchain,
+                                       .pImageIndices = &swap.FrameIndex};
+        result = vkQueuePresentKHR(device->queue(), &present);
+        if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) stale = true;
+        else note_failure(result);
+        swap.SemaphoreIndex = (swap.SemaphoreIndex + 1) % swap.SemaphoreCount;
+        if (last_failure != VK_SUCCESS) return device->error(std::exchange(last_failure, VK_SUCCESS), "drawing the window");
+        return {};
+    }
+};
+
+Window::Window(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Window::~Window() = default;
+
+Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log& log) {
+    if (!glfwInit())
+        return fail("the window cannot be opened: " + glfw_error() +
+                    "; without a display use the commands (`restage --help`)");
+    auto impl = std::make_unique<Impl>(); // from here its destructor cleans up
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    impl->window = glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+    if (!impl->window) return fail("the window cannot be opened: " + glfw_error());
+    glfwSetWindowSizeLimits(impl->window, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowUserPointer(impl->window, impl.get());
+    glfwSetDropCallback(impl->window, [](GLFWwindow* window, int count, const char** paths) {
+        auto& self = *static_cast<Impl*>(glfwGetWindowUserPointer(window));
+        double x = 0, y = 0;
+        glfwGetCursorPos(window, &x, &y);
+        self.dropped_at = {float(x), float(y)};
+        for (int i = 0; i < count; ++i)
+            self.dropped.emplace_back(paths[i]);
+    });
+
+    gpu::DeviceOptions device_options{.select = options.device, .validation = options.validation};
+    std::uint32_t count = 0;
+    const char** extensions = glfwGetRequiredInstanceExtensions(&count);
+    if (!extensions) return fail("this display cannot show Vulkan: " + glfw_error());
+    device_options.instance_extensions.assign(extensions, extensions + count);
+    device_options.device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    RESTAGE_TRY(impl->device, gpu::Device::create(device_options, log));
+    gpu::Device& device = *impl->device;
+    // Dear ImGui's backend calls volk's globals; everybody else has a table, so they can be this device's.
+    volkLoadDevice(device.handle());
+
+    if (const VkResult result = glfwCreateWindowSurface(device.instance(), impl->window, nullptr, &impl->surface);
+        result != VK_SUCCESS)
+        return device.error(result, "opening the window");
+    VkBool32 presents = VK_FALSE;
+    vkGetPhysicalDeviceSurfaceSupportKHR(device.physical_device(), device.queue_family(), impl->surface, &presents);
+    if (!presents) return fail(device.info().name + " cannot show pictures on this display; try another --device");
+    impl->swap.Surface = impl->surface;
+    const VkFormat formats[] = {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM};
+    impl->swap.SurfaceFormat = ImGui_ImplVulkanH_SelectSurfaceFormat(device.physical_device(), impl->surface, formats, 2,
+                                                                     VK_COLOR_SPACE_SRGB_NONLINEAR_KHR);
+    // MAILBOX does not wait for the screen, so a frame that waits never delays input; FIFO is always there.
+    const VkPresentModeKHR modes[] = {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_FIFO_KHR};
+    impl->swap.PresentMode =
+        ImGui_ImplVulkanH_SelectPresentMode(device.physical_device(), impl->surface, modes, 2);
+    impl->resize();
+
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImPlot::CreateContext();
+    impl->imgui = true;
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_DockingEnable;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    impl->layout_path = options.layout.string();
+    io.IniFilename = impl->layout_path.empty() ? nullptr : impl->layout_path.c_str();
+    float monitor_scale = 1;
+    glfwGetWindowContentScale(impl->window, &monitor_scale, nullptr);
+    impl->scale = options.scale > 0 ? options.scale : std::max(1.f, monitor_scale);
+    apply_theme(impl->scale, options.fonts);
+
+    impl->imgui_glfw = ImGui_ImplGlfw_InitForVulkan(impl->window, true);
+    ImGui_ImplVulkan_InitInfo init{};
+    init.ApiVersion = VK_API_VERSION_1_3;
+    init.Instance = device.instance();
+    init.PhysicalDevice = device.physical_device();
+    init.Device = device.handle();
+    init.QueueFamily = device.queue_family();
+    init.Queue = device.queue();
+    init.DescriptorPoolSize = 64; // textures: fonts, pictures
+    init.MinImageCount = 2;
+    init.ImageCount = std::max(2u, impl->swap.ImageCount);
+    init.PipelineCache = device.pipeline_cache();
+    init.PipelineInfoMain.RenderPass = impl->swap.RenderPass;
+    init.PipelineInfoMain.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+    init.CheckVkResultFn = note_failure;
+    init.MinAllocationSize = 1024 * 1024;
+    impl->imgui_vulkan = ImGui_ImplVulkan_Init(&init);
+    if (!impl->imgui_vulkan) return fail("the window cannot be drawn: Dear ImGui's Vulkan backend did not start");
+    return std::unique_ptr<Window>(new Window(std::move(impl)));
+}
+
+void Window::wait(double seconds) { glfwWaitEventsTimeout(std::max(seconds, 1e-3)); }
+void Window::wake() { glfwPostEmptyEvent(); }
+
+bool Window::begin_frame() {
+    impl_->resize();
+    if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return false;
+    ImGui_ImplVulkan_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    return true;
+}
+
+Result<void> Window::end_frame() {
+    ImGui::Render();
+    return impl_->present(ImGui::GetDrawData());
+}
+
+bool Window::close_requested() const { return glfwWindowShouldClose(impl_->window); }
+void Window::refuse_close() { glfwSetWindowShouldClose(impl_->window, GLFW_FALSE); }
+
+std::vector<std::filesystem::path> Window::take_dropped(glm::vec2& where) {
+    where = impl_->dropped_at;
+    return std::exchange(impl_->dropped, {});
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(impl_->window, title.c_str()); }
+float Window::scale() const { return impl_->scale; }
+GLFWwindow* Window::handle() const { return impl_->window; }
+
+} // namespace restage::editor

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Window: one GLFW window that Dear ImGui draws into through Vulkan, with a device of its own, so that drawing never waits
+// for rendering. Begin a frame, build the UI, end it. [main]
+#pragma once
+
+#include "base/log.hpp"
+#include "base/result.hpp"
+
+#include <glm/glm.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace restage::editor {
+
+struct WindowOptions {
+    std::string title = "Restage";
+    glm::ivec2 size{1280, 720};      // in screen coordinates
+    std::string device;              // as RendererOptions::device
+    bool validation = false;
+    float scale = 0;                 // of text and widgets; 0 = the monitor's
+    std::filesystem::path fonts;     // folder with the UI's fonts
+    std::filesystem::path layout;    // file that remembers the panels; "" = none
+};
+
+class Window {
+  public:
+    static Result<std::unique_ptr<Window>> create(const WindowOptions& options, Log& log);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    // Waits for events, at most so long [s]; wake() from any thread ends the wait.
+    void wait(double seconds);
+    static void wake();
+
+    bool begin_frame(); // false = there is nothing to draw on (minimised)
+    Result<void> end_frame();
+
+    bool close_requested() const;
+    void refuse_close();
+    std::vector<std::filesystem::path> take_dropped(glm::vec2& where); // files dropped on it since the last call
+    void set_title(const std::string& title);
+    float scale() const;
+    GLFWwindow* handle() const;
+
+  private:
+    struct Impl;
+    explicit Window(std::unique_ptr<Impl>);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace restage::editor

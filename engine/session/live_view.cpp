@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/live_view.hpp"
+
+#include "base/thread_priority.hpp"
+#include "render/denoise.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace restage::session {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr double coarse_budget = 0.08;   // for the first picture after a change [s]
+constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
+constexpr double still_close = 0.5;      // a denoised picture of an earlier request is shown so long [s]
+constexpr std::uint32_t coarsest = 16;
+
+struct Request {
+    scene::Scene scene;
+    ViewOptions options;
+    std::uint64_t number = 0;
+    Clock::time_point time;
+};
+
+} // namespace
+
+struct LiveView::Impl {
+    const plugin::Registry& registry;
+    Log& log;
+    std::function<void()> on_news;
+
+    mutable std::mutex mutex;
+    std::condition_variable wake_render, wake_denoise;
+    bool stop = false;
+    std::optional<Request> mail; // the newest request, not yet taken
+    std::optional<render::RendererOptions> new_options;
+    std::uint64_t last_number = 0; // given out
+    std::shared_ptr<const Frame> newest, newest_denoised, to_denoise;
+    ViewStatus now;
+    std::string no_denoiser;
+
+    std::thread render_thread, denoise_thread;
+
+    Impl(const plugin::Registry& r, Log& l, render::RendererOptions options, std::function<void()> news)
+        : registry(r), log(l), on_news(std::move(news)), new_options(std::move(options)) {
+        render_thread = std::thread([this] { render_loop(); });
+        denoise_thread = std::thread([this] { denoise_loop(); });
+    }
+
+    ~Impl() {
+        {
+            std::lock_guard lock(mutex);
+            stop = true;
+        }
+        wake_render.notify_all();
+        wake_denoise.notify_all();
+        render_thread.join();
+        denoise_thread.join();
+    }
+
+    bool anything_new() const {
+        std::lock_guard lock(mutex);
+        return stop || mail || new_options;
+    }
+    void set_state(ViewState state, std::string text = {}) {
+        {
+            std::lock_guard lock(mutex);
+            now.state = state;
+            now.text = std::move(text);
+        }
+        on_news();
+    }
+    void failed(const Error& error) {
+        log.error(error.message);
+        set_state(ViewState::failed, error.message);
+    }
+
+    // --- the render thread ---------------------------------------------------------------------------------------------
+
+    struct Work { // what the render thread is at
+        std::unique_ptr<render::Renderer> renderer;
+        std::optional<Request> request;
+        scene::Version film_version = std::uint64_t(1) << 62; // of the films of other resolutions
+        std::uint64_t document = 0;
+        std::uint32_t divider = 1;
+        double rate = 0; // pixels times samples a second
+        bool finished = false; // nothing to do until something new comes
+        Clock::time_point last_publish;
+        std::uint32_t published_samples = 0;
+    };
+
+    void render_loop() {
+        lower_thread_priority(5);
+        Work work;
+        for (;;) {
+            {
+                std::unique_lock lock(mutex);
+                wake_render.wait(lock, [&] { return stop || mail || new_options || (work.request && !work.finished); });
+                if (stop) return;
+                if (new_options) {
+                    auto options = std::move(*new_options);
+                    new_options.reset();
+                    lock.unlock();
+                    open(work, std::move(options));
+                    continue;
+                }
+                if (mail) {
+                    work.request = std::move(mail);
+                    mail.reset();
+                    lock.unlock();
+                    begin(work);
+                    continue;
+                }
+            }
+            advance(work);
+        }
+    }
+
+    void open(Work& work, render::RendererOptions options) {
+        set_state(ViewState::starting);
+        work.renderer.reset();
+        const auto lookup = [this](const std::string& type) -> std::optional<render::MaterialPlugin> {
+            const auto* entry = registry.find_material(type);
+            if (!entry) return std::nullopt;
+            return render::MaterialPlugin{entry->table, entry->plugin->folder};
+        };
+        auto made = render::Renderer::create(options, lookup, log);
+        if (!made) return failed(made.error());
+        work.renderer = std::move(*made);
+        {
+            std::lock_guard lock(mutex);
+            now.device = work.renderer->device().info().name;
+            now.tracer = work.renderer->tracer_name();
+        }
+        work.rate = 0;
+        if (work.request) begin(work);
+    }
+
+    // A new request: the first, coarse picture.
+    void begin(Work& work) {
+        work.finished = true; // until the scene is ready
+        if (!work.renderer) return;
+        const Request& request = *work.request;
+        const glm::uvec2 size = glm::max(request.options.size, glm::uvec2(1));
+        work.divider = 1;
+        const double pixels = double(size.x) * size.y;
+        const double rate = work.rate > 0 ? work.rate : 1e5; // not known yet: be careful
+        while (work.divider < coarsest && pixels / (work.divider * work.divider) > rate * coarse_budget)
+            work.divider *= 2;
+        if (work.document != request.options.document) {
+            work.document = request.options.document;
+            work.renderer->forget_scene();
+            set_state(ViewState::preparing);
+        }
+        if (prepare(work)) pass(work, true);
+    }
+
+    // The next step of the same request: refine, or gather samples.
+    void advance(Work& work) {
+        if (work.divider > 1) {
+            work.divider /= 2;
+            if (!prepare(work)) return;
+        }
+        pass(work, false);
+    }
+
+    bool prepare(Work& work) {
+        scene::Scene& scene = work.request->scene;
+        const glm::uvec2 size = glm::max(work.request->options.size / work.divider, glm::uvec2(1));
+        scene::Film& film = scene.film.value;
+        film.width = size.x;
+        film.height = size.y;
+        film.crop = {0, 1, 0, 1};
+        scene.film.version = ++work.film_version;
+        if (auto ready = work.renderer->sync(scene); !ready) {
+            work.finished = true;
+            failed(ready.error());
+            return false;
+        }
+        work.finished = false;
+        work.published_samples = 0;
+        return true;
+    }
+
+    bool target_met(const Work& work) const {
+        const ViewOptions& o = work.request->options;
+        return o.paused || (o.samples && work.renderer->samples() >= o.samples) ||
+               (o.seconds > 0 && seconds_since(work.request->time) >= o.seconds) ||
+               (o.error > 0 && work.renderer->samples() >= 8 && work.renderer->relative_error() <= o.error);
+    }
+
+    // One sample a pixel. The first pass of a request is always finished, so that something shows however fast the
+    // requests come.
+    void pass(Work& work, bool first) {
+        render::Renderer& renderer = *work.renderer;
+        const auto start = Clock::now();
+        const std::uint32_t before = renderer.samples();
+        auto traced = renderer.trace(1, first ? std::function<bool()>([this] {
+            std::lock_guard lock(mutex);
+            return !stop;
+        })
+                                              : std::function<bool()>([this] { return !anything_new(); }));
+        if (!traced) {
+            work.finished = true;
+            return failed(traced.error());
+        }
+        if (renderer.samples() <= before) return; // stopped: what is new comes next
+        const double took = seconds_since(start);
+        const glm::uvec2 size = glm::max(work.request->options.size / work.divider, glm::uvec2(1));
+        const double rate = double(size.x) * size.y / std::max(took, 1e-6);
+        // The first pass of new code is slow, and nothing to judge by: one fast pass counts at once, a slow one slowly.
+        work.rate = work.rate <= 0 ? rate : std::max(rate, work.rate) * 0.3 + std::min(rate, work.rate) * 0.7;
+        work.finished = work.divider == 1 && target_met(work);
+        const bool doubled = renderer.samples() >= 2 * work.published_samples;
+        if (work.finished || work.published_samples == 0 ||
+            (seconds_since(work.last_publish) > publish_interval && (doubled || renderer.samples() < 64)) ||
+            seconds_since(work.last_publish) > 10 * publish_interval)
+            publish(work);
+        {
+            std::lock_guard lock(mutex);
+            now.state = work.finished ? ViewState::done : ViewState::rendering;
+            now.samples = renderer.samples();
+            now.divider = work.divider;
+            now.samples_per_second = work.rate;
+            now.gpu_bytes = renderer.gpu_scene().bytes();
+            now.not_finite = renderer.stats().not_finite;
+        }
+        on_news();
+    }
+
+    void publish(Work& work) {
+        auto frame = std::make_shared<Frame>();
+        frame->image = work.renderer->image();
+        frame->request = work.request->number;
+        frame->divider = work.divider;
+        frame->seconds = seconds_since(work.request->time);
+        frame->relative_error = work.renderer->relative_error();
+        const std::uint32_t samples = work.renderer->samples();
+        // Denoise at powers of two, and the last one.
+        const bool denoise = work.request->options.denoise &&
+                             (std::bit_floor(samples) > std::bit_floor(work.published_samples) || work.finished);
+        work.published_samples = samples;
+        work.last_publish = Clock::now();
+        {
+            std::lock_guard lock(mutex);
+            newest = frame;
+            if (denoise) to_denoise = frame;
+        }
+        if (denoise) wake_denoise.notify_one();
+    }
+
+    // --- the denoising thread ------------------------------------------------------------------------------------------
+
+    void denoise_loop() {
+        lower_thread_priority(7);
+        const auto& denoisers = registry.denoisers();
+        const RestageDenoiser1* denoiser = denoisers.empty() ? nullptr : denoisers[0].table;
+        const char* reason = "no denoiser plugin is loaded";
+        if (!denoiser || !denoiser->available(&reason)) {
+            std::lock_guard lock(mutex);
+            no_denoiser = reason;
+            return;
+        }
+        for (;;) {
+            std::shared_ptr<const Frame> source;
+            {
+                std::unique_lock lock(mutex);
+                wake_denoise.wait(lock, [&] { return stop || to_denoise; });
+                if (stop) return;
+                source = std::move(to_denoise);
+                to_denoise = nullptr;
+            }
+            // A coarse picture is worth finishing; a fine one is given up when the scene has changed.
+            const auto keep_going = [&](double) {
+                std::lock_guard lock(mutex);
+                return !stop && (source->divider > 1 || last_number == source->request);
+            };
+            auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
+            if (!color) continue; // stopped; a lasting fault shows as pictures that stay noisy
+            auto frame = std::make_shared<Frame>(*source);
+            frame->image.color = std::move(*color);
+            frame->denoised = true;
+            {
+                std::lock_guard lock(mutex);
+                newest_denoised = frame;
+            }
+            on_news();
+        }
+    }
+};
+
+LiveView::LiveView(const plugin::Registry& registry, Log& log, render::RendererOptions options,
+                   std::function<void()> on_news)
+    : impl_(std::make_unique<Impl>(registry, log, std::move(options), std::move(on_news))) {}
+
+LiveView::~LiveView() = default;
+
+std::uint64_t LiveView::show(scene::Scene scene, const ViewOptions& options) {
+    std::uint64_t number = 0;
+    {
+        std::lock_guard lock(impl_->mutex);
+        number = ++impl_->last_number;
+        impl_->mail = Request{std::move(scene), options, number, Clock::now()};
+    }
+    impl_->wake_render.notify_one();
+    return number;
+}
+
+void LiveView::configure(render::RendererOptions options) {
+    {
+        std::lock_guard lock(impl_->mutex);
+        impl_->new_options = std::move(options);
+    }
+    impl_->wake_render.notify_one();
+}
+
+std::shared_ptr<const Frame> LiveView::frame() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->newest;
+}
+
+std::shared_ptr<const Frame> LiveView::denoised() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->newest_denoised;
+}
+
+std::shared_ptr<const Frame> LiveView::best(bool want_denoised) const {
+    std::lock_guard lock(impl_->mutex);
+    const auto &raw = impl_->newest, &clean = impl_->newest_denoised;
+    if (!want_denoised || !clean || !raw) return raw;
+    if (clean->request == raw->request) return clean->divider <= 2 * raw->divider ? clean : raw;
+    return raw->seconds < still_close && raw->request - clean->request <= 3 ? clean : raw;
+}
+
+ViewStatus LiveView::status() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->now;
+}
+
+std::string LiveView::denoiser_missing() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->no_denoiser;
+}
+
+} // namespace restage::session
