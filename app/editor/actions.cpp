@@ -50,6 +50,35 @@ void frame_bounds(Editor& e, const scene::Bounds& bounds) {
     });
 }
 
+void go_to(Editor& e, const scene::Camera& camera, const std::string& label) {
+    scene::Camera there = camera;
+    there.name = e.camera().name;
+    there.origin = e.camera().origin;
+    e.edit([there, label](const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, there, label); });
+}
+
+// A bookmark is a camera of the scene that is not the active one: saved, undone and exported like anything else.
+void bookmark(Editor& e) {
+    e.edit([camera = e.camera()](const scene::Scene& s) -> Result<scene::Edit> {
+        scene::Camera copy = camera;
+        copy.name = "View " + std::to_string(s.cameras.live());
+        copy.origin = {};
+        return scene::insert(s, copy, "Bookmark " + copy.name);
+    });
+}
+
+// The next bookmark after the one the view is at.
+void next_bookmark(Editor& e) {
+    std::vector<scene::Camera> views;
+    std::size_t at = 0;
+    e.scene().cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& camera) {
+        if (id == e.camera_id()) return;
+        if (camera.camera_to_world == e.camera().camera_to_world) at = views.size() + 1;
+        views.push_back(camera);
+    });
+    if (!views.empty()) go_to(e, views[at % views.size()], "Go to " + views[at % views.size()].name);
+}
+
 void drop_to_floor(Editor& e) {
     // Down from the lowest point of what is selected, all of it as one.
     const auto ids = e.selection.instances();
@@ -158,6 +187,12 @@ constexpr auto actions = std::to_array<Action>({
      [](Editor& e) { frame_bounds(e, e.selection.bounds(e.scene())); }},
     {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is seen", has_scene,
      [](Editor& e) { frame_bounds(e, scene::world_bounds(e.scene())); }},
+    {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0, "Back to where the camera was when opened",
+     [](const Editor& e) { return e.opened_camera() != nullptr; },
+     [](Editor& e) { go_to(e, *e.opened_camera(), "Camera of the file"); }},
+    {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene, bookmark},
+    {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next view that was kept",
+     [](const Editor& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
     {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
      is_gizmo<GizmoMode::select>},
     {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G, "Handles that move; Ctrl snaps, Alt copies", nullptr,
@@ -173,6 +208,9 @@ constexpr auto actions = std::to_array<Action>({
     {"view.overlays", "Overlays", ImGuiMod_Shift | ImGuiKey_O, 0, "Outlines, handles and notes over the picture", nullptr,
      [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
      [](const Editor& e) { return e.view.show_overlays; }},
+    {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and depth of the pixel under the mouse", nullptr,
+     [](Editor& e) { e.view.inspect_pixels = !e.view.inspect_pixels; },
+     [](const Editor& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
      [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const Editor& e) { return e.view.show_panels; }},
 });

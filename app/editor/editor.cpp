@@ -206,13 +206,15 @@ void Editor::draw_menu() {
     }
     // What goes on, at the right end.
     const session::ViewStatus status = live_->status();
-    const char* state = status.state == session::ViewState::starting    ? "starting the renderer"
-                        : status.state == session::ViewState::preparing ? "preparing"
-                        : status.state == session::ViewState::failed    ? "cannot render"
-                                                                        : "";
-    if (*state) {
-        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(state).x - 24 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextColored(status.state == session::ViewState::failed ? colors::error : colors::dim, "%s", state);
+    const std::string state = status.state == session::ViewState::starting    ? "starting the renderer"
+                              : status.state == session::ViewState::preparing ? "preparing"
+                              : status.state == session::ViewState::failed    ? "cannot render"
+                              : status.compiling.empty()                      ? ""
+                                                                              : "compiling " + status.compiling;
+    if (!state.empty()) {
+        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(state.c_str()).x -
+                        24 * ImGui::GetStyle().FontScaleMain);
+        ImGui::TextColored(status.state == session::ViewState::failed ? colors::error : colors::dim, "%s", state.c_str());
         if (!status.text.empty()) ImGui::SetItemTooltip("%s", status.text.c_str());
     }
     ImGui::EndMainMenuBar();

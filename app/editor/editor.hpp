@@ -40,6 +40,7 @@ struct ViewSettings {
     bool denoise = true;
     bool show_overlays = true;   // outlines, gizmo, names
     bool show_panels = true;     // Tab
+    bool inspect_pixels = false; // values under the mouse
     float resolution = 1;        // picture pixels a screen pixel
     GizmoMode gizmo = GizmoMode::move;
     bool local_axes = false;
@@ -89,6 +90,10 @@ class Editor {
     Opening& opening() { return opening_; }
     void undo();
     void redo();
+    // The camera the file was opened with; null when there is none.
+    const scene::Camera* opened_camera() const {
+        return original_ ? original_->cameras.find(original_->active_camera.value) : nullptr;
+    }
 
     // --- what is shown -------------------------------------------------------------------------------------------------
     Selection selection;

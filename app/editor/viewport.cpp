@@ -57,7 +57,11 @@ void Viewport::draw(Editor& e) {
         draw_overlays(e);
     }
     navigate(e, over);
-    pick(e, over, gizmo);
+    stick(e, over);
+    if (!sticking_) pick(e, over, gizmo);
+    inspect_pixel(e, over);
+    // The scene as it was opened, while O is held.
+    e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_status(e);
     e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
 }
@@ -133,7 +137,7 @@ void Viewport::update_textures(Editor& e) {
     }
     // Outlines: the edge of what is selected or hovered, from the instance ids.
     OutlineKey key{frame.get(), e.selection.instances(), {}};
-    if (e.hovered) key.hovered = e.selection.click_target(e.scene(), e.hovered);
+    if (e.hovered && frame->divider <= 2) key.hovered = e.selection.click_target(e.scene(), e.hovered);
     if (key == outlined_) return;
     const render::FilmImage& image = frame->image;
     std::vector<std::uint8_t> mark(e.scene().instances.size() + 1, 0); // 1 hovered, 2 selected

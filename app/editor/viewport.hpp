@@ -36,6 +36,8 @@ class Viewport {
     void draw_status(Editor& editor);
     void navigate(Editor& editor, bool over);
     void pick(Editor& editor, bool over, bool gizmo);
+    void stick(Editor& editor, bool over); // T held: the selection follows the surface under the mouse
+    void inspect_pixel(Editor& editor, bool over);
     void set_camera(Editor& editor, const scene::Camera& camera, const char* gesture);
     glm::dvec3 pivot(const Editor& editor) const;
 
@@ -54,7 +56,7 @@ class Viewport {
     std::optional<glm::dvec3> orbit_center_; // set by a double click
     double wheel_time_ = 0;                  // of the last turn
     ImVec2 press_{0, 0};
-    bool pressed_ = false, boxing_ = false;
+    bool pressed_ = false, boxing_ = false, sticking_ = false;
     ImVec2 last_click_{-1, -1};
     std::size_t behind_ = 0; // how often the same point was clicked
 };

@@ -174,7 +174,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     ImPlot::CreateContext();
     impl->imgui = true;
     ImGuiIO& io = ImGui::GetIO();
-    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_DockingEnable;
+    io.ConfigFlags |= ImGuiConfigFlags_DockingEnable; // keys are the editor's: its own shortcuts, not menu navigation
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     impl->layout_path = options.layout.string();
     io.IniFilename = impl->layout_path.empty() ? nullptr : impl->layout_path.c_str();

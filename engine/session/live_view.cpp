@@ -32,6 +32,7 @@ struct Request {
     ViewOptions options;
     std::uint64_t number = 0;
     Clock::time_point time;
+    scene::Version film_version = 0; // of the scene as it came; 0 = not looked at yet
 };
 
 } // namespace
@@ -47,6 +48,7 @@ struct LiveView::Impl {
     std::optional<Request> mail; // the newest request, not yet taken
     std::optional<render::RendererOptions> new_options;
     std::uint64_t last_number = 0; // given out
+    std::uint64_t visible = 0; // the newest request that shows something else than the one before
     std::shared_ptr<const Frame> newest, newest_denoised, to_denoise;
     ViewStatus now;
     std::string no_denoiser;
@@ -70,10 +72,6 @@ struct LiveView::Impl {
         denoise_thread.join();
     }
 
-    bool anything_new() const {
-        std::lock_guard lock(mutex);
-        return stop || mail || new_options;
-    }
     void set_state(ViewState state, std::string text = {}) {
         {
             std::lock_guard lock(mutex);
@@ -94,6 +92,9 @@ struct LiveView::Impl {
         std::optional<Request> request;
         scene::Version film_version = std::uint64_t(1) << 62; // of the films of other resolutions
         std::uint64_t document = 0;
+        scene::Version film_source = 0;                             // of the scene's own film
+        std::uint64_t shown = 0; // number of the request the film is of; 0 = none
+        glm::uvec2 size{0}; // of the full picture
         std::uint32_t divider = 1;
         double rate = 0; // pixels times samples a second
         bool finished = false; // nothing to do until something new comes
@@ -136,7 +137,9 @@ struct LiveView::Impl {
             if (!entry) return std::nullopt;
             return render::MaterialPlugin{entry->table, entry->plugin->folder};
         };
+        options.stand_ins = true; // never wait for a compiler
         auto made = render::Renderer::create(options, lookup, log);
+        work.shown = 0;
         if (!made) return failed(made.error());
         work.renderer = std::move(*made);
         {
@@ -148,12 +151,27 @@ struct LiveView::Impl {
         if (work.request) begin(work);
     }
 
-    // A new request: the first, coarse picture.
+    // A new request: the first, coarse picture; or, when nothing that shows has changed (a name, say), the same one goes on.
     void begin(Work& work) {
         work.finished = true; // until the scene is ready
         if (!work.renderer) return;
-        const Request& request = *work.request;
+        Request& request = *work.request;
         const glm::uvec2 size = glm::max(request.options.size, glm::uvec2(1));
+        if (work.document == request.options.document && work.size == size && work.shown) {
+            const std::uint32_t before = work.renderer->samples();
+            if (!sync(work)) return;
+            if (before > 0 && work.renderer->samples() == before) {
+                request.number = work.shown;
+                work.finished = work.divider == 1 && target_met(work);
+                return;
+            }
+        }
+        work.size = size;
+        work.shown = request.number;
+        {
+            std::lock_guard lock(mutex);
+            visible = request.number;
+        }
         work.divider = 1;
         const double pixels = double(size.x) * size.y;
         const double rate = work.rate > 0 ? work.rate : 1e5; // not known yet: be careful
@@ -177,20 +195,29 @@ struct LiveView::Impl {
     }
 
     bool prepare(Work& work) {
+        ++work.film_version;
+        if (!sync(work)) return false;
+        work.finished = false;
+        work.published_samples = 0;
+        return true;
+    }
+
+    bool sync(Work& work) {
         scene::Scene& scene = work.request->scene;
-        const glm::uvec2 size = glm::max(work.request->options.size / work.divider, glm::uvec2(1));
+        const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
+        if (!work.request->film_version) work.request->film_version = scene.film.version;
+        if (std::exchange(work.film_source, work.request->film_version) != work.request->film_version) ++work.film_version;
         scene::Film& film = scene.film.value;
         film.width = size.x;
         film.height = size.y;
         film.crop = {0, 1, 0, 1};
-        scene.film.version = ++work.film_version;
+        scene.film.version = work.film_version;
         if (auto ready = work.renderer->sync(scene); !ready) {
             work.finished = true;
+            work.shown = 0;
             failed(ready.error());
             return false;
         }
-        work.finished = false;
-        work.published_samples = 0;
         return true;
     }
 
@@ -207,22 +234,26 @@ struct LiveView::Impl {
         render::Renderer& renderer = *work.renderer;
         const auto start = Clock::now();
         const std::uint32_t before = renderer.samples();
-        auto traced = renderer.trace(1, first ? std::function<bool()>([this] {
+        bool stopped = false;
+        auto traced = renderer.trace(1, [&] {
             std::lock_guard lock(mutex);
-            return !stop;
-        })
-                                              : std::function<bool()>([this] { return !anything_new(); }));
+            stopped = stop || (!first && (mail || new_options));
+            return !stopped;
+        });
         if (!traced) {
             work.finished = true;
+            work.shown = 0;
             return failed(traced.error());
         }
-        if (renderer.samples() <= before) return; // stopped: what is new comes next
+        if (stopped) return; // what is new comes next
+        if (renderer.samples() <= before) work.published_samples = 0; // something compiled: the film started again
         const double took = seconds_since(start);
-        const glm::uvec2 size = glm::max(work.request->options.size / work.divider, glm::uvec2(1));
+        const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
         const double rate = double(size.x) * size.y / std::max(took, 1e-6);
         // The first pass of new code is slow, and nothing to judge by: one fast pass counts at once, a slow one slowly.
         work.rate = work.rate <= 0 ? rate : std::max(rate, work.rate) * 0.3 + std::min(rate, work.rate) * 0.7;
-        work.finished = work.divider == 1 && target_met(work);
+        const auto compiling = renderer.compiling();
+        work.finished = work.divider == 1 && !compiling && target_met(work);
         const bool doubled = renderer.samples() >= 2 * work.published_samples;
         if (work.finished || work.published_samples == 0 ||
             (seconds_since(work.last_publish) > publish_interval && (doubled || renderer.samples() < 64)) ||
@@ -236,6 +267,7 @@ struct LiveView::Impl {
             now.samples_per_second = work.rate;
             now.gpu_bytes = renderer.gpu_scene().bytes();
             now.not_finite = renderer.stats().not_finite;
+            now.compiling = compiling ? compiling->what : "";
         }
         on_news();
     }
@@ -285,7 +317,7 @@ struct LiveView::Impl {
             // A coarse picture is worth finishing; a fine one is given up when the scene has changed.
             const auto keep_going = [&](double) {
                 std::lock_guard lock(mutex);
-                return !stop && (source->divider > 1 || last_number == source->request);
+                return !stop && (source->divider > 1 || visible == source->request);
             };
             auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
             if (!color) continue; // stopped; a lasting fault shows as pictures that stay noisy
