@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage edit [SCENE]: the desktop editor. It is also what `restage SCENE` and `restage` alone do where there is a display.
+// restage edit [SCENE]: the desktop editor. It is also what `restage SCENE` and `restage` alone do where there is a
+// display.
 #include "commands.hpp"
 #include "editor/run_editor.hpp"
 #include "rendering.hpp"
@@ -13,10 +14,12 @@ void add_edit(CLI::App& program, Context& context) {
     auto size = std::make_shared<std::string>();
     auto* command = program.add_subcommand("edit", "Open the desktop editor");
     command->add_option("SCENE", o->scene, "Scene file")->check(CLI::ExistingFile);
-    command->add_option("--scale", o->scale, "Size of text and widgets (default: the monitor's)")->check(CLI::Range(0.5, 4.0));
+    command->add_option("--scale", o->scale, "Size of text and widgets (default: the monitor's)")
+        ->check(CLI::Range(0.5, 4.0));
     command->add_option("--window", *size, "Size of the window WxH");
     command->add_option("--config", o->config_dir, "Folder for layout, preferences and recovery files");
-    command->add_option("--probe", o->probe, "For tests: write the editor's state as JSON to this file when it changes");
+    command->add_option("--probe", o->probe,
+                        "For tests: write the editor's state as JSON to this file when it changes");
     command->add_option("--tracer", o->renderer.tracer, "embree or vulkan (default: by device)")
         ->check(CLI::IsMember({"embree", "vulkan"}));
     command->add_option("--device", o->renderer.device, "Vulkan device: its number or part of its name");

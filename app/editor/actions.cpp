@@ -5,11 +5,11 @@
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 
+#include <imgui_internal.h>
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
-#include <imgui_internal.h>
 
 namespace restage::editor {
 
@@ -28,26 +28,28 @@ void remove_selected(Editor& e) {
 }
 
 void duplicate_selected(Editor& e) {
-    // A little to the side, so that the copy is seen: a tenth of its size along the world axis that is most across the view.
+    // A little to the side, so that the copy is seen: a tenth of its size along the world axis that is most across the
+    // view.
     const scene::Bounds bounds = e.selection.bounds(e.scene());
     const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
     int axis = 0;
     for (int i = 1; i < 3; ++i)
         if (std::abs(right[i]) > std::abs(right[axis])) axis = i;
     glm::dvec3 step(0);
-    step[axis] = (right[axis] < 0 ? -1 : 1) * (bounds.empty() ? 0 : std::max(bounds.size()[axis] * 1.05, bounds.radius() * 0.1));
+    step[axis] =
+        (right[axis] < 0 ? -1 : 1) * (bounds.empty() ? 0 : std::max(bounds.size()[axis] * 1.05, bounds.radius() * 0.1));
     auto made = e.session_for_changes().duplicate(e.selection.instances(), glm::translate(glm::dmat4(1), step));
-    if (made) e.selection.set(*made);
-    else e.notices.add(LogLevel::error, made.error().message);
+    if (made)
+        e.selection.set(*made);
+    else
+        e.notices.add(LogLevel::error, made.error().message);
 }
 
 void frame_bounds(Editor& e, const scene::Bounds& bounds) {
     if (bounds.empty()) return;
     scene::Camera camera = e.camera();
     session::frame(camera, bounds, e.film_aspect());
-    e.edit([camera](const scene::Scene& s) {
-        return scene::set_camera(s, s.active_camera.value, camera, "Frame");
-    });
+    e.edit([camera](const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, camera, "Frame"); });
 }
 
 void go_to(Editor& e, const scene::Camera& camera, const std::string& label) {
@@ -89,7 +91,8 @@ void drop_to_floor(Editor& e) {
     const glm::dvec3 c = bounds.center();
     const double height = std::abs(glm::dot(bounds.size(), up));
     const glm::dvec3 from = c + up * (lowest - glm::dot(c, up) + 1e-3 * height);
-    const auto hits = session::raycast_all(e.scene(), from, -up, [&](InstanceId id) { return e.selection.contains(id); });
+    const auto hits =
+        session::raycast_all(e.scene(), from, -up, [&](InstanceId id) { return e.selection.contains(id); });
     if (hits.empty()) {
         e.notices.add(LogLevel::info, "There is nothing below to stand on");
         return;
@@ -187,10 +190,11 @@ constexpr auto actions = std::to_array<Action>({
      [](Editor& e) { frame_bounds(e, e.selection.bounds(e.scene())); }},
     {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is seen", has_scene,
      [](Editor& e) { frame_bounds(e, scene::world_bounds(e.scene())); }},
-    {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0, "Back to where the camera was when opened",
-     [](const Editor& e) { return e.opened_camera() != nullptr; },
+    {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0,
+     "Back to where the camera was when opened", [](const Editor& e) { return e.opened_camera() != nullptr; },
      [](Editor& e) { go_to(e, *e.opened_camera(), "Camera of the file"); }},
-    {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene, bookmark},
+    {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene,
+     bookmark},
     {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next view that was kept",
      [](const Editor& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
     {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
@@ -205,11 +209,11 @@ constexpr auto actions = std::to_array<Action>({
      [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const Editor& e) { return e.view.local_axes; }},
     {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
      [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const Editor& e) { return e.view.denoise; }},
-    {"view.overlays", "Overlays", ImGuiMod_Shift | ImGuiKey_O, 0, "Outlines, handles and notes over the picture", nullptr,
-     [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
+    {"view.overlays", "Overlays", ImGuiMod_Shift | ImGuiKey_O, 0, "Outlines, handles and notes over the picture",
+     nullptr, [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
      [](const Editor& e) { return e.view.show_overlays; }},
-    {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and depth of the pixel under the mouse", nullptr,
-     [](Editor& e) { e.view.inspect_pixels = !e.view.inspect_pixels; },
+    {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and depth of the pixel under the mouse",
+     nullptr, [](Editor& e) { e.view.inspect_pixels = !e.view.inspect_pixels; },
      [](const Editor& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
      [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const Editor& e) { return e.view.show_panels; }},
@@ -230,7 +234,7 @@ ImGuiKeyChord key_of(const Action& action, KeyPreset preset) {
 
 std::string_view key_text(ImGuiKeyChord key) { return key ? ImGui::GetKeyChordName(key) : ""; }
 
-void run_shortcuts(Editor& editor) {
+void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
     const ImGuiIO& io = ImGui::GetIO();
     // While text is typed, a dialog is open, or the camera flies on WASD, keys mean something else.
     if (io.WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ||
@@ -238,7 +242,8 @@ void run_shortcuts(Editor& editor) {
         return;
     for (const Action& action : actions) {
         const ImGuiKeyChord key = key_of(action, editor.view.keys);
-        if (key && ImGui::IsKeyChordPressed(key)) editor.run(action.id);
+        if (key && (keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key)))
+            editor.run(action.id);
     }
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions: everything a menu, a key or a button can do, by name. One table gives menus, shortcuts, the help page and the
-// command palette; a button asks for an action by its id.
+// Actions: everything a menu, a key or a button can do, by name. One table gives menus, shortcuts, the help page and
+// the command palette; a button asks for an action by its id.
 #pragma once
 
 #include <imgui.h>
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace restage::editor {
 
@@ -30,8 +31,9 @@ const Action* find_action(std::string_view id);
 ImGuiKeyChord key_of(const Action& action, KeyPreset preset);
 std::string_view key_text(ImGuiKeyChord key); // "Ctrl+Z"; "" = none. Valid until the next call
 
-// Runs what keys ask for; call once a frame, with nothing else wanting the keyboard.
-void run_shortcuts(Editor& editor);
+// Runs what keys ask for, once a frame; while text is typed or a dialog is open they are left alone. `keys`: see
+// Editor::frame.
+void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys);
 // A menu entry, or a button, of that action, with its shortcut and tooltip.
 void menu_item(Editor& editor, std::string_view id);
 bool action_button(Editor& editor, std::string_view id, const char* label = nullptr);

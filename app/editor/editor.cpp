@@ -6,14 +6,16 @@
 #include "theme.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <algorithm>
 
 namespace restage::editor {
 
 Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
-    : options_(std::move(options)), log_(log), session_(registry),
+    : options_(std::move(options)),
+      log_(log),
+      session_(registry),
       live_(std::make_unique<session::LiveView>(registry, log, options_.renderer, options_.wake)),
       opening_(registry, options_.wake) {
     for (const Panel& panel : all_panels())
@@ -47,7 +49,8 @@ std::shared_ptr<const session::Frame> Editor::shown_frame() const {
     return live_->best(view.denoise && view.display.layer == session::Layer::color);
 }
 
-// --- asking ------------------------------------------------------------------------------------------------------------
+// --- asking
+// ------------------------------------------------------------------------------------------------------------
 
 void Editor::edit(Builder builder, std::string gesture) {
     pending_.push_back({.builder = std::move(builder), .gesture = std::move(gesture)});
@@ -89,12 +92,13 @@ void Editor::request_quit() {
     });
 }
 
-// --- a frame -----------------------------------------------------------------------------------------------------------
+// --- a frame
+// -----------------------------------------------------------------------------------------------------------
 
-void Editor::frame() {
+void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     marks_.clear();
     follow_opening();
-    run_shortcuts(*this);
+    run_shortcuts(*this, keys);
     draw_panels();
     draw_modals();
     // A gesture ends when nothing is held any more.
@@ -121,11 +125,11 @@ void Editor::follow_opening() {
     up_ = session::guess_up(camera());
     const auto approximated = session_.report().count(RESTAGE_APPROXIMATED),
                dropped = session_.report().count(RESTAGE_DROPPED);
-    notices.add(LogLevel::info, fmt::format("{}: {} objects", opening_.path().filename().string(),
-                                            scene().instances.live()));
+    notices.add(LogLevel::info,
+                fmt::format("{}: {} objects", opening_.path().filename().string(), scene().instances.live()));
     if (approximated + dropped > 0)
-        notices.add(LogLevel::warning, fmt::format("{} things approximated, {} dropped: see Import report",
-                                                   approximated, dropped));
+        notices.add(LogLevel::warning,
+                    fmt::format("{} things approximated, {} dropped: see Import report", approximated, dropped));
 }
 
 void Editor::apply_pending() {
@@ -170,7 +174,8 @@ void Editor::refresh_picture() {
                                    .error = wanted.error});
 }
 
-// --- panels ------------------------------------------------------------------------------------------------------------
+// --- panels
+// ------------------------------------------------------------------------------------------------------------
 
 bool Editor::panel_open(std::string_view title) const {
     const auto found = panels_open_.find(title);
@@ -214,7 +219,8 @@ void Editor::draw_menu() {
     if (!state.empty()) {
         ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(state.c_str()).x -
                         24 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextColored(status.state == session::ViewState::failed ? colors::error : colors::dim, "%s", state.c_str());
+        ImGui::TextColored(status.state == session::ViewState::failed ? colors::error : colors::dim, "%s",
+                           state.c_str());
         if (!status.text.empty()) ImGui::SetItemTooltip("%s", status.text.c_str());
     }
     ImGui::EndMainMenuBar();
@@ -250,9 +256,9 @@ void Editor::draw_panels() {
         ImGui::SetNextWindowPos(main->WorkPos);
         ImGui::SetNextWindowSize(main->WorkSize);
         ImGui::DockSpaceOverViewport(space, main, ImGuiDockNodeFlags_KeepAliveOnly);
-        ImGui::Begin("##picture alone", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
-                                                     ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoMove |
-                                                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+        ImGui::Begin("##picture alone", nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoDocking |
+                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
         draw_viewport(*this);
         ImGui::End();
         return;
@@ -264,8 +270,9 @@ void Editor::draw_panels() {
         if (!open) continue;
         const bool picture = panel.draw == draw_viewport;
         if (picture) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-        const bool visible = ImGui::Begin(panel.title, picture ? nullptr : &open,
-                                          picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
+        const bool visible =
+            ImGui::Begin(panel.title, picture ? nullptr : &open,
+                         picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
         if (picture) ImGui::PopStyleVar();
         if (visible) panel.draw(*this);
         ImGui::End();

@@ -9,10 +9,10 @@
 #include "notices.hpp"
 #include "opening.hpp"
 #include "selection.hpp"
-#include "viewport.hpp"
 #include "session/display.hpp"
 #include "session/live_view.hpp"
 #include "session/session.hpp"
+#include "viewport.hpp"
 
 #include <deque>
 #include <filesystem>
@@ -38,10 +38,10 @@ enum class GizmoMode { select, move, rotate, scale };
 struct ViewSettings {
     session::DisplaySettings display;
     bool denoise = true;
-    bool show_overlays = true;   // outlines, gizmo, names
-    bool show_panels = true;     // Tab
+    bool show_overlays = true; // outlines, gizmo, names
+    bool show_panels = true; // Tab
     bool inspect_pixels = false; // values under the mouse
-    float resolution = 1;        // picture pixels a screen pixel
+    float resolution = 1; // picture pixels a screen pixel
     GizmoMode gizmo = GizmoMode::move;
     bool local_axes = false;
     float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // scene units, deg, factor
@@ -58,8 +58,9 @@ class Editor {
     Editor(const Editor&) = delete;
     Editor& operator=(const Editor&) = delete;
 
-    // Builds one frame of the UI, then does what it asked for.
-    void frame();
+    // Builds one frame of the UI, then does what it asked for. `keys`: pressed since the last one, by a window that
+    // knows better than Dear ImGui (see Window::take_keys); null = Dear ImGui's own.
+    void frame(const std::vector<ImGuiKeyChord>* keys = nullptr);
     bool quit_confirmed() const { return quit_; }
     void request_quit(); // asks about unsaved changes first
     // What the window's title says.
@@ -67,7 +68,8 @@ class Editor {
     // True while frames should follow each other without waiting for events (flying, a fading notice).
     bool animating() const;
 
-    // --- the document -------------------------------------------------------------------------------------------------
+    // --- the document
+    // -------------------------------------------------------------------------------------------------
     const session::Session& session() const { return session_; }
     const scene::Scene& scene() const { return session_.scene(); }
     const plugin::Registry& registry() const { return session_.registry(); }
@@ -95,7 +97,8 @@ class Editor {
         return original_ ? original_->cameras.find(original_->active_camera.value) : nullptr;
     }
 
-    // --- what is shown -------------------------------------------------------------------------------------------------
+    // --- what is shown
+    // -------------------------------------------------------------------------------------------------
     Selection selection;
     InstanceId hovered; // under the mouse in the viewport or the outliner
     ViewSettings view;
@@ -110,7 +113,8 @@ class Editor {
     Viewport viewport;
     std::optional<scene::Id<scene::Material>> material_clipboard;
 
-    // --- panels --------------------------------------------------------------------------------------------------------
+    // --- panels
+    // --------------------------------------------------------------------------------------------------------
     void run(std::string_view action) { actions_to_run_.emplace_back(action); }
     bool panel_open(std::string_view title) const;
     void open_panel(std::string_view title, bool open = true);

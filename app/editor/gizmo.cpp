@@ -51,7 +51,9 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
         const InstanceId active = e.selection.active();
         const bool single = e.selection.instances().size() == 1;
         drag.pivot = light ? glm::dvec3(light->light_to_world[3]) : e.selection.bounds(s).center();
-        const glm::dmat4* own = light ? &light->light_to_world : single ? &s.instances[active].object_to_world : nullptr;
+        const glm::dmat4* own = light    ? &light->light_to_world
+                                : single ? &s.instances[active].object_to_world
+                                         : nullptr;
         // Scaling along world axes would shear a turned object, so one object is always scaled along its own.
         const bool local = own && (e.view.local_axes || e.view.gizmo == GizmoMode::scale);
         drag.frame = glm::dmat4(local ? rotation_of(*own) : glm::dmat3(1));
@@ -66,7 +68,8 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     const glm::dvec4 window = session::film_window(camera, e.film_aspect());
     const double reach = glm::length(glm::dvec3(to_world[3])) + 1e-6;
     const double near = reach * 1e-3, far = reach * 1e3;
-    const glm::mat4 projection(glm::frustumRH_NO(window.x * near, window.y * near, window.z * near, window.w * near, near, far));
+    const glm::mat4 projection(
+        glm::frustumRH_NO(window.x * near, window.y * near, window.z * near, window.w * near, near, far));
 
     const ImGuiIO& io = ImGui::GetIO();
     ImGuizmo::SetDrawlist();
@@ -80,8 +83,9 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
                        : e.view.gizmo == GizmoMode::rotate ? e.view.snap_angle
                                                            : e.view.snap_scale;
     const float snap[3] = {step, step, step};
-    const bool moved = ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation, ImGuizmo::LOCAL,
-                                            glm::value_ptr(drag.current), nullptr, io.KeyCtrl ? snap : nullptr);
+    const bool moved =
+        ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation, ImGuizmo::LOCAL,
+                             glm::value_ptr(drag.current), nullptr, io.KeyCtrl ? snap : nullptr);
 
     if (ImGuizmo::IsUsing() && !drag.active) { // it begins
         drag.active = true;
@@ -108,10 +112,10 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
         // What the handles did since the start, about the pivot.
         const glm::dmat4 there = glm::translate(glm::dmat4(1), drag.pivot);
         const glm::dmat4 by = there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there);
-        const char* verb = drag.copied                          ? "Copy"
-                           : e.view.gizmo == GizmoMode::move    ? "Move"
-                           : e.view.gizmo == GizmoMode::rotate  ? "Rotate"
-                                                                : "Scale";
+        const char* verb = drag.copied                         ? "Copy"
+                           : e.view.gizmo == GizmoMode::move   ? "Move"
+                           : e.view.gizmo == GizmoMode::rotate ? "Rotate"
+                                                               : "Scale";
         if (drag.light_start)
             e.edit(
                 [id = e.selection.light(), m = by * *drag.light_start](const scene::Scene& now) {

@@ -3,8 +3,8 @@
 
 #include "theme.hpp"
 
-#include <chrono>
 #include <imgui.h>
+#include <chrono>
 #include <vector>
 
 namespace restage::editor {
@@ -65,7 +65,8 @@ void Notices::draw(float right, float bottom) {
         const ImVec4 stripe = line.level == LogLevel::error     ? colors::error
                               : line.level == LogLevel::warning ? colors::warning
                                                                 : colors::good;
-        draw->AddRectFilled(corner, {right - pad, bottom}, ImGui::GetColorU32({0.1f, 0.1f, 0.11f, 0.92f * alpha}), 4 * scale);
+        draw->AddRectFilled(corner, {right - pad, bottom}, ImGui::GetColorU32({0.1f, 0.1f, 0.11f, 0.92f * alpha}),
+                            4 * scale);
         draw->AddRectFilled(corner, {corner.x + 3 * scale, bottom},
                             ImGui::GetColorU32({stripe.x, stripe.y, stripe.z, alpha}), 2 * scale);
         draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + pad, corner.y + pad},

@@ -19,7 +19,8 @@ class Opening {
   public:
     enum class Purpose { replace, insert }; // becomes the document, or joins it
 
-    Opening(const plugin::Registry& registry, std::function<void()> wake) : registry_(registry), wake_(std::move(wake)) {}
+    Opening(const plugin::Registry& registry, std::function<void()> wake)
+        : registry_(registry), wake_(std::move(wake)) {}
     ~Opening() { cancel_and_wait(); }
 
     // Gives up what is being read, if anything.

@@ -50,7 +50,8 @@ Result<int> run_editor(const RunOptions& options) {
         for (const auto& path : window->take_dropped(where))
             editor.open(path);
         if (!window->begin_frame()) continue;
-        editor.frame();
+        const auto keys = window->take_keys();
+        editor.frame(&keys);
         RESTAGE_CHECK(window->end_frame());
         if (editor.title() != title) window->set_title(title = editor.title());
         if (!options.probe.empty())

@@ -37,7 +37,8 @@ void Selection::prune(const scene::Scene& scene) {
 }
 
 bool is_within(const scene::Scene& scene, GroupId inner, GroupId outer) {
-    for (const scene::Group* group = scene.groups.find(inner); group; inner = group->parent, group = scene.groups.find(inner))
+    for (const scene::Group* group = scene.groups.find(inner); group;
+         inner = group->parent, group = scene.groups.find(inner))
         if (inner == outer) return true;
     return false;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture.hpp"
 
-#include <cstring>
 #include <imgui_internal.h>
+#include <cstring>
 
 namespace restage::editor {
 

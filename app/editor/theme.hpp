@@ -2,8 +2,8 @@
 // Theme: fonts, colours and spacing of the editor, for any scale.
 #pragma once
 
-#include <filesystem>
 #include <imgui.h>
+#include <filesystem>
 
 namespace restage::editor {
 

@@ -29,21 +29,22 @@ void Viewport::draw(Editor& e) {
     size = {std::max(std::floor(size.x), 16.f), std::max(std::floor(size.y), 16.f)};
     corner = {std::floor(origin.x + (space.x - size.x) / 2), std::floor(origin.y + (space.y - size.y) / 2)};
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-    e.set_picture_size(glm::max(glm::uvec2(size.x * pixels.x * e.view.resolution, size.y * pixels.y * e.view.resolution),
-                                glm::uvec2(16)));
+    e.set_picture_size(glm::max(
+        glm::uvec2(size.x * pixels.x * e.view.resolution, size.y * pixels.y * e.view.resolution), glm::uvec2(16)));
 
     ImGui::SetCursorScreenPos(corner);
     ImGui::SetNextItemAllowOverlap();
-    ImGui::InvisibleButton("##picture", size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                               ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::InvisibleButton(
+        "##picture", size,
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     e.mark("picture");
     const bool over = ImGui::IsItemHovered();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
 
     update_textures(e);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    if (picture_.ready()) draw->AddImage(picture_.ref(), corner, end);
+    if (picture_.ready())
+        draw->AddImage(picture_.ref(), corner, end);
     else {
         const char* text = e.opening().running() ? "Opening..." : "Open a scene with Ctrl+O, or drop a file here";
         const ImVec2 extent = ImGui::CalcTextSize(text);
@@ -79,7 +80,8 @@ InstanceId Viewport::instance_at(const Editor& e, ImVec2 screen) const {
     return e.scene().instances.find(id) ? id : InstanceId{};
 }
 
-// --- drawing -----------------------------------------------------------------------------------------------------------
+// --- drawing
+// -----------------------------------------------------------------------------------------------------------
 
 void Viewport::draw_toolbar(Editor& e) {
     const float scale = ImGui::GetStyle().FontScaleMain;
@@ -105,7 +107,8 @@ void Viewport::draw_toolbar(Editor& e) {
     int layer = int(e.view.display.layer);
     ImGui::SetNextItemWidth(96 * scale);
     if (ImGui::Combo("##layer", &layer, layers, IM_ARRAYSIZE(layers))) e.view.display.layer = session::Layer(layer);
-    ImGui::SetItemTooltip("What is shown: the picture, a guide image, or the estimated relative error (dark 0.1 %%, white 100 %%)");
+    ImGui::SetItemTooltip(
+        "What is shown: the picture, a guide image, or the estimated relative error (dark 0.1 %%, white 100 %%)");
     e.mark("toolbar.layer");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90 * scale);
@@ -193,16 +196,19 @@ void Viewport::draw_status(Editor& e) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const session::ViewStatus status = e.live().status();
     std::string text;
-    if (status.state == session::ViewState::failed) text = status.text;
+    if (status.state == session::ViewState::failed)
+        text = status.text;
     else if (drawn_)
-        text = fmt::format("{}x{}  {} spp{}  {:.1f} % error  {:.2f} Msamples/s", drawn_->image.width, drawn_->image.height,
-                           std::max(status.divider > 1 ? 1u : status.samples, 1u), drawn_->denoised ? " denoised" : "",
-                           std::min(drawn_->relative_error * 100, 999.0), status.samples_per_second * 1e-6);
+        text =
+            fmt::format("{}x{}  {} spp{}  {:.1f} % error  {:.2f} Msamples/s", drawn_->image.width, drawn_->image.height,
+                        std::max(status.divider > 1 ? 1u : status.samples, 1u), drawn_->denoised ? " denoised" : "",
+                        std::min(drawn_->relative_error * 100, 999.0), status.samples_per_second * 1e-6);
     if (!text.empty()) {
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
         const ImVec2 a(corner.x + 6 * scale, end.y - extent.y - 10 * scale);
-        draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale}, {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale},
-                            IM_COL32(16, 16, 18, 180), 3 * scale);
+        draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale},
+                            {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale}, IM_COL32(16, 16, 18, 180),
+                            3 * scale);
         draw->AddText(a, ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
                       text.c_str());
     }
@@ -217,7 +223,8 @@ void Viewport::draw_status(Editor& e) {
     }
 }
 
-// --- navigating --------------------------------------------------------------------------------------------------------
+// --- navigating
+// --------------------------------------------------------------------------------------------------------
 
 glm::dvec3 Viewport::pivot(const Editor& e) const {
     if (orbit_center_) return *orbit_center_;
@@ -249,8 +256,10 @@ void Viewport::navigate(Editor& e, bool over) {
     if (over && navigation_ == Navigation::none) {
         if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle))
             navigation_ = e.view.keys == KeyPreset::blender && !io.KeyShift ? Navigation::orbit : Navigation::pan;
-        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) navigation_ = alt ? Navigation::dolly : Navigation::fly;
-        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt) navigation_ = Navigation::orbit;
+        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+            navigation_ = alt ? Navigation::dolly : Navigation::fly;
+        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt)
+            navigation_ = Navigation::orbit;
     }
     const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ||
                       ImGui::IsMouseDown(ImGuiMouseButton_Right);
@@ -267,40 +276,43 @@ void Viewport::navigate(Editor& e, bool over) {
     const bool mirrored = glm::determinant(glm::dmat3(camera.camera_to_world)) < 0;
     const double turn = mirrored ? -3.0 : 3.0; // [rad] a picture height
     switch (navigation_) {
-    case Navigation::none: break;
-    case Navigation::orbit:
-        if (moved) {
-            session::orbit(camera, pivot(e), e.up(), {delta.x * turn, -delta.y * 3.0});
-            set_camera(e, camera, "navigate");
+        case Navigation::none:
+            break;
+        case Navigation::orbit:
+            if (moved) {
+                session::orbit(camera, pivot(e), e.up(), {delta.x * turn, -delta.y * 3.0});
+                set_camera(e, camera, "navigate");
+            }
+            break;
+        case Navigation::pan:
+            if (moved) {
+                const double distance = glm::length(pivot(e) - glm::dvec3(camera.camera_to_world[3]));
+                session::pan(camera, delta, std::max(distance, 1e-6), aspect);
+                set_camera(e, camera, "navigate");
+            }
+            break;
+        case Navigation::dolly:
+            if (moved) {
+                session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
+                set_camera(e, camera, "navigate");
+            }
+            break;
+        case Navigation::fly: {
+            if (io.MouseWheel != 0)
+                e.view.fly_speed = std::clamp(e.view.fly_speed * std::pow(1.25f, io.MouseWheel), 0.01f, 100.f);
+            if (moved) session::look(camera, e.up(), {-delta.x * turn * 0.5, -delta.y * 1.5});
+            glm::dvec3 go(0);
+            const auto key = [](ImGuiKey k) { return ImGui::IsKeyDown(k) ? 1.0 : 0.0; };
+            go.x = key(ImGuiKey_D) - key(ImGuiKey_A);
+            go.y = key(ImGuiKey_E) - key(ImGuiKey_Q);
+            go.z = key(ImGuiKey_W) - key(ImGuiKey_S);
+            const double radius = std::max(scene::world_bounds(e.scene()).radius(), 1e-6);
+            const double speed = radius * 0.25 * e.view.fly_speed * (io.KeyShift ? 4 : 1); // a second
+            if (go != glm::dvec3(0))
+                session::translate_local(camera, go * speed * double(std::min(io.DeltaTime, 0.1f)));
+            if (moved || go != glm::dvec3(0)) set_camera(e, camera, "navigate");
+            break;
         }
-        break;
-    case Navigation::pan:
-        if (moved) {
-            const double distance = glm::length(pivot(e) - glm::dvec3(camera.camera_to_world[3]));
-            session::pan(camera, delta, std::max(distance, 1e-6), aspect);
-            set_camera(e, camera, "navigate");
-        }
-        break;
-    case Navigation::dolly:
-        if (moved) {
-            session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
-            set_camera(e, camera, "navigate");
-        }
-        break;
-    case Navigation::fly: {
-        if (io.MouseWheel != 0) e.view.fly_speed = std::clamp(e.view.fly_speed * std::pow(1.25f, io.MouseWheel), 0.01f, 100.f);
-        if (moved) session::look(camera, e.up(), {-delta.x * turn * 0.5, -delta.y * 1.5});
-        glm::dvec3 go(0);
-        const auto key = [](ImGuiKey k) { return ImGui::IsKeyDown(k) ? 1.0 : 0.0; };
-        go.x = key(ImGuiKey_D) - key(ImGuiKey_A);
-        go.y = key(ImGuiKey_E) - key(ImGuiKey_Q);
-        go.z = key(ImGuiKey_W) - key(ImGuiKey_S);
-        const double radius = std::max(scene::world_bounds(e.scene()).radius(), 1e-6);
-        const double speed = radius * 0.25 * e.view.fly_speed * (io.KeyShift ? 4 : 1); // a second
-        if (go != glm::dvec3(0)) session::translate_local(camera, go * speed * double(std::min(io.DeltaTime, 0.1f)));
-        if (moved || go != glm::dvec3(0)) set_camera(e, camera, "navigate");
-        break;
-    }
     }
 
     if (over && io.MouseWheel != 0 && navigation_ == Navigation::none) {
@@ -310,10 +322,12 @@ void Viewport::navigate(Editor& e, bool over) {
         if (const InstanceId id = instance_at(e, io.MousePos); id && drawn_) {
             const glm::dvec2 p = film_point(io.MousePos);
             const auto& image = drawn_->image;
-            const float depth = image.depth[std::size_t(p.y * image.height) * image.width + std::size_t(p.x * image.width)];
+            const float depth =
+                image.depth[std::size_t(p.y * image.height) * image.width + std::size_t(p.x * image.width)];
             if (depth > 0 && std::isfinite(depth)) distance = depth;
         }
-        session::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance, 1 - std::pow(0.88, double(io.MouseWheel)));
+        session::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance,
+                       1 - std::pow(0.88, double(io.MouseWheel)));
         // Turns of the wheel that follow each other are one step.
         if (ImGui::GetTime() - wheel_time_ > 0.7) e.end_gesture();
         wheel_time_ = ImGui::GetTime();
@@ -321,7 +335,8 @@ void Viewport::navigate(Editor& e, bool over) {
     }
 }
 
-// --- picking -----------------------------------------------------------------------------------------------------------
+// --- picking
+// -----------------------------------------------------------------------------------------------------------
 
 void Viewport::pick(Editor& e, bool over, bool gizmo) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -386,7 +401,8 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
             const glm::dvec3 p = session::project(e.camera(), glm::dvec3(l.light_to_world[3]), e.film_aspect());
             const float r = 9 * ImGui::GetStyle().FontScaleMain;
             if (l.kind != RESTAGE_LIGHT_DISTANT && p.z > 0 &&
-                std::hypot(corner.x + float(p.x) * size.x - io.MousePos.x, corner.y + float(p.y) * size.y - io.MousePos.y) < r)
+                std::hypot(corner.x + float(p.x) * size.x - io.MousePos.x,
+                           corner.y + float(p.y) * size.y - io.MousePos.y) < r)
                 light = id;
         });
     if (light) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Viewport: the picture, what lies over it (outlines, handles, notes), and what the mouse does in it: navigate, pick, drop.
+// Viewport: the picture, what lies over it (outlines, handles, notes), and what the mouse does in it: navigate, pick,
+// drop.
 #pragma once
 
 #include "selection.hpp"

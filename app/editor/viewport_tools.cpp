@@ -21,8 +21,7 @@ void Viewport::stick(Editor& e, bool over) {
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
     if (sticking_ && moved.x == 0 && moved.y == 0) return;
     sticking_ = true;
-    const session::ViewRay ray =
-        session::view_ray(e.camera(), film_point(ImGui::GetIO().MousePos), e.film_aspect());
+    const session::ViewRay ray = session::view_ray(e.camera(), film_point(ImGui::GetIO().MousePos), e.film_aspect());
     const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction,
                                            [&](InstanceId id) { return e.selection.contains(id); });
     if (hits.empty()) return;

@@ -8,8 +8,11 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
-#include <algorithm>
 #include <implot.h>
+#include <algorithm>
+
+// Of Dear ImGui's backend; not in its header.
+ImGuiKey ImGui_ImplGlfw_KeyToImGuiKey(int keycode, int scancode);
 
 namespace restage::editor {
 
@@ -37,6 +40,7 @@ struct Window::Impl {
     std::string layout_path;
     std::vector<std::filesystem::path> dropped;
     glm::vec2 dropped_at{0};
+    std::vector<ImGuiKeyChord> keys;
     float scale = 1;
     bool imgui = false, imgui_glfw = false, imgui_vulkan = false;
     bool stale = false; // the swapchain does not fit the window any more
@@ -49,8 +53,7 @@ struct Window::Impl {
             ImPlot::DestroyContext();
             ImGui::DestroyContext();
         }
-        if (swap.Swapchain)
-            ImGui_ImplVulkanH_DestroyWindow(device->instance(), device->handle(), &swap, nullptr);
+        if (swap.Swapchain) ImGui_ImplVulkanH_DestroyWindow(device->instance(), device->handle(), &swap, nullptr);
         if (surface) vkDestroySurfaceKHR(device->instance(), surface, nullptr);
         device.reset();
         if (window) glfwDestroyWindow(window);
@@ -62,8 +65,8 @@ struct Window::Impl {
         glfwGetFramebufferSize(window, &width, &height);
         if (width <= 0 || height <= 0) return;
         if (stale || swap.Width != width || swap.Height != height) {
-            ImGui_ImplVulkanH_CreateOrResizeWindow(device->instance(), device->physical_device(), device->handle(), &swap,
-                                                   device->queue_family(), nullptr, width, height, 2, 0);
+            ImGui_ImplVulkanH_CreateOrResizeWindow(device->instance(), device->physical_device(), device->handle(),
+                                                   &swap, device->queue_family(), nullptr, width, height, 2, 0);
             swap.FrameIndex = 0;
             stale = false;
         }
@@ -83,13 +86,13 @@ struct Window::Impl {
         const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                              .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
         note_failure(vkBeginCommandBuffer(frame.CommandBuffer, &begin));
-        const VkRenderPassBeginInfo pass{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = swap.RenderPass,
-                                         .framebuffer = frame.Framebuffer,
-                                         .renderArea = {.extent = {static_cast<std::uint32_t>(swap.Width),
-                                                                   static_cast<std::uint32_t>(swap.Height)}},
-                                         .clearValueCount = 1,
-                                         .pClearValues = &swap.ClearValue};
+        const VkRenderPassBeginInfo pass{
+            .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+            .renderPass = swap.RenderPass,
+            .framebuffer = frame.Framebuffer,
+            .renderArea = {.extent = {static_cast<std::uint32_t>(swap.Width), static_cast<std::uint32_t>(swap.Height)}},
+            .clearValueCount = 1,
+            .pClearValues = &swap.ClearValue};
         vkCmdBeginRenderPass(frame.CommandBuffer, &pass, VK_SUBPASS_CONTENTS_INLINE);
         ImGui_ImplVulkan_RenderDrawData(draw, frame.CommandBuffer);
         vkCmdEndRenderPass(frame.CommandBuffer);
@@ -111,10 +114,13 @@ struct Window::Impl {
                                        .pSwapchains = &swap.Swapchain,
                                        .pImageIndices = &swap.FrameIndex};
         result = vkQueuePresentKHR(device->queue(), &present);
-        if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) stale = true;
-        else note_failure(result);
+        if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
+            stale = true;
+        else
+            note_failure(result);
         swap.SemaphoreIndex = (swap.SemaphoreIndex + 1) % swap.SemaphoreCount;
-        if (last_failure != VK_SUCCESS) return device->error(std::exchange(last_failure, VK_SUCCESS), "drawing the window");
+        if (last_failure != VK_SUCCESS)
+            return device->error(std::exchange(last_failure, VK_SUCCESS), "drawing the window");
         return {};
     }
 };
@@ -142,6 +148,19 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
             self.dropped.emplace_back(paths[i]);
     });
 
+    // Dear ImGui's own callback, set later, calls this one.
+    glfwSetKeyCallback(impl->window, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
+        if (action != GLFW_PRESS) return;
+        auto& self = *static_cast<Impl*>(glfwGetWindowUserPointer(window));
+        ImGuiKeyChord chord = ImGui_ImplGlfw_KeyToImGuiKey(key, scancode);
+        if (chord == ImGuiKey_None) return;
+        if (mods & GLFW_MOD_CONTROL) chord |= ImGuiMod_Ctrl;
+        if (mods & GLFW_MOD_SHIFT) chord |= ImGuiMod_Shift;
+        if (mods & GLFW_MOD_ALT) chord |= ImGuiMod_Alt;
+        if (mods & GLFW_MOD_SUPER) chord |= ImGuiMod_Super;
+        self.keys.push_back(chord);
+    });
+
     gpu::DeviceOptions device_options{.select = options.device, .validation = options.validation};
     std::uint32_t count = 0;
     const char** extensions = glfwGetRequiredInstanceExtensions(&count);
@@ -161,12 +180,11 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     if (!presents) return fail(device.info().name + " cannot show pictures on this display; try another --device");
     impl->swap.Surface = impl->surface;
     const VkFormat formats[] = {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM};
-    impl->swap.SurfaceFormat = ImGui_ImplVulkanH_SelectSurfaceFormat(device.physical_device(), impl->surface, formats, 2,
-                                                                     VK_COLOR_SPACE_SRGB_NONLINEAR_KHR);
+    impl->swap.SurfaceFormat = ImGui_ImplVulkanH_SelectSurfaceFormat(device.physical_device(), impl->surface, formats,
+                                                                     2, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR);
     // MAILBOX does not wait for the screen, so a frame that waits never delays input; FIFO is always there.
     const VkPresentModeKHR modes[] = {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_FIFO_KHR};
-    impl->swap.PresentMode =
-        ImGui_ImplVulkanH_SelectPresentMode(device.physical_device(), impl->surface, modes, 2);
+    impl->swap.PresentMode = ImGui_ImplVulkanH_SelectPresentMode(device.physical_device(), impl->surface, modes, 2);
     impl->resize();
 
     IMGUI_CHECKVERSION();
@@ -220,6 +238,8 @@ Result<void> Window::end_frame() {
     ImGui::Render();
     return impl_->present(ImGui::GetDrawData());
 }
+
+std::vector<ImGuiKeyChord> Window::take_keys() { return std::exchange(impl_->keys, {}); }
 
 bool Window::close_requested() const { return glfwWindowShouldClose(impl_->window); }
 void Window::refuse_close() { glfwSetWindowShouldClose(impl_->window, GLFW_FALSE); }

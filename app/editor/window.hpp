@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Window: one GLFW window that Dear ImGui draws into through Vulkan, with a device of its own, so that drawing never waits
-// for rendering. Begin a frame, build the UI, end it. [main]
+// Window: one GLFW window that Dear ImGui draws into through Vulkan, with a device of its own, so that drawing never
+// waits for rendering. Begin a frame, build the UI, end it. [main]
 #pragma once
 
 #include "base/log.hpp"
 #include "base/result.hpp"
 
-#include <glm/glm.hpp>
+#include <imgui.h>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ class Window {
 
     bool begin_frame(); // false = there is nothing to draw on (minimised)
     Result<void> end_frame();
+
+    // Keys pressed since the last call, each with the modifiers it was pressed with. Dear ImGui sees modifiers as they
+    // are a frame later, which loses "Ctrl+Z" typed fast while a frame is slow.
+    std::vector<ImGuiKeyChord> take_keys();
 
     bool close_requested() const;
     void refuse_close();

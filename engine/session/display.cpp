@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/display.hpp"
 
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,8 +14,8 @@ constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) 
     return r | g << 8 | b << 16 | 0xff000000u;
 }
 
-// 8-bit values by the upper 16 bits of a float, so that no power is computed a pixel: 7 bits of mantissa are finer than 8
-// bits of sRGB need below 1 in all but the darkest steps.
+// 8-bit values by the upper 16 bits of a float, so that no power is computed a pixel: 7 bits of mantissa are finer than
+// 8 bits of sRGB need below 1 in all but the darkest steps.
 class Curve {
   public:
     explicit Curve(ToneCurve tone) : table_(0x8000) {
@@ -25,9 +24,7 @@ class Curve {
             table_[i] = std::isnan(x) ? 0 : encode(tone == ToneCurve::filmic ? filmic(x) : x);
         }
     }
-    std::uint32_t operator()(float x) const {
-        return x > 0 ? table_[std::bit_cast<std::uint32_t>(x) >> 16] : 0;
-    }
+    std::uint32_t operator()(float x) const { return x > 0 ? table_[std::bit_cast<std::uint32_t>(x) >> 16] : 0; }
 
   private:
     static float filmic(float x) {
@@ -56,8 +53,8 @@ std::uint32_t id_color(std::uint32_t id) {
 
 // Black, blue, red, yellow, white for 0..1.
 std::uint32_t heat(float x) {
-    static constexpr std::array<glm::vec3, 5> stops{glm::vec3(0), glm::vec3(0.1f, 0.1f, 0.6f), glm::vec3(0.8f, 0.1f, 0.2f),
-                                                    glm::vec3(1, 0.8f, 0.1f), glm::vec3(1)};
+    static constexpr std::array<glm::vec3, 5> stops{
+        glm::vec3(0), glm::vec3(0.1f, 0.1f, 0.6f), glm::vec3(0.8f, 0.1f, 0.2f), glm::vec3(1, 0.8f, 0.1f), glm::vec3(1)};
     const float s = std::clamp(x, 0.f, 1.f) * 4;
     const auto i = std::min(std::size_t(s), std::size_t(3));
     const glm::vec3 c = glm::mix(stops[i], stops[i + 1], s - float(i)) * 255.f;
@@ -72,46 +69,47 @@ void to_display(const render::FilmImage& image, const DisplaySettings& settings,
     const Curve& tone = curve(settings.tone);
     const Curve& plain = curve(ToneCurve::srgb);
     switch (settings.layer) {
-    case Layer::color: {
-        const float scale = settings.scale * std::exp2(settings.exposure);
-        for (std::size_t i = 0; i < n; ++i) {
-            const glm::vec3 c = image.color[i] * scale;
-            rgba[i] = pack(tone(c.x), tone(c.y), tone(c.z));
+        case Layer::color: {
+            const float scale = settings.scale * std::exp2(settings.exposure);
+            for (std::size_t i = 0; i < n; ++i) {
+                const glm::vec3 c = image.color[i] * scale;
+                rgba[i] = pack(tone(c.x), tone(c.y), tone(c.z));
+            }
+            return;
         }
-        return;
-    }
-    case Layer::albedo:
-        for (std::size_t i = 0; i < n; ++i)
-            rgba[i] = pack(plain(image.albedo[i].x), plain(image.albedo[i].y), plain(image.albedo[i].z));
-        return;
-    case Layer::normal:
-        for (std::size_t i = 0; i < n; ++i) {
-            const glm::vec3 c = glm::clamp(image.normal[i] * 0.5f + 0.5f, 0.f, 1.f) * 255.f;
-            rgba[i] = pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
+        case Layer::albedo:
+            for (std::size_t i = 0; i < n; ++i)
+                rgba[i] = pack(plain(image.albedo[i].x), plain(image.albedo[i].y), plain(image.albedo[i].z));
+            return;
+        case Layer::normal:
+            for (std::size_t i = 0; i < n; ++i) {
+                const glm::vec3 c = glm::clamp(image.normal[i] * 0.5f + 0.5f, 0.f, 1.f) * 255.f;
+                rgba[i] = pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
+            }
+            return;
+        case Layer::depth: {
+            float farthest = 0;
+            for (const float z : image.depth)
+                if (std::isfinite(z)) farthest = std::max(farthest, z);
+            for (std::size_t i = 0; i < n; ++i) // near is bright
+                rgba[i] =
+                    image.depth[i] > 0 ? heat(1 - image.depth[i] / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
+            return;
         }
-        return;
-    case Layer::depth: {
-        float farthest = 0;
-        for (const float z : image.depth)
-            if (std::isfinite(z)) farthest = std::max(farthest, z);
-        for (std::size_t i = 0; i < n; ++i) // near is bright
-            rgba[i] = image.depth[i] > 0 ? heat(1 - image.depth[i] / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
-        return;
-    }
-    case Layer::instance:
-    case Layer::material: {
-        const auto& ids = settings.layer == Layer::instance ? image.instance_id : image.material_id;
-        for (std::size_t i = 0; i < n; ++i)
-            rgba[i] = id_color(ids[i]);
-        return;
-    }
-    case Layer::error: // relative standard error of luminance, logarithmic from 1e-3 to 1
-        for (std::size_t i = 0; i < n; ++i) {
-            const float mean = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f));
-            const float error = std::sqrt(std::max(image.luminance_variance[i], 0.f)) / (std::abs(mean) + 0.01f);
-            rgba[i] = heat(std::log10(std::max(error, 1e-3f)) / 3 + 1);
+        case Layer::instance:
+        case Layer::material: {
+            const auto& ids = settings.layer == Layer::instance ? image.instance_id : image.material_id;
+            for (std::size_t i = 0; i < n; ++i)
+                rgba[i] = id_color(ids[i]);
+            return;
         }
-        return;
+        case Layer::error: // relative standard error of luminance, logarithmic from 1e-3 to 1
+            for (std::size_t i = 0; i < n; ++i) {
+                const float mean = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f));
+                const float error = std::sqrt(std::max(image.luminance_variance[i], 0.f)) / (std::abs(mean) + 0.01f);
+                rgba[i] = heat(std::log10(std::max(error, 1e-3f)) / 3 + 1);
+            }
+            return;
     }
 }
 

@@ -18,9 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double coarse_budget = 0.08;   // for the first picture after a change [s]
 constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
@@ -85,7 +83,8 @@ struct LiveView::Impl {
         set_state(ViewState::failed, error.message);
     }
 
-    // --- the render thread ---------------------------------------------------------------------------------------------
+    // --- the render thread
+    // ---------------------------------------------------------------------------------------------
 
     struct Work { // what the render thread is at
         std::unique_ptr<render::Renderer> renderer;
@@ -151,7 +150,8 @@ struct LiveView::Impl {
         if (work.request) begin(work);
     }
 
-    // A new request: the first, coarse picture; or, when nothing that shows has changed (a name, say), the same one goes on.
+    // A new request: the first, coarse picture; or, when nothing that shows has changed (a name, say), the same one
+    // goes on.
     void begin(Work& work) {
         work.finished = true; // until the scene is ready
         if (!work.renderer) return;
@@ -206,7 +206,8 @@ struct LiveView::Impl {
         scene::Scene& scene = work.request->scene;
         const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
         if (!work.request->film_version) work.request->film_version = scene.film.version;
-        if (std::exchange(work.film_source, work.request->film_version) != work.request->film_version) ++work.film_version;
+        if (std::exchange(work.film_source, work.request->film_version) != work.request->film_version)
+            ++work.film_version;
         scene::Film& film = scene.film.value;
         film.width = size.x;
         film.height = size.y;
@@ -293,7 +294,8 @@ struct LiveView::Impl {
         if (denoise) wake_denoise.notify_one();
     }
 
-    // --- the denoising thread ------------------------------------------------------------------------------------------
+    // --- the denoising thread
+    // ------------------------------------------------------------------------------------------
 
     void denoise_loop() {
         lower_thread_priority(7);

@@ -23,7 +23,7 @@ struct Frame {
     std::uint64_t request = 0; // of which show()
     std::uint32_t divider = 1; // full resolution / this one's
     bool denoised = false;
-    double seconds = 0;         // since that show()
+    double seconds = 0; // since that show()
     double relative_error = 1e30; // of what was traced; Film::relative_error
 };
 
@@ -33,12 +33,12 @@ struct ViewOptions {
     bool denoise = true;
     bool paused = false; // keep what is there
     std::uint32_t samples = 0; // stop at so many a pixel; 0 = never
-    double seconds = 0;        // stop after so long; 0 = never
-    double error = 0;          // stop at this relative error; 0 = never
+    double seconds = 0; // stop after so long; 0 = never
+    double error = 0; // stop at this relative error; 0 = never
 };
 
 enum class ViewState {
-    starting,  // opening the device
+    starting, // opening the device
     preparing, // uploading, building, compiling
     rendering,
     done, // a target is met, or paused

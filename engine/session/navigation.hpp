@@ -13,8 +13,8 @@ namespace restage::session {
 // The world axis, with its sign, that is nearest to the camera's up: what orbiting keeps upright.
 glm::dvec3 guess_up(const scene::Camera&);
 
-// Turns the camera around `pivot`: `angles.x` about `up`, `angles.y` about the camera's own x axis. It stops short of the
-// poles.
+// Turns the camera around `pivot`: `angles.x` about `up`, `angles.y` about the camera's own x axis. It stops short of
+// the poles.
 void orbit(scene::Camera&, const glm::dvec3& pivot, const glm::dvec3& up, glm::dvec2 angles);
 // Looks around from where it stands.
 void look(scene::Camera&, const glm::dvec3& up, glm::dvec2 angles);
@@ -28,8 +28,8 @@ void dolly(scene::Camera&, const glm::dvec3& towards, double part);
 // Steps back along the view until the sphere around the bounds fits; keeps the direction.
 void frame(scene::Camera&, const scene::Bounds&, double aspect);
 
-// The pinhole ray through a point of the film: (0,0) top left, (1,1) bottom right. `direction` has z = 1 in camera space,
-// so a camera-space depth times it is a displacement.
+// The pinhole ray through a point of the film: (0,0) top left, (1,1) bottom right. `direction` has z = 1 in camera
+// space, so a camera-space depth times it is a displacement.
 struct ViewRay {
     glm::dvec3 origin, direction;
 };

@@ -6,9 +6,9 @@
 #include "widgets.hpp"
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace restage::editor {
 
@@ -64,9 +64,9 @@ void material_section(Editor& e, scene::Id<scene::Material> id) {
         const scene::Value* set = material->params.find(line.id);
         const scene::Value value = set ? *set : scene::default_value(line);
         if (auto changed = param_widget(e, line, value, std::string("material.") + line.id))
-            e.edit([id, param = std::string(line.id), v = *changed](const scene::Scene& s) {
-                return scene::set_param(s, id, param, v);
-            }, fmt::format("material.{}.{}", id.value, line.id));
+            e.edit([id, param = std::string(line.id),
+                    v = *changed](const scene::Scene& s) { return scene::set_param(s, id, param, v); },
+                   fmt::format("material.{}.{}", id.value, line.id));
     }
 }
 

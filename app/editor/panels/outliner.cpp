@@ -4,10 +4,10 @@
 
 #include "theme.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
+#include <cctype>
 
 namespace restage::editor {
 
@@ -117,8 +117,9 @@ void group_rows(Editor& e, State& state, GroupId group) {
             ImGui::PushID(int(child.value) + 1'000'000);
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            const bool open = ImGui::TreeNodeEx("##group", ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth,
-                                                "%s", e.scene().groups[child].name.c_str());
+            const bool open =
+                ImGui::TreeNodeEx("##group", ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth, "%s",
+                                  e.scene().groups[child].name.c_str());
             if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) click(e, instances_in(e.scene(), child));
             e.mark("outliner.group." + e.scene().groups[child].name);
             ImGui::TableNextColumn();
@@ -167,7 +168,8 @@ void draw_outliner(Editor& e) {
         ImGui::PushID(int(id.value) + 2'000'000);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        if (ImGui::Selectable(("Light: " + light.name).c_str(), e.selection.light() == id, ImGuiSelectableFlags_SpanAllColumns))
+        if (ImGui::Selectable(("Light: " + light.name).c_str(), e.selection.light() == id,
+                              ImGuiSelectableFlags_SpanAllColumns))
             e.selection.set_light(id);
         ImGui::PopID();
     });

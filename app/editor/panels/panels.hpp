@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panels: functions that draw the editor's state into a Dear ImGui window of their own and ask it for changes. To add
-// one: a file here, a line here, a line in the table of panels.cpp.
+// The panels: functions that draw the editor's state into a Dear ImGui window of their own and ask it for changes. To
+// add one: a file here, a line here, a line in the table of panels.cpp.
 #pragma once
 
 #include "editor.hpp"

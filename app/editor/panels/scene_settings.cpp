@@ -9,13 +9,16 @@ namespace restage::editor {
 void draw_scene_settings(Editor& e) {
     if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen) && e.camera_id()) {
         scene::Camera camera = e.camera();
-        bool changed = ImGui::SliderFloat("Field of view", &camera.fov, 1, 150, "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
+        bool changed =
+            ImGui::SliderFloat("Field of view", &camera.fov, 1, 150, "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
         changed |= ImGui::DragFloat("Lens radius", &camera.lens_radius, 0.001f, 0, 1e6f, "%.4f");
         changed |= ImGui::DragFloat("Focal distance", &camera.focal_distance, 0.01f, 1e-4f, 1e9f, "%.3f");
         if (changed)
-            e.edit([camera](const scene::Scene& s) {
-                return scene::set_camera(s, s.active_camera.value, camera, "Change camera");
-            }, "scene.camera");
+            e.edit(
+                [camera](const scene::Scene& s) {
+                    return scene::set_camera(s, s.active_camera.value, camera, "Change camera");
+                },
+                "scene.camera");
     }
     if (ImGui::CollapsingHeader("Rendering", ImGuiTreeNodeFlags_DefaultOpen)) {
         scene::Settings settings = e.scene().settings.value;

@@ -24,7 +24,8 @@ void draw_history(Editor& e) {
     for (std::size_t i = 0; i < history.size(); ++i) {
         const bool undone = i >= history.position();
         if (undone) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
-        if (ImGui::Selectable(fmt::format("{}##{}", history.label(i), i).c_str(), i + 1 == history.position())) go(i + 1);
+        if (ImGui::Selectable(fmt::format("{}##{}", history.label(i), i).c_str(), i + 1 == history.position()))
+            go(i + 1);
         if (undone) ImGui::PopStyleColor();
     }
 }
@@ -35,8 +36,8 @@ void draw_import_report(Editor& e) {
         ImGui::TextDisabled(e.session().path().empty() ? "Nothing was imported." : "Everything was kept.");
         return;
     }
-    ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(RESTAGE_KEPT), report.count(RESTAGE_APPROXIMATED),
-                report.count(RESTAGE_DROPPED));
+    ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(RESTAGE_KEPT),
+                report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
     ImGui::Separator();
     for (const io::ReportEntry& entry : report.entries) {
         if (entry.fate == RESTAGE_KEPT) continue;
