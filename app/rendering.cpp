@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 
@@ -17,6 +18,18 @@ namespace {
 
 double now_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// R, G, B, and Y: the error of luminance, which those of the channels do not tell because channels err together.
+std::vector<float> standard_errors(const render::FilmImage& film, float exposure) {
+    std::vector<float> out;
+    out.reserve(film.std_error.size() * 4);
+    for (std::size_t i = 0; i < film.std_error.size(); ++i) {
+        const glm::vec3& e = film.std_error[i];
+        for (const float error : {e.r, e.g, e.b, std::sqrt(film.luminance_variance[i])})
+            out.push_back(error * exposure);
+    }
+    return out;
 }
 
 } // namespace
@@ -214,7 +227,8 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
     if (picture.denoised)
         image.layers.push_back({.name = "noisy", .channels = rgb, .values = scaled(film.color, picture.exposure)});
     if (wanted("stderr"))
-        image.layers.push_back({.name = "stderr", .channels = rgb, .values = scaled(film.std_error, picture.exposure)});
+        image.layers.push_back(
+            {.name = "stderr", .channels = {"R", "G", "B", "Y"}, .values = standard_errors(film, picture.exposure)});
     if (wanted("albedo")) image.layers.push_back({.name = "albedo", .channels = rgb, .values = scaled(film.albedo, 1)});
     if (wanted("normal"))
         image.layers.push_back({.name = "normal", .channels = {"X", "Y", "Z"}, .values = scaled(film.normal, 1)});

@@ -7,7 +7,10 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import pytest
+
+import exr_file
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESTAGE = os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))
@@ -64,6 +67,32 @@ def test_render_writes_layers_and_settings_and_a_seed_repeats_it(tmp_path):
     assert difference("a.exr", "b.exr")["rmse"] < 1e-6
     other = difference("a.exr", "c.exr")
     assert other["rmse"] > 1e-4 and other["z_test"]["share_passing"] > 0.95
+
+
+def test_the_error_of_luminance_is_less_than_the_sum_of_its_channels_errors(tmp_path):
+    scene = tmp_path / "scene.pbrt"
+    scene.write_text("""
+        LookAt 0 0 4  0 0 0  0 1 0  Camera "perspective" "float fov" 60  Film "rgb" "integer xresolution" 64 "integer yresolution" 32
+        WorldBegin
+        AttributeBegin AreaLightSource "diffuse" "rgb L" [ 4 4 4 ] Translate -1.5 0 1 Shape "sphere" "float radius" 0.4 AttributeEnd
+        AttributeBegin AreaLightSource "diffuse" "rgb L" [ 9 0 0 ] Translate 1.5 1 1 Shape "sphere" "float radius" 0.3 AttributeEnd
+        AttributeBegin AreaLightSource "diffuse" "rgb L" [ 0 3 9 ] Translate 1.5 -1 1 Shape "sphere" "float radius" 0.3 AttributeEnd
+        Material "diffuse" "rgb reflectance" [ 0.8 0.8 0.8 ]
+        Shape "bilinearmesh" "point3 P" [ -6 -6 -1  6 -6 -1  -6 6 -1  6 6 -1 ]""")
+    out = tmp_path / "out.exr"
+    assert restage("render", scene, "-o", out, "--spp", 64).returncode == 0
+    layers = exr_file.read(out)
+    r, g, b, y = (layers[f"stderr.{c}"].astype(float) for c in "RGBY")
+    luminance = 0.2126 * layers["R"] + 0.7152 * layers["G"] + 0.0722 * layers["B"]
+    sum_of_errors = 0.2126 * r + 0.7152 * g + 0.0722 * b # what it would be if all channels were wrong together
+    rounding = 1e-6 + 1e-4 * luminance # sums of squares are floats
+    assert y.min() >= 0 and y.max() > 0
+    assert np.all(y <= sum_of_errors + rounding)
+    # Of three independent lights, each pixel chooses one a sample: the channels are wrong each in its own way.
+    noisy = sum_of_errors > np.median(sum_of_errors)
+    assert np.median(y[noisy] / sum_of_errors[noisy]) < 0.95
+    # Not less than what is left if the other channels happened to take away from green's error all they can.
+    assert np.all(y >= 0.7152 * g - 0.2126 * r - 0.0722 * b - rounding)
 
 
 def test_targets_of_time_and_error(tmp_path):
