@@ -14,29 +14,8 @@ RestageText text(const T& item) {
     return {item.name.c_str(), item.origin.verbatim.c_str(), item.origin.format.c_str()};
 }
 
-void copy(const glm::dmat4& from, double to[16]) { std::memcpy(to, &from[0][0], 16 * sizeof(double)); }
-void copy(glm::vec3 from, float to[3]) { std::memcpy(to, &from.x, 3 * sizeof(float)); }
-
-const char* filter_name(FilterKind kind) {
-    switch (kind) {
-        case FilterKind::box:
-            return "box";
-        case FilterKind::triangle:
-            return "triangle";
-        case FilterKind::gaussian:
-            return "gaussian";
-        case FilterKind::mitchell:
-            return "mitchell";
-        case FilterKind::sinc:
-            return "sinc";
-    }
-    return "box";
-}
-
-} // namespace
-
-const RestageValue* SceneReader::values(const ParamSet& params, std::uint32_t& count) {
-    auto& list = values_.emplace_back();
+std::vector<RestageValue> values_of(const ParamSet& params) { // pointing into params
+    std::vector<RestageValue> list;
     for (const auto& [id, value] : params.entries()) {
         RestageValue out{
             .id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = nullptr};
@@ -45,8 +24,19 @@ const RestageValue* SceneReader::values(const ParamSet& params, std::uint32_t& c
         out.ref = value.type == RESTAGE_MATERIAL ? value.material.value : value.texture.value;
         list.push_back(out);
     }
-    count = static_cast<std::uint32_t>(list.size());
-    return list.data();
+    return list;
+}
+
+} // namespace
+
+template <class Description>
+int SceneReader::give_values(const ParamSet& params, Description& out) {
+    return guarded<SceneReader>(this, "parameters", [&](SceneReader& r) {
+        const auto& list = r.values_.emplace_back(values_of(params));
+        out.values = list.data();
+        out.value_count = static_cast<std::uint32_t>(list.size());
+        return 1;
+    });
 }
 
 struct SceneReader::Calls {
@@ -124,16 +114,14 @@ struct SceneReader::Calls {
                 .image = t->image.value,
                 .values = nullptr,
                 .value_count = 0};
-        out->values = self(ctx).values(t->params, out->value_count);
-        return 1;
+        return self(ctx).give_values(t->params, *out);
     }
 
     static int material(void* ctx, RestageHandle handle, RestageMaterialDesc* out) {
         const Material* m = scene(ctx).materials.find({handle});
         if (!m) return 0;
         *out = {.text = text(*m), .type = m->type.c_str(), .values = nullptr, .value_count = 0};
-        out->values = self(ctx).values(m->params, out->value_count);
-        return 1;
+        return self(ctx).give_values(m->params, *out);
     }
 
     static int medium(void* ctx, RestageHandle handle, RestageMedium* out) {
@@ -245,23 +233,25 @@ struct SceneReader::Calls {
     }
 
     static void report(void* ctx, int fate, const char* what, const char* note) {
-        self(ctx).report.add(static_cast<RestageFate>(fate < 0 || fate > 2 ? 2 : fate), what ? what : "",
-                             note ? note : "");
+        guarded<SceneReader>(ctx, "report", [&](SceneReader& r) {
+            r.tell(fate, what, note);
+            return 0;
+        });
     }
 
     static void error(void* ctx, const char* file, const char* message) {
-        std::string& e = self(ctx).error_;
-        if (e.empty()) e = std::string(file ? file : "") + (file && *file ? ": " : "") + (message ? message : "");
+        guarded<SceneReader>(ctx, "error", [&](SceneReader& r) {
+            r.raise(file, 0, 0, message);
+            return 0;
+        });
     }
 
     static int progress(void* ctx, float done, const char* what) {
-        SceneReader& s = self(ctx);
-        if (!s.cancelled_ && s.progress_ && !s.progress_(done, what ? what : "")) s.cancelled_ = true;
-        return !s.cancelled_;
+        return guarded<SceneReader>(ctx, "progress", [&](SceneReader& r) { return int(r.proceed(done, what)); });
     }
 };
 
-SceneReader::SceneReader(const Scene& scene, Progress progress) : scene_(scene), progress_(std::move(progress)) {
+SceneReader::SceneReader(const Scene& scene, Progress progress) : Exchange(std::move(progress)), scene_(scene) {
     table_ = {.size = sizeof(RestageSceneReader1),
               .ctx = this,
               .count = Calls::count,

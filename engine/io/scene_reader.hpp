@@ -3,7 +3,7 @@
 // long as this reader and the scene.
 #pragma once
 
-#include "io/report.hpp"
+#include "io/exchange.hpp"
 #include "scene/scene.hpp"
 
 #include <restage/scene_io.h>
@@ -13,28 +13,20 @@
 
 namespace restage::io {
 
-class SceneReader {
+class SceneReader : public Exchange {
   public:
     SceneReader(const scene::Scene&, Progress);
-    SceneReader(const SceneReader&) = delete; // table().ctx is this
-    SceneReader& operator=(const SceneReader&) = delete;
 
-    const RestageSceneReader1& table() const { return table_; }
-    const std::string& error() const { return error_; } // "" = none was raised
-    bool cancelled() const { return cancelled_; }
-
-    Report report;
+    const RestageSceneReader1& table() const { return table_; } // its ctx is this
 
   private:
     struct Calls; // the C functions
-    const RestageValue* values(const scene::ParamSet&, std::uint32_t& count);
+    template <class Description>
+    int give_values(const scene::ParamSet&, Description& out);
 
     const scene::Scene& scene_;
-    Progress progress_;
     RestageSceneReader1 table_{};
     std::deque<std::vector<RestageValue>> values_; // handed out
-    std::string error_;
-    bool cancelled_ = false;
 };
 
 } // namespace restage::io

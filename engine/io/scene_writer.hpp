@@ -6,7 +6,7 @@
 
 #include "base/jobs.hpp"
 #include "base/result.hpp"
-#include "io/report.hpp"
+#include "io/exchange.hpp"
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
 
@@ -18,24 +18,19 @@
 
 namespace restage::io {
 
-class SceneWriter {
+class SceneWriter : public Exchange {
   public:
     SceneWriter(const plugin::Registry&, Progress);
-    SceneWriter(const SceneWriter&) = delete; // table().ctx is this
-    SceneWriter& operator=(const SceneWriter&) = delete;
 
-    const RestageSceneWriter1& table() const { return table_; }
-    const std::string& error() const { return error_; } // "file:line:column: message"; "" = none was raised
-    bool cancelled() const { return cancelled_; }
+    const RestageSceneWriter1& table() const { return table_; } // its ctx is this
 
     // Names what has no name, gives a scene without camera one, decodes images, validates. Call once, after load.
     Result<> finish(Jobs&, bool read_images);
 
     scene::Scene scene;
-    Report report;
 
   private:
-    struct Calls; // the C functions
+    struct Calls; // the C functions (scene_writer_calls.hpp)
     template <class T>
     RestageHandle push(T item);
     template <class T>
@@ -48,10 +43,7 @@ class SceneWriter {
     void add_camera();
 
     const plugin::Registry& registry_;
-    Progress progress_;
     RestageSceneWriter1 table_{};
-    std::string error_;
-    bool cancelled_ = false;
     std::map<std::string, std::set<std::string>> names_;    // by kind
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
     std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What SceneWriter (import) and SceneReader (export) share: what the plugin says while it runs (fates, progress, its
+// error), the border that no exception crosses, and the turning of the ABI's plain C values into the engine's and back.
+#pragma once
+
+#include "io/report.hpp"
+#include "scene/scene.hpp"
+
+#include <restage/scene_io.h>
+#include <exception>
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+
+namespace restage::io {
+
+class Exchange {
+  public:
+    const std::string& error() const { return error_; } // "file:line:column: message"; "" = none was raised
+    bool cancelled() const { return cancelled_; }
+
+    Report report;
+
+  protected:
+    explicit Exchange(Progress progress) : progress_(std::move(progress)) {}
+    Exchange(const Exchange&) = delete; // its tables point to it
+    Exchange& operator=(const Exchange&) = delete;
+    ~Exchange() = default;
+
+    void tell(int fate, const char* what, const char* note, const char* file = nullptr, std::uint32_t line = 0);
+    void raise(const char* file, std::uint32_t line, std::uint32_t column, const char* message); // the first one counts
+    bool proceed(float done, const char* what); // false: somebody wants it stopped
+
+    // f(self) -> a handle or a truth. What it throws (there was no memory) becomes 0 and a line in the report.
+    template <class Self, class F>
+    static auto guarded(void* ctx, const char* what, F&& f) noexcept {
+        Self& self = *static_cast<Self*>(ctx);
+        const decltype(f(self)) nothing{};
+        try {
+            return f(self);
+        } catch (const std::exception& e) {
+            try {
+                self.report.add(RESTAGE_DROPPED, what, std::string("no memory for it (") + e.what() + ")");
+            } catch (...) {
+                return nothing; // no memory for the report either
+            }
+        }
+        return nothing;
+    }
+
+  private:
+    Progress progress_;
+    std::string error_;
+    bool cancelled_ = false;
+};
+
+inline std::string text(const char* c) { return c ? c : ""; }
+
+glm::dmat4 matrix(const double m[16]); // column-major
+inline glm::vec3 vec3(const float* v) { return {v[0], v[1], v[2]}; }
+void copy(const glm::dmat4& from, double to[16]);
+void copy(const glm::vec3& from, float to[3]);
+
+scene::FilterKind filter_kind(const std::string& name); // box, when there is none of that name
+const char* filter_name(scene::FilterKind);
+
+} // namespace restage::io

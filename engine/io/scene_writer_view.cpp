@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights that are no objects, and what there is one of: environment, camera, film, settings.
+#include "io/scene_writer_calls.hpp"
+
+namespace restage::io {
+
+using namespace scene;
+
+RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* in) {
+    return guarded(ctx, "light", [&](SceneWriter& w) -> RestageHandle {
+        const glm::dmat4 to_world = matrix(in->light_to_world);
+        const std::string who = "light \"" + text(in->text.name) + "\"";
+        if (in->kind < RESTAGE_LIGHT_POINT || in->kind > RESTAGE_LIGHT_DISTANT) {
+            w.refuse(who, "a light of unknown kind");
+            return 0;
+        }
+        if (!affine(to_world) || !finite3(in->value) || !finite(in->cone_angle, in->cone_delta)) {
+            w.refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
+            return 0;
+        }
+        return w.push(Light{.name = w.unique_name("light", text(in->text.name)),
+                            .kind = static_cast<RestageLightKind>(in->kind),
+                            .value = vec3(in->value),
+                            .light_to_world = to_world,
+                            .cone_angle = in->cone_angle,
+                            .cone_delta = in->cone_delta,
+                            .origin = w.origin(in->text)});
+    });
+}
+
+void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* in) {
+    guarded(ctx, "environment", [&](SceneWriter& w) -> RestageHandle {
+        const glm::dmat4 to_world = matrix(in->light_to_world);
+        if (!w.known<Image>(in->image, "environment", text(in->text.name))) return 0;
+        if (!affine(to_world) || !finite3(in->scale)) {
+            w.refuse("the environment", "its scale or transform is not finite, or not affine");
+            return 0;
+        }
+        if (w.scene.environment.value)
+            w.refuse("environment \"" + w.scene.environment.value->name + "\"",
+                     "another one follows; the last one counts");
+        const std::string name = text(in->text.name);
+        w.scene.environment = {Environment{.name = name.empty() ? "environment" : name,
+                                           .image = {in->image},
+                                           .mapping = static_cast<RestageMapping>(in->mapping),
+                                           .scale = vec3(in->scale),
+                                           .light_to_world = to_world,
+                                           .origin = w.origin(in->text)},
+                               w.scene.clock};
+        return 1;
+    });
+}
+
+RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
+    return guarded(ctx, "camera", [&](SceneWriter& w) -> RestageHandle {
+        const float* sw = in->screen_window;
+        const glm::dmat4 to_world = matrix(in->camera_to_world);
+        if (!affine(to_world) ||
+            !finite(in->fov, sw[0], sw[1], sw[2], sw[3], in->lens_radius, in->focal_distance, in->frame_aspect)) {
+            w.refuse("camera \"" + text(in->text.name) + "\"",
+                     "it holds a value that is not a finite number, or its transform is not affine");
+            return 0;
+        }
+        Camera camera{.name = w.unique_name("camera", text(in->text.name)),
+                      .camera_to_world = to_world,
+                      .fov = in->fov,
+                      .lens_radius = in->lens_radius,
+                      .focal_distance = in->focal_distance,
+                      .frame_aspect = in->frame_aspect,
+                      .origin = w.origin(in->text)};
+        if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
+            camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
+        const RestageHandle handle = w.push(std::move(camera));
+        if (!w.scene.active_camera.value) w.scene.active_camera = {{handle}, w.scene.clock};
+        return handle;
+    });
+}
+
+void SceneWriter::Calls::camera_medium(void* ctx, RestageHandle medium) {
+    guarded(ctx, "camera medium", [&](SceneWriter& w) -> RestageHandle {
+        if (w.known<Medium>(medium, "medium of", "the camera")) w.scene.settings.value.camera_medium = {medium};
+        return 0;
+    });
+}
+
+void SceneWriter::Calls::film(void* ctx, const RestageFilm* in) {
+    guarded(ctx, "film", [&](SceneWriter& w) -> RestageHandle {
+        w.scene.film = {Film{.width = in->width,
+                             .height = in->height,
+                             .crop = {in->crop[0], in->crop[1], in->crop[2], in->crop[3]},
+                             .filter = {.kind = filter_kind(text(in->filter)),
+                                        .radius = {in->filter_radius[0], in->filter_radius[1]},
+                                        .params = {in->filter_params[0], in->filter_params[1]}},
+                             .exposure = in->exposure,
+                             .filename = text(in->filename)},
+                        w.scene.clock};
+        return 0;
+    });
+}
+
+void SceneWriter::Calls::settings(void* ctx, const RestageSettings* in) {
+    guarded(ctx, "settings", [&](SceneWriter& w) -> RestageHandle {
+        Settings& s = w.scene.settings.value;
+        s.max_depth = in->max_depth;
+        if (in->samples) s.samples = in->samples;
+        s.origin = w.origin(in->text);
+        return 0;
+    });
+}
+
+} // namespace restage::io
