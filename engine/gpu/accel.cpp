@@ -38,43 +38,50 @@ VkAccelerationStructureBuildSizesInfoKHR sizes_of(Device& device,
     return sizes;
 }
 
-Result<VkAccelerationStructureKHR> create_structure(Device& device, const Buffer& buffer, VkDeviceSize bytes,
-                                                    VkAccelerationStructureTypeKHR type, const char* name,
-                                                    VkDeviceAddress& address) {
-    const VkAccelerationStructureCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR,
-                                                    .buffer = buffer.handle(),
-                                                    .size = bytes,
-                                                    .type = type};
-    VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
-    const VkResult result = device.vk().vkCreateAccelerationStructureKHR(device.handle(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS)
-        return device.error(result, std::string("creating the acceleration structure of ") + name);
-    device.set_name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, reinterpret_cast<std::uint64_t>(handle), name);
-    const VkAccelerationStructureDeviceAddressInfoKHR query{
-        .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, .accelerationStructure = handle};
-    address = device.vk().vkGetAccelerationStructureDeviceAddressKHR(device.handle(), &query);
-    return handle;
-}
-
 VkDeviceAddress align_up(VkDeviceAddress value, VkDeviceAddress alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
 } // namespace
 
-// ---- bottom level --------------------------------------------------------------------------------------------------
+// ---- either level --------------------------------------------------------------------------------------------------
 
-Blas::~Blas() {
+Result<AccelStructure> AccelStructure::create(Device& device, VkDeviceSize bytes, VkAccelerationStructureTypeKHR type,
+                                              const char* name) {
+    AccelStructure self;
+    self.device_ = &device;
+    RESTAGE_TRY(self.buffer_, device.create_buffer(bytes, BufferKind::device, name));
+    const VkAccelerationStructureCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR,
+                                                    .buffer = self.buffer_.handle(),
+                                                    .size = bytes,
+                                                    .type = type};
+    const VkResult result =
+        device.vk().vkCreateAccelerationStructureKHR(device.handle(), &info, nullptr, &self.handle_);
+    if (result != VK_SUCCESS) {
+        self.handle_ = VK_NULL_HANDLE;
+        return device.error(result, std::string("creating the acceleration structure of ") + name);
+    }
+    device.set_name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, reinterpret_cast<std::uint64_t>(self.handle_), name);
+    const VkAccelerationStructureDeviceAddressInfoKHR query{
+        .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR,
+        .accelerationStructure = self.handle_};
+    self.address_ = device.vk().vkGetAccelerationStructureDeviceAddressKHR(device.handle(), &query);
+    return self;
+}
+
+AccelStructure::~AccelStructure() {
     if (handle_) device_->vk().vkDestroyAccelerationStructureKHR(device_->handle(), handle_, nullptr);
 }
-Blas::Blas(Blas&& other) noexcept { *this = std::move(other); }
-Blas& Blas::operator=(Blas&& other) noexcept {
+AccelStructure::AccelStructure(AccelStructure&& other) noexcept { *this = std::move(other); }
+AccelStructure& AccelStructure::operator=(AccelStructure&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);
     std::swap(buffer_, other.buffer_);
     std::swap(address_, other.address_);
     return *this;
 }
+
+// ---- bottom level --------------------------------------------------------------------------------------------------
 
 // Builds inputs [begin, end) of one batch, whose scratch fits together.
 class AccelBuilder {
@@ -102,7 +109,7 @@ class AccelBuilder {
                               .pGeometries = &geometries_[i]});
             sizes_.push_back(sizes_of(device_, infos_[i], inputs_[i].triangle_count));
             RESTAGE_TRY(Blas blas, create(sizes_[i].accelerationStructureSize, inputs_[i].name));
-            infos_[i].dstAccelerationStructure = blas.handle_;
+            infos_[i].dstAccelerationStructure = blas.structure_.handle();
             blases_.push_back(std::move(blas));
         }
         for (std::size_t begin = 0; begin < count;) {
@@ -123,11 +130,9 @@ class AccelBuilder {
 
     Result<Blas> create(VkDeviceSize bytes, const std::string& name) {
         Blas blas;
-        blas.device_ = &device_;
-        RESTAGE_TRY(blas.buffer_, device_.create_buffer(bytes, BufferKind::device, name.c_str()));
-        RESTAGE_TRY(blas.handle_,
-                    create_structure(device_, blas.buffer_, bytes, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
-                                     name.c_str(), blas.address_));
+        RESTAGE_TRY(
+            blas.structure_,
+            AccelStructure::create(device_, bytes, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, name.c_str()));
         return blas;
     }
 
@@ -168,7 +173,7 @@ class AccelBuilder {
         } guard{device_, pool};
         std::vector<VkAccelerationStructureKHR> handles;
         for (std::size_t i = begin; i < end; ++i)
-            handles.push_back(blases_[i].handle_);
+            handles.push_back(blases_[i].structure_.handle());
         list.barrier();
         vk.vkCmdResetQueryPool(list.handle(), pool, 0, count);
         vk.vkCmdWriteAccelerationStructuresPropertiesKHR(
@@ -187,7 +192,7 @@ class AccelBuilder {
             const VkCopyAccelerationStructureInfoKHR copy{
                 .sType = VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR,
                 .src = handles[i],
-                .dst = compacted[i].handle_,
+                .dst = compacted[i].structure_.handle(),
                 .mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR};
             vk.vkCmdCopyAccelerationStructureKHR(list.handle(), &copy);
         }
@@ -245,30 +250,12 @@ Result<Tlas> Tlas::create(Device& device, std::uint32_t capacity, const char* na
                                      BufferKind::host, "tlas instances"));
     const auto geometry = instances_of(self.instances_.address());
     const auto sizes = sizes_of(device, tlas_info(geometry), capacity);
-    RESTAGE_TRY(self.buffer_, device.create_buffer(sizes.accelerationStructureSize, BufferKind::device, name));
+    RESTAGE_TRY(self.structure_, AccelStructure::create(device, sizes.accelerationStructureSize,
+                                                        VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, name));
     RESTAGE_TRY(self.scratch_, device.create_buffer(sizes.buildScratchSize + device.scratch_alignment(),
                                                     BufferKind::device, "tlas scratch"));
     self.scratch_address_ = align_up(self.scratch_.address(), device.scratch_alignment());
-    RESTAGE_TRY(self.handle_, create_structure(device, self.buffer_, sizes.accelerationStructureSize,
-                                               VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, name, self.address_));
     return self;
-}
-
-Tlas::~Tlas() {
-    if (handle_) device_->vk().vkDestroyAccelerationStructureKHR(device_->handle(), handle_, nullptr);
-}
-Tlas::Tlas(Tlas&& other) noexcept { *this = std::move(other); }
-Tlas& Tlas::operator=(Tlas&& other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(handle_, other.handle_);
-    std::swap(buffer_, other.buffer_);
-    std::swap(instances_, other.instances_);
-    std::swap(scratch_, other.scratch_);
-    std::swap(address_, other.address_);
-    std::swap(scratch_address_, other.scratch_address_);
-    std::swap(capacity_, other.capacity_);
-    std::swap(count_, other.count_);
-    return *this;
 }
 
 void Tlas::set(std::uint32_t index, const TlasInstance& instance) {
@@ -311,7 +298,7 @@ Result<void> Tlas::build() {
 void CommandList::build(Tlas& tlas) {
     const auto geometry = instances_of(tlas.instances_.address());
     auto info = tlas_info(geometry);
-    info.dstAccelerationStructure = tlas.handle_;
+    info.dstAccelerationStructure = tlas.structure_.handle();
     info.scratchData.deviceAddress = tlas.scratch_address_;
     const VkAccelerationStructureBuildRangeInfoKHR range{.primitiveCount = tlas.count_};
     const VkAccelerationStructureBuildRangeInfoKHR* const ranges = &range;

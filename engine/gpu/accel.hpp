@@ -26,23 +26,36 @@ struct BlasInput {
     std::string name;
 };
 
-class Blas {
+// The Vulkan object and the buffer it lives in; what Blas and Tlas are made of.
+class AccelStructure {
   public:
-    Blas() = default;
-    ~Blas();
-    Blas(Blas&& other) noexcept;
-    Blas& operator=(Blas&& other) noexcept;
+    static Result<AccelStructure> create(Device& device, VkDeviceSize bytes, VkAccelerationStructureTypeKHR type,
+                                         const char* name);
+    AccelStructure() = default;
+    ~AccelStructure();
+    AccelStructure(AccelStructure&& other) noexcept;
+    AccelStructure& operator=(AccelStructure&& other) noexcept;
 
-    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
-    VkDeviceAddress address() const { return address_; } // for TlasInstance::blas
+    VkAccelerationStructureKHR handle() const { return handle_; }
+    VkDeviceAddress address() const { return address_; }
     std::size_t bytes() const { return buffer_.size(); }
 
   private:
-    friend class AccelBuilder;
     Device* device_ = nullptr;
     VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
     Buffer buffer_;
     VkDeviceAddress address_ = 0;
+};
+
+class Blas {
+  public:
+    explicit operator bool() const { return structure_.handle() != VK_NULL_HANDLE; }
+    VkDeviceAddress address() const { return structure_.address(); } // for TlasInstance::blas
+    std::size_t bytes() const { return structure_.bytes(); }
+
+  private:
+    friend class AccelBuilder;
+    AccelStructure structure_;
 };
 
 struct BlasOptions {
@@ -73,13 +86,9 @@ class Tlas {
   public:
     // Room for `capacity` instances.
     static Result<Tlas> create(Device& device, std::uint32_t capacity, const char* name);
-    Tlas() = default;
-    ~Tlas();
-    Tlas(Tlas&& other) noexcept;
-    Tlas& operator=(Tlas&& other) noexcept;
 
-    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
-    VkDeviceAddress address() const { return address_; } // stays the same over rebuilds
+    explicit operator bool() const { return structure_.handle() != VK_NULL_HANDLE; }
+    VkDeviceAddress address() const { return structure_.address(); } // stays the same over rebuilds
     std::uint32_t capacity() const { return capacity_; }
     std::uint32_t count() const { return count_; }
 
@@ -93,9 +102,9 @@ class Tlas {
   private:
     friend class CommandList;
     Device* device_ = nullptr;
-    VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
-    Buffer buffer_, instances_, scratch_;
-    VkDeviceAddress address_ = 0, scratch_address_ = 0;
+    AccelStructure structure_;
+    Buffer instances_, scratch_;
+    VkDeviceAddress scratch_address_ = 0;
     std::uint32_t capacity_ = 0, count_ = 0;
 };
 
