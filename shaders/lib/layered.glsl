@@ -35,6 +35,20 @@ struct Layered {
     vec2 base_alpha; // metal
 };
 
+// The coat from a material's parameters; the base is the caller's to fill in.
+Layered layered_coat_of(vec2 roughness, int remap, float eta, float thickness, vec3 albedo, float g, int max_depth,
+                        int n_samples) {
+    Layered l;
+    l.alpha = roughness == vec2(0) ? vec2(0) : alpha_from_roughness(roughness.x, roughness.y, remap);
+    l.eta = eta > 0.0 ? eta : 1.0;
+    l.thickness = max(thickness, 1e-6);
+    l.albedo = clamp(albedo, vec3(0), vec3(1));
+    l.g = clamp(g, -0.99, 0.99);
+    l.max_depth = max_depth;
+    l.n_samples = n_samples;
+    return l;
+}
+
 const int LAYER_TOP = 0;
 const int LAYER_BASE = 1;
 const int LAYER_MEDIUM = 2;
@@ -83,6 +97,17 @@ float layered_coat(vec2 alpha, float eta, vec3 v, vec3 u, int allowed, out vec3 
         pdf = ggx_d(h, alpha) * jacobian / sigma_v;
     }
     return weight;
+}
+
+// Russian roulette from the fourth event on, where little light is left.
+bool layered_survives(int depth, inout vec3 beta, inout Rng rng) {
+    float q = max_component(beta);
+    if (depth <= 3 || q >= 0.25)
+        return true;
+    if (!(rng_next(rng) < q))
+        return false;
+    beta /= q;
+    return true;
 }
 
 // From height z along w to the next event.
@@ -150,12 +175,8 @@ vec3 layered_eval(Layered l, vec3 wo, vec3 wi, inout Rng rng) {
             vec3 v = depth == -2 ? wo : wi;
             float eta = l.eta;
             if (depth >= 0) {
-                float q = max_component(beta);
-                if (depth > 3 && q < 0.25) {
-                    if (!(rng_next(rng) < q))
-                        break;
-                    beta /= q;
-                }
+                if (!layered_survives(depth, beta, rng))
+                    break;
                 event = layered_advance(l, medium, w, z, beta, rng);
                 v = vec3(-w.xy, abs(w.z));
                 eta = 1.0 / l.eta;
@@ -271,12 +292,8 @@ BsdfSample layered_sample(Layered l, vec3 wo, vec3 u, inout Rng rng) {
         int event = LAYER_TOP;
         float eta = l.eta;
         if (depth >= 0) {
-            float q = max_component(beta);
-            if (depth > 3 && q < 0.25) {
-                if (!(rng_next(rng) < q))
-                    break;
-                beta /= q;
-            }
+            if (!layered_survives(depth, beta, rng))
+                break;
             event = layered_advance(l, medium, w, z, beta, rng);
             v = vec3(-w.xy, abs(w.z));
             eta = 1.0 / l.eta;

@@ -3,16 +3,8 @@
 #include "lib/layered.glsl"
 
 Layered coatedconductor_layers(coatedconductor_Params m) {
-    Layered l;
-    l.alpha = alpha_from_roughness(m.interface_uroughness, m.interface_vroughness, m.remap);
-    if (m.interface_uroughness == 0.0 && m.interface_vroughness == 0.0)
-        l.alpha = vec2(0);
-    l.eta = m.interface_eta > 0.0 ? m.interface_eta : 1.0;
-    l.thickness = max(m.thickness, 1e-6);
-    l.albedo = clamp(m.albedo, vec3(0), vec3(1));
-    l.g = clamp(m.g, -0.99, 0.99);
-    l.max_depth = m.max_depth;
-    l.n_samples = m.n_samples;
+    Layered l = layered_coat_of(vec2(m.interface_uroughness, m.interface_vroughness), m.remap, m.interface_eta,
+                                m.thickness, m.albedo, m.g, m.max_depth, m.n_samples);
     l.metal = true;
     // pbrt-v4 divides by the coat's ior in both cases.
     bool r = m.use_reflectance;

@@ -4,16 +4,8 @@
 #include "lib/layered.glsl"
 
 Layered coateddiffuse_layers(coateddiffuse_Params m) {
-    Layered l;
-    l.alpha = alpha_from_roughness(m.uroughness, m.vroughness, m.remap);
-    if (m.uroughness == 0.0 && m.vroughness == 0.0)
-        l.alpha = vec2(0);
-    l.eta = m.eta > 0.0 ? m.eta : 1.0;
-    l.thickness = max(m.thickness, 1e-6);
-    l.albedo = clamp(m.albedo, vec3(0), vec3(1));
-    l.g = clamp(m.g, -0.99, 0.99);
-    l.max_depth = m.max_depth;
-    l.n_samples = m.n_samples;
+    Layered l = layered_coat_of(vec2(m.uroughness, m.vroughness), m.remap, m.eta, m.thickness, m.albedo, m.g, m.max_depth,
+                                m.n_samples);
     l.metal = false;
     l.base = clamp(m.reflectance, vec3(0), vec3(1));
     l.base_k = vec3(0);

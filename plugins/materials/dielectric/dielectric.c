@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Glass: the parameter table; the physics is in dielectric.glsl, formulas and sources in README.md. */
 #include <restage/material_plugin.h>
+#include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
     {"eta", "Index of refraction", RESTAGE_FLOAT, 0, 1, 3, {1.5f}, "", NULL, "Inside relative to outside: water 1.33, glass 1.5, diamond 2.4."},
-    {"uroughness", "Roughness u", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0}, "", NULL, "Along the texture's u direction; 0 is a perfect mirror."},
-    {"vroughness", "Roughness v", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0}, "", NULL, "Along the texture's v direction; 0 is a perfect mirror."},
-    {"remap", "Roughness scale", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 2, {0}, "", "v4|v3|none", "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as it is."},
-    {"distribution", "Distribution", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 1, {0}, "", "ggx|beckmann", "Shape of the microfacets: GGX has the longer tails."},
+    RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0),
+    RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0),
+    RESTAGE_ROW_REMAP(0),
+    RESTAGE_ROW_DISTRIBUTION,
     {"reflectance", "Reflection tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what is reflected; white is physical."},
     {"transmittance", "Transmission tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what is transmitted; white is physical."},
     {"thin", "Thin", RESTAGE_BOOL, 0, 0, 1, {0}, "", NULL, "A pane without thickness: light passes straight on; roughness does not apply."},

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Plastic (v3): the parameter table; the physics is in plastic.glsl, formulas and sources in README.md. */
 #include <restage/material_plugin.h>
+#include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
     {"kd", "Diffuse", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Reflectance of the matte part."},
     {"ks", "Specular", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Scale of the glossy part."},
     {"roughness", "Roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Of the glossy part."},
-    {"remap", "Roughness scale", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 2, {1}, "", "v4|v3|none", "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as it is."},
+    RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Substrate: the parameter table; the physics is in substrate.glsl, formulas and sources in README.md. */
 #include <restage/material_plugin.h>
+#include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
     {"kd", "Diffuse", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Reflectance of the base."},
     {"ks", "Specular", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Reflectance of the coat head on."},
-    {"uroughness", "Roughness u", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Along the texture's u direction; 0 is a perfect mirror."},
-    {"vroughness", "Roughness v", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Along the texture's v direction; 0 is a perfect mirror."},
-    {"remap", "Roughness scale", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 2, {1}, "", "v4|v3|none", "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as it is."},
+    RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0.1f),
+    RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0.1f),
+    RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */
 

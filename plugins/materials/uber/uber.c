@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Uber (v3): the parameter table; the physics is in uber.glsl, formulas and sources in README.md. */
 #include <restage/material_plugin.h>
+#include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
@@ -9,10 +10,10 @@ static const RestageParam params[] = {
     {"kr", "Mirror", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0, 0, 0}, "", NULL, "Scale of the mirror reflection."},
     {"kt", "Transmission", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0, 0, 0}, "", NULL, "Scale of the smooth refraction."},
     {"opacity", "Opacity", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "What is missing to white passes straight through."},
-    {"uroughness", "Roughness u", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Along the texture's u direction; 0 is a perfect mirror."},
-    {"vroughness", "Roughness v", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Along the texture's v direction; 0 is a perfect mirror."},
+    RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0.1f),
+    RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0.1f),
     {"eta", "Index of refraction", RESTAGE_FLOAT, 0, 1, 3, {1.5f}, "", NULL, "Inside relative to outside."},
-    {"remap", "Roughness scale", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 2, {1}, "", "v4|v3|none", "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as it is."},
+    RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */
 
