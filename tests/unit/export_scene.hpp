@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the export tests share: the plugins that were built, a folder that goes away again, and a scene that holds
+// something of every kind.
+#pragma once
+
+#include "base/file.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
+#include "scene/tables.hpp"
+
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace restage::test {
+
+struct Plugins { // everything that was built
+    Log log{[](LogLevel, std::string_view) {}};
+    plugin::Registry registry{log};
+    Plugins() {
+        registry.scan(std::vector<plugin::SearchPath>{
+            {std::filesystem::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
+        for (const auto* entry : registry.entries()) {
+            INFO(entry->name() << ": " << entry->reason);
+            if (entry->manifest.kind != plugin::Kind::denoiser) // those are no part of this
+                CHECK(entry->state == plugin::State::loaded);
+        }
+        REQUIRE(registry.find_importer("pbrt"));
+        REQUIRE(registry.find_exporter("pbrt"));
+    }
+};
+
+struct Folder {
+    std::filesystem::path path;
+    explicit Folder(const char* name)
+        : path(std::filesystem::temp_directory_path() / ("restage_export_test_" + std::string(name))) {
+        std::filesystem::remove_all(path);
+        std::filesystem::create_directories(path);
+    }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string file(const char* name) const { return (path / name).string(); }
+    std::map<std::string, std::string> contents() const {
+        std::map<std::string, std::string> all;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+            if (entry.is_regular_file())
+                all[entry.path().lexically_relative(path).generic_string()] = read_file(entry.path()).value();
+        return all;
+    }
+};
+
+glm::dmat4 place(double x, double turn, glm::dvec3 scale = glm::dvec3(1));
+
+// Of every kind of thing something, with numbers that have no short decimal form.
+struct Everything {
+    scene::Scene scene;
+    template <class T>
+    scene::Id<T> add(T item) {
+        const scene::Id<T> id = scene::table<T>(scene).next();
+        scene::apply(scene, scene::insert(scene, std::move(item), "add"));
+        return id;
+    }
+    scene::Id<scene::Material> material(const char* name, const char* type,
+                                        std::vector<std::pair<const char*, scene::Value>> values) {
+        scene::Material m{.name = name, .type = type};
+        for (auto& [id, value] : values)
+            m.params.set(id, std::move(value));
+        return add(std::move(m));
+    }
+    void instance(const char* name, scene::Id<scene::Mesh> mesh, scene::Id<scene::Material> m, double x, double turn) {
+        add(scene::Instance{.name = name, .mesh = mesh, .material = m, .object_to_world = place(x, turn)});
+    }
+
+    explicit Everything(bool v4); // what pbrt-v4 can hold, or what v3 can
+};
+
+} // namespace restage::test

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene: history and gestures: undo restores what was there, a drag is one edit, clean means as saved.
+#include "scene/history.hpp"
+#include "scene_room.hpp"
+
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace restage;
+using namespace restage::scene;
+using test::Room;
+
+namespace {
+
+// All that a scene holds, as a comparable value: what undo must restore. Versions move on and are left out.
+std::vector<AnyChange> contents(const Scene& scene) {
+    std::vector<AnyChange> all;
+    const auto push = [&]<class T>(const Table<T>& slots) {
+        slots.each([&](Id<T> id, const T& item) { all.push_back(Change<T>{id, std::nullopt, item}); });
+    };
+    push(scene.meshes), push(scene.images), push(scene.textures), push(scene.materials), push(scene.media);
+    push(scene.groups), push(scene.instances), push(scene.lights), push(scene.cameras);
+    all.push_back(ChangeOne<std::optional<Environment>>{{}, scene.environment.value});
+    all.push_back(ChangeOne<Id<Camera>>{{}, scene.active_camera.value});
+    all.push_back(ChangeOne<Film>{{}, scene.film.value});
+    all.push_back(ChangeOne<Settings>{{}, scene.settings.value});
+    return all;
+}
+
+bool same(const Scene& a, const Scene& b) {
+    const auto x = contents(a), y = contents(b);
+    if (x.size() != y.size()) return false;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (x[i].index() != y[i].index() || !std::visit(
+                                                [&]<class C>(const C& c) {
+                                                    const C& d = std::get<C>(y[i]);
+                                                    if constexpr (requires { c.id; })
+                                                        return c.id == d.id && c.after == d.after;
+                                                    else
+                                                        return c.after == d.after;
+                                                },
+                                                x[i]))
+            return false;
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("undo restores the scene, redo does it again, for every kind of edit", "[scene]") {
+    Room r;
+    History history;
+    const Scene start = r.scene;
+    const Id<Instance> both[] = {r.chair, r.lamp};
+    const auto push = [&](Result<Edit> edit) {
+        REQUIRE(edit);
+        const Version before = r.scene.clock;
+        REQUIRE(history.push(r.scene, std::move(*edit)));
+        CHECK(r.scene.clock > before);
+    };
+    push(insert(r.scene, Light{.name = "sun", .kind = RESTAGE_LIGHT_DISTANT}, "Add sun"));
+    push(duplicate_instances(r.scene, both, glm::translate(glm::dmat4(1), {1, 0, 0}))->edit);
+    push(remove_instances(r.scene, std::array{r.chair, r.chair2}));
+    push(set_material(r.scene, std::array{r.lamp, Id<Instance>{5}}, r.oak)); // 5: the copy of the lamp
+    push(remove(r.scene, r.steel));
+    push(set_param(r.scene, r.oak, "reflectance", Value::color(1, 0, 0)));
+    push(reset_param(r.scene, r.oak, "reflectance"));
+    push(set_emission(r.scene, r.lamp, Emission{{1, 1, 1}, false}));
+    push(set_hidden(r.scene, std::array{r.lamp}, true));
+    push(set_environment(r.scene, Environment{.name = "sky"}));
+    push(set_film(r.scene, Film{.width = 10, .height = 10}));
+    push(set_settings(r.scene, Settings{.max_depth = 3}));
+    push(rename(r.scene, r.lamp, "light"));
+    push(set_transform(r.scene, r.lamp, glm::scale(glm::dmat4(1), {2, 2, 2})));
+    const Scene end = r.scene;
+    CHECK_FALSE(same(start, end));
+    const std::size_t n = history.size();
+    for (std::size_t i = 0; i < n; ++i)
+        REQUIRE(history.undo(r.scene));
+    CHECK_FALSE(history.undo(r.scene));
+    CHECK(same(start, r.scene));
+    while (history.redo(r.scene)) {
+    }
+    CHECK(history.position() == n);
+    CHECK(same(end, r.scene));
+}
+
+TEST_CASE("a drag is one edit, and one that returns is none", "[scene]") {
+    Room r;
+    History history;
+    const Scene start = r.scene;
+    for (int i = 1; i <= 10; ++i)
+        REQUIRE(
+            history.push(r.scene, *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {i, 0, 0})), "drag"));
+    CHECK(history.size() == 1);
+    CHECK(r.scene.instances[r.chair].object_to_world[3].x == 10);
+    history.end_gesture();
+    history.push(r.scene, *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {20, 0, 0})), "drag");
+    CHECK(history.size() == 2);
+    history.undo(r.scene);
+    CHECK(r.scene.instances[r.chair].object_to_world[3].x == 10);
+    history.undo(r.scene);
+    CHECK(same(start, r.scene));
+    history.push(r.scene, *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {1, 0, 0})), "d");
+    history.push(r.scene, *set_transform(r.scene, r.chair, glm::dmat4(1)), "d");
+    CHECK(history.size() == 0); // also: pushing dropped what could be redone
+    CHECK(same(start, r.scene));
+    CHECK_FALSE(history.push(r.scene, *set_transform(r.scene, r.chair, glm::dmat4(1)))); // changes nothing
+    CHECK(history.size() == 0);
+}
+
+TEST_CASE("a gesture may insert and then move what it inserted", "[scene]") {
+    Room r;
+    History history;
+    const Scene start = r.scene;
+    const auto copy = duplicate_instances(r.scene, std::array{r.lamp}, glm::dmat4(1));
+    history.push(r.scene, copy->edit, "alt-drag");
+    history.push(r.scene, *move_instances(r.scene, copy->copies, glm::translate(glm::dmat4(1), {0, 5, 0})), "alt-drag");
+    CHECK(history.size() == 1);
+    CHECK(r.scene.instances[copy->copies[0]].object_to_world[3].y == 5);
+    history.undo(r.scene);
+    CHECK(same(start, r.scene));
+    history.redo(r.scene);
+    CHECK(r.scene.instances[copy->copies[0]].object_to_world[3].y == 5);
+}
+
+TEST_CASE("clean means: as the file holds it", "[scene]") {
+    Room r;
+    History history;
+    const auto change = [&](std::uint32_t width) {
+        history.push(r.scene, set_film(r.scene, Film{.width = width, .height = 8}), "film");
+    };
+    CHECK(history.clean());
+    change(1);
+    CHECK_FALSE(history.clean());
+    history.mark_clean();
+    change(2); // not merged into the saved entry
+    CHECK(history.size() == 2);
+    CHECK_FALSE(history.clean());
+    history.undo(r.scene);
+    CHECK(history.clean());
+    history.undo(r.scene);
+    change(3); // the saved state can no longer be reached
+    CHECK_FALSE(history.clean());
+    history.undo(r.scene);
+    CHECK_FALSE(history.clean());
+}
