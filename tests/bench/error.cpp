@@ -62,7 +62,7 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
         if (!denoiser && entry.table->available(&reason)) denoiser = entry.table;
 
     using render::Strategy;
-    const std::uint32_t deep = o.quick ? 16 : o.samples, most = std::max(deep / 4, 8u);
+    const std::uint32_t deep = o.quick ? 16 : o.samples, most = std::max(deep / 2, 8u);
     const Config configs[] = {{"mis", Strategy::mis, true, deep, true},
                               {"mis, no roulette", Strategy::mis, false, most, false},
                               {"light", Strategy::light_only, true, most, false},
@@ -104,10 +104,12 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
         }
     }
     // half1 - mean = (half1 - half2) / 2, whose square is an estimate of the mean's variance
+    const Error noise = error_of(a, reference);
     Json result = {{"width", a.width},
                    {"height", a.height},
                    {"clip", clip},
-                   {"reference_noise", error_of(a, reference).rel_mse},
+                   {"reference_noise", noise.rel_mse},
+                   {"reference_noise_trimmed", noise.trimmed},
                    {"rows", rows}};
     if (!denoiser) result["not_denoised"] = reason;
     return result;

@@ -5,16 +5,16 @@ import statistics
 import numpy as np
 
 
-def curves(scene):
-    """{"mis": [{samples, error, cpu}], ..., "mis, denoised": [...]}"""
+def curves(scene, measure):
+    """{"mis": [{samples, error, cpu}], ..., "mis, denoised": [...]}; measure is "rel_mse" (all pixels) or "trimmed"."""
     groups = {}
     for row in scene["rows"]:
-        groups.setdefault(row["config"], {}).setdefault(row["samples"], []).append(row)
-        if "rel_mse_denoised" in row:
+        groups.setdefault(row["config"], {}).setdefault(row["samples"], []).append((row["cpu"], row[measure]))
+        if measure + "_denoised" in row:
             groups.setdefault(row["config"] + ", denoised", {}).setdefault(row["samples"], []).append(
-                {"cpu": row["cpu"] + row["denoise_cpu"], "rel_mse": row["rel_mse_denoised"]})
-    return {config: [{"samples": n, "error": statistics.median(r["rel_mse"] for r in rows), "seeds": [r["rel_mse"] for r in rows],
-                      "cpu": statistics.median(r["cpu"] for r in rows)} for n, rows in sorted(by_n.items())]
+                (row["cpu"] + row["denoise_cpu"], row[measure + "_denoised"]))
+    return {config: [{"samples": n, "error": statistics.median(error for _, error in seeds), "seeds": [error for _, error in seeds],
+                      "cpu": statistics.median(cpu for cpu, _ in seeds)} for n, seeds in sorted(by_n.items())]
             for config, by_n in groups.items()}
 
 

@@ -31,5 +31,31 @@ def describe(restage):
         "mesa": first(output("dpkg-query", "-W", "-f", "${Version}", "mesa-vulkan-drivers"), r"(\S+)"),
         "embree": first(output("sh", "-c", "dpkg-query -W -f '${Version}\\n' 'libembree*' 2>/dev/null"), r"(\S+)"),
         "restage": first(output(str(restage), "--version"), r"restage (\S+)"),
-        "commit": first(output("git", "-C", str(pathlib.Path(__file__).parent), "rev-parse", "--short", "HEAD"), r"(\S+)"),
     }
+
+
+def commit():
+    """Of the checkout, "+" behind it when tracked files differ from it."""
+    return first(output("git", "-C", str(pathlib.Path(__file__).parent), "describe", "--always", "--exclude=*", "--dirty=+"), r"(\S+)")
+
+
+class Watch:
+    """How busy the machine was with other things: [with] Watch() as w: ...; then w.load_before and w.others_cpu, the share of all
+    cores that went to processes which are not our children."""
+
+    def __enter__(self):
+        self.load_before = round(os.getloadavg()[0], 1)
+        self.start = self.now()
+        return self
+
+    def __exit__(self, *_):
+        wall, busy, ours = (b - a for a, b in zip(self.start, self.now()))
+        self.others_cpu = round(max(0, (busy - ours) / max(wall, 1e-6)), 3)
+
+    @staticmethod
+    def now():
+        """Seconds of all cores together: passed, busy (stolen by the host as well), used by this process and its children."""
+        jiffies = [int(x) for x in pathlib.Path("/proc/stat").read_text().split("\n")[0].split()[1:9]]
+        tick, times = os.sysconf("SC_CLK_TCK"), os.times()
+        idle = jiffies[3] + jiffies[4]
+        return sum(jiffies) / tick, (sum(jiffies) - idle) / tick, sum(times[:4])

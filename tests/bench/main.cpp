@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     program.add_option("--runs", o.runs, "How often each figure is taken")->capture_default_str();
     program.add_flag("--quick", o.quick, "Less of everything");
     program.add_option("--threads", o.threads, "0 = all")->capture_default_str();
-    program.add_option("--samples", o.samples, "Where error curves end; strategies for study end at a quarter")
+    program.add_option("--samples", o.samples, "Where error curves end; strategies for study end at half of it")
         ->capture_default_str();
     program.add_subcommand("rays", "Rays a second in the room")->callback([&] { result = measure_rays(o); });
     program.add_subcommand("edits", "Edits of one of 1000 instances")->callback([&] { result = measure_edits(o); });

@@ -154,8 +154,8 @@ struct PlainTracer::Data {
         return r.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     }
     static void set(RTCRay& r, vec3 o, vec3 d, float far) {
-        std::memcpy(&r.org_x, &o, 12);
-        std::memcpy(&r.dir_x, &d, 12);
+        r.org_x = o.x, r.org_y = o.y, r.org_z = o.z;
+        r.dir_x = d.x, r.dir_y = d.y, r.dir_z = d.z;
         r.tfar = far;
         r.mask = 0xffffffffu;
     }

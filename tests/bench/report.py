@@ -83,10 +83,19 @@ def first_image(f):
             table(["", "s, wall", "CPU-s"], rows) + "\nWhere it goes (warm, one run):\n\n" + table(["stage", "s, wall", "CPU-s"], stages))
 
 
-PEERS = """Context, measured once on a similar machine (2 shared cores, AVX-512; +-30 % between runs, so not a ratio of one run):
-Mitsuba 3.9.1 `llvm_ad_rgb` 1.25 / 0.14 M samples a CPU-second (cornell / room) and 0.051 / 3.17 relMSE x CPU-s; its `scalar_rgb`
-0.41 / 0.087; Cycles 5.0.1 0.23 / 0.07 and 0.20 / 4.6; pbrt-v4 0.18 / 0.045 and 0.65 / 15; LuxCore 2.11 0.13 / 0.077. Our room has the
-same layout, lights, materials and triangle count, but its spheres are displaced by another formula.
+# Renderer, then for cornell and room: M samples / CPU-s, relMSE x CPU-s at 16 spp.
+PEERS = [("Mitsuba 3.9.1, llvm_ad_rgb, independent sampler", "1.25", "0.051", "0.14", "3.17"),
+         ("Mitsuba 3.9.1, llvm_ad_rgb, multijitter", "1.24", "0.031", "0.136", "3.14"),
+         ("Mitsuba 3.9.1, scalar_rgb", "0.41", "", "0.087", ""),
+         ("Cycles (bpy 5.0.1), light tree off", "", "0.195", "", "4.57"),
+         ("Cycles (bpy 5.0.1), light tree on", "0.23", "0.238", "0.07", "5.37"),
+         ("pbrt-v4, independent sampler", "0.18", "0.65-0.85", "0.045", "15-16"),
+         ("LuxCore 2.11.2", "0.13", "", "0.077", "")]
+PEERS_TEXT = """
+The same two scenes by other renderers, for orientation. These were **not measured in this run**: once, on another day, on a machine of
+the same kind (2 shared cores, AVX-512), medians of 3-4 runs that differ by +-30 % among themselves; their error is to a reference of
+their own. Read a factor of two as a difference, not 20 %. relMSE is defined alike. pbrt-v4 is spectral and does more for a sample.
+
 """
 
 
@@ -96,47 +105,66 @@ def standard(f):
         r = v["runs"]
         rows.append([name, spread(column(r, "msamples_cpu")), spread(column(r, "mrays_cpu")), spread(column(r, "rel_mse"), "{:.4f}"),
                      spread(column(r, "rel_mse_cpu_seconds"), "{:.3f}"), v["reference_samples"], f"{v['reference_noise']:.1e}"])
-    return ("## Standard scenes\n\n512x512 at 16 samples a pixel; cornell with 6 path edges, room with 8. relMSE is to a picture of "
-            "our own in two halves, whose noise is known and subtracted.\n\n" +
-            table(["scene", "M samples / CPU-s", "M rays / CPU-s", "relMSE", "relMSE x CPU-s", "reference spp", "its noise"], rows) + "\n" + PEERS)
+    return ("## Standard scenes\n\n512x512 at 16 samples a pixel, box filter; cornell (diffuse, 32 triangles) with 6 path edges, room (20 "
+            "instances of 199,692 triangles; diffuse, GGX conductor, glass) with 8. relMSE: the squared error of a pixel (mean over channels) "
+            "over the mean square of its reference + 0.01; the reference is a picture of our own in two halves, whose noise is known and "
+            "subtracted.\n\n" +
+            table(["scene", "M samples / CPU-s", "M rays / CPU-s", "relMSE", "relMSE x CPU-s", "reference spp", "its noise"], rows) + PEERS_TEXT +
+            table(["renderer", "cornell: M samples / CPU-s", "relMSE x CPU-s", "room: M samples / CPU-s", "relMSE x CPU-s"], PEERS))
 
 
 def error(f):
     rows = []
     for name, scene in f.items():
-        for config, points in fit.curves(scene).items():
-            exponent, floor = fit.power_law(points)
-            at = {p["samples"]: p for p in points}
-            chosen = at.get(16) or points[-1]
-            rows.append([name, config, f"{chosen['samples']}: {chosen['error']:.4f}", f"{chosen['cpu']:.1f}",
-                         f"{chosen['error'] * chosen['cpu']:.3f}", f"{exponent:.2f}", f"{floor:.1e}", f"{scene['reference_noise']:.1e}"])
+        trimmed = fit.curves(scene, "trimmed")
+        for config, points in fit.curves(scene, "rel_mse").items():
+            at = next((i for i, p in enumerate(points) if p["samples"] == 16), -1)
+            row = [name, config, points[-1]["samples"], f"{points[at]['cpu']:.1f}"]
+            for curve, noise in ((points, "reference_noise"), (trimmed[config], "reference_noise_trimmed")):
+                exponent, floor = fit.power_law(curve)
+                row += [f"{curve[at]['error']:.4f}", f"{curve[at]['error'] * curve[at]['cpu']:.3f}", f"{exponent:.2f}",
+                        f"{floor:.1e} ({scene[noise]:.1e})"]
+            rows.append(row)
     notes = "".join(f"\n{name} is not denoised: {scene['not_denoised']}\n" for name, scene in f.items() if "not_denoised" in scene)
     return ("## Error against samples and time\n\nrelMSE to pbrt-v4's pictures (mean of the two halves), brightest 0.1 % clipped alike, "
-            "median of the seeds. In veach-mis from 64 samples on one pixel decides: the edge of its brightest light, seen by one sample "
-            "of ours in 128 and by none of the reference's (30, 89); the fits of that scene mean little beyond. Nothing is subtracted: curves end on a floor made of the reference's own noise (last column) and of "
-            "what is not alike (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has p = 1, stratified "
-            "samples more where the picture is smooth; a denoised picture less, for its bias.\n\n![error against samples](error_samples.svg)\n\n"
+            "median of the seeds (band: all of them). *Trimmed* leaves out the thousandth of the pixels that differ most: a single pixel "
+            "can decide the mean of all. In veach-mis one does from 64 samples on: the edge of its brightest light, seen by one sample "
+            "of ours in 128 and by none of the reference's (30, 89). Nothing is subtracted: curves end on a floor made of the reference's own "
+            "noise (in brackets) and of what is not alike (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has "
+            "p = 1, stratified samples more where the picture is smooth; a denoised picture less, for its bias.\n\n![error against samples](error_samples.svg)\n\n"
             "![error against CPU time](error_time.svg)\n\n" +
-            table(["scene", "strategy", "samples: relMSE", "CPU-s", "product", "p", "fitted floor", "reference noise"], rows) + notes)
+            table(["scene", "strategy", "samples to", "CPU-s at 16", "relMSE at 16", "x CPU-s", "p", "fitted floor (noise)",
+                   "trimmed at 16", "x CPU-s", "p", "fitted floor (noise)"], rows) + notes)
 
 
 SECTIONS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "standard": standard, "error": error}
 
 
+def machine_line(m):
+    return f"{m['cpu']}, {m['cores']} cores, {m['vector']}; {m['system']}; Mesa {m['mesa']}; Embree {m['embree']}; Restage {m['restage']}"
+
+
+def measured_line(row, several_machines):
+    """When, of which commit, and how undisturbed a row was measured."""
+    line = (f"Measured {row['date']} at commit {row['commit']}; load average before it {row['load_before']:.1f}; others used "
+            f"{100 * row['others_cpu']:.0f} % of the cores meanwhile")
+    if several_machines:
+        line += f"; on {machine_line(row['machine'])}"
+    return line + ("; a quick look, not the full measurement.\n" if row["quick"] else ".\n")
+
+
 def write(data, folder):
-    m = data["machine"]
+    machines = {machine_line(row["machine"]) for row in data["rows"].values()}
     text = ["# Measurements\n\nWritten by `make bench` (tests/bench/run.py) from bench.json; not by hand. Every figure is the median of its "
             "runs, with the smallest and largest; ratios are of runs in one process. CPU time counts all threads of the process, "
-            "so it means something on a busy machine too.\n\n"
-            f"Machine: {m['cpu']}, {m['cores']} cores, {m['vector']}; {m['system']}; Mesa {m['mesa']}; Embree {m['embree']}; "
-            f"Restage {m['restage']} at {m['commit']}.\n"]
+            "so it means something on a busy machine too. Each section says when and of which commit it was measured.\n\n" +
+            (f"Machine: {next(iter(machines))}.\n" if len(machines) == 1 else "")]
     for name, section in SECTIONS.items():
         row = data["rows"].get(name)
         if row is None:
             text.append(f"## {name.replace('_', ' ')}\n\nNot measured in this file: `make bench` measures it (error and first image need RESTAGE_SCENES and RESTAGE_REFERENCES).\n")
             continue
-        quick = "; a quick look, not the full measurement" if row["quick"] else ""
-        text.append(section(row["figures"]) + f"\nMeasured {row['date']}, load average before it {row['load_before']}{quick}.\n")
+        text.append(section(row["figures"]) + "\n" + measured_line(row, len(machines) > 1))
     if "error" in data["rows"]:
         charts.error_charts(data["rows"]["error"]["figures"], folder)
     (folder / "README.md").write_text("\n".join(text))

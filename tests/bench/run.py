@@ -30,7 +30,10 @@ class Bench:
         self.program = args.restage.parent / "restage_bench"
         self.options = (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
         self.quick, self.runs = args.quick, args.runs
-        self.cache = ROOT / "build/bench-references"
+        # References are good for one commit only; an edited checkout makes its own each time.
+        self.made = tempfile.TemporaryDirectory()
+        commit = machine.commit()
+        self.references = pathlib.Path(self.made.name) if commit.endswith("+") else ROOT / "build/bench-references" / commit
         if not self.program.exists():
             sys.exit(f"{self.program} is not there; build it: ninja restage_bench in the build folder")
 
@@ -94,7 +97,7 @@ def first_image(bench):
 
 def standard(bench):
     spp = {"cornell": 64, "room": 32} if bench.quick else {"cornell": 256, "room": 128}
-    return {name: bench.measure("standard", name, "--folder", bench.cache, "--reference-spp", spp[name]) for name in spp}
+    return {name: bench.measure("standard", name, "--folder", bench.references, "--reference-spp", spp[name]) for name in spp}
 
 
 def error(bench):
@@ -111,7 +114,7 @@ ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--restage", type=pathlib.Path, default=ROOT / "build/bin/restage", help="the program; restage_bench is beside it")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/bench")
+    parser.add_argument("--out", type=pathlib.Path, help="default docs/bench; with --quick build/bench-quick")
     parser.add_argument("--only", nargs="+", choices=ROWS, help="measure these rows again, keep the others of bench.json")
     parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")
     parser.add_argument("--samples", type=int, default=256, help="a pixel, where the error curves end (default 256)")
@@ -119,25 +122,28 @@ def main():
     parser.add_argument("--report", action="store_true", help="measure nothing, write table and charts from bench.json")
     args = parser.parse_args()
     args.runs = args.runs or (1 if args.quick else 3)
+    args.out = args.out or ROOT / ("build/bench-quick" if args.quick else "docs/bench")
     args.out.mkdir(parents=True, exist_ok=True)
     file = args.out / "bench.json"
     keep = args.only or args.report
     data = json.loads(file.read_text()) if keep and file.exists() else {"rows": {}}
     if not args.report:
         bench = Bench(args)
-        data["machine"] = machine.describe(args.restage)
+        described, commit, begun = machine.describe(args.restage), machine.commit(), time.monotonic()
         for name in args.only or ROWS:
             start = time.monotonic()
-            load = os.getloadavg()[0]
-            figures = ROWS[name](bench)
+            with machine.Watch() as watch:
+                figures = ROWS[name](bench)
             if figures is None:
                 print(f"{name}: left out, RESTAGE_SCENES or RESTAGE_REFERENCES is not set", flush=True)
                 data["rows"].pop(name, None)
                 continue
             data["rows"][name] = {"date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
-                                  "load_before": round(load, 1), "quick": args.quick, "figures": figures}
+                                  "commit": commit, "machine": described, "load_before": watch.load_before,
+                                  "others_cpu": watch.others_cpu, "quick": args.quick, "figures": figures}
             print(f"{name}: measured in {time.monotonic() - start:.0f} s", flush=True)
             file.write_text(json.dumps(data, indent=1) + "\n")
+        print(f"all: {time.monotonic() - begun:.0f} s")
     report.write(data, args.out)
     print(f"written: {args.out}")
 

@@ -66,8 +66,8 @@ class Builder : public SceneBuilder {
         const auto wave = [&](vec3 f, vec3 phase) {
             return std::sin(f.x * d.x + phase.x) * std::sin(f.y * d.y + phase.y) * std::sin(f.z * d.z + phase.z);
         };
-        return d * (1.f + 0.1f * wave({4, 5, 4.5f}, {0.5f, 1.2f, 1.9f}) + 0.02f * wave({18, 17, 20}, vec3(0)) +
-                    0.004f * wave({58, 60, 62}, vec3(0)));
+        return d * (1.f + 0.1f * wave({4, 5, 4.5f}, {0.3f, 1, 2}) + 0.02f * wave({19, 17, 21}, vec3(0)) +
+                    0.004f * wave({61, 57, 59}, vec3(0)));
     }
 };
 
