@@ -86,13 +86,16 @@ Result<Reference> load_reference(const Options& options, Log& log) {
     return Reference{std::move(image), std::move(*estimate)};
 }
 
-// A block each, |z| = 0 black, the threshold half grey-green, beyond it red to white.
+// A block each: black where z is 0, green up to the threshold; beyond it red where A is brighter, blue where darker,
+// and paler the farther.
 scene::PixelData z_picture(const io::ZTest& test) {
     scene::PixelData image{.width = test.columns, .height = test.rows, .channels = 3};
     for (const float z : test.z) {
         const float t = std::abs(z) / static_cast<float>(test.threshold);
-        const float over = std::clamp((t - 1) / 3, 0.f, 1.f);
-        const glm::vec3 color = t <= 1 ? glm::vec3(0, 0.5f * t, 0.25f * t) : glm::vec3(0.6f + 0.4f * over, over, over);
+        const float over = 0.8f * std::clamp((t - 1) / 3, 0.f, 1.f), full = 0.7f + 0.3f * std::min(t - 1, 1.f);
+        const glm::vec3 color = t <= 1  ? glm::vec3(0, 0.5f * t, 0.25f * t)
+                                : z > 0 ? glm::vec3(full, over, over)
+                                        : glm::vec3(over, over, full);
         for (int c = 0; c < 3; ++c)
             image.values.push_back(io::srgb_to_linear(color[c]));
     }
@@ -183,7 +186,10 @@ void add_compare(CLI::App& program, Context& context) {
         ->add_option("--diff", options->diff,
                      "Write the relative difference of luminance: red where A is brighter, blue where darker")
         ->type_name("PNG");
-    command->add_option("--z-map", options->z_map, "Write |z| of each 8x8 block: red is beyond 3")->type_name("PNG");
+    command
+        ->add_option("--z-map", options->z_map,
+                     "Write z of each 8x8 block: beyond 3, red where A is brighter, blue where darker")
+        ->type_name("PNG");
     command
         ->add_option("--clip", options->compare.clip,
                      "Share of the brightest texels that is clipped in both alike (0.001 against fireflies)")

@@ -4,7 +4,7 @@
 
 Scenes come from RESTAGE_SCENES, references (two independent halves each) from RESTAGE_REFERENCES.
     references.py [--spp 256] [--out DIR] [--v3] [SCENE ...]
-Writes DIR/<scene>.exr, .png, .z.png, .diff.png and DIR/references.json. Exit code 1 when a scene fails to render.
+Writes DIR/<scene>.exr, .z.png, .diff.png and DIR/references.json. Exit code 1 when a scene fails to render.
 """
 import argparse
 import json
