@@ -194,7 +194,7 @@ Result<> write_png(const std::string& path, const scene::PixelData& image, float
         const bool alpha = image.channels == 4 && i % 4 == 3;
         const float v = image.values[i];
         const float value = alpha ? (v > 0 ? std::min(v, 1.f) : 0.f) : linear_to_srgb(v * factor);
-        encoded[i] = static_cast<std::uint8_t>(value * 255 + 0.5f);
+        encoded[i] = static_cast<std::uint8_t>(std::lround(value * 255));
     }
     std::string bytes;
     const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
