@@ -18,7 +18,6 @@
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
-#include <ImfVersion.h>
 #include <fmt/format.h>
 #include <algorithm>
 #include <functional>
@@ -36,7 +35,7 @@ struct Window {
 };
 
 Result<Window> data_window(const Imf::Header& header, std::size_t file_size) {
-    const Imath::Box2i box = header.dataWindow();
+    const Imath::Box2i& box = header.dataWindow();
     const auto width = std::int64_t{box.max.x} - box.min.x + 1, height = std::int64_t{box.max.y} - box.min.y + 1;
     RESTAGE_CHECK(check_image_size(static_cast<std::uint64_t>(std::max<std::int64_t>(width, 0)),
                                    static_cast<std::uint64_t>(std::max<std::int64_t>(height, 0)), file_size));
@@ -244,7 +243,7 @@ Result<ExrImage> read_layers(std::string_view bytes) {
 
 } // namespace
 
-bool is_exr(std::string_view bytes) { return bytes.size() >= 4 && Imf::isImfMagic(bytes.data()); }
+bool is_exr(std::string_view bytes) { return bytes.starts_with("\x76\x2f\x31\x01"); }
 
 Result<DecodedImage> decode_exr(std::string_view bytes, bool header_only) {
     return guarded([&] { return decode(bytes, header_only); });

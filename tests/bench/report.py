@@ -92,7 +92,7 @@ PEERS = [("Mitsuba 3.9.1, llvm_ad_rgb, independent sampler", "1.25", "0.051", "0
          ("pbrt-v4, independent sampler", "0.18", "0.65-0.85", "0.045", "15-16"),
          ("LuxCore 2.11.2", "0.13", "", "0.077", "")]
 PEERS_TEXT = """
-The same two scenes by other renderers, for orientation. These were **not measured in this run**: once, on another day, on a machine of
+The same two scenes by other renderers, for orientation. These were **not measured in this run**: once, at another time, on a machine of
 the same kind (2 shared cores, AVX-512), medians of 3-4 runs that differ by +-30 % among themselves; their error is to a reference of
 their own. Read a factor of two as a difference, not 20 %. relMSE is defined alike. pbrt-v4 is spectral and does more for a sample.
 
