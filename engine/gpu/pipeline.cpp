@@ -83,18 +83,49 @@ std::uint32_t align_up(std::uint32_t value, std::uint32_t alignment) {
 
 } // namespace
 
+// ---- either kind ---------------------------------------------------------------------------------------------------
+
+Pipeline::~Pipeline() {
+    if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
+    if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
+}
+Pipeline::Pipeline(Pipeline&& other) noexcept { *this = std::move(other); }
+Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(pipeline_, other.pipeline_);
+    std::swap(layout_, other.layout_);
+    std::swap(push_constant_bytes_, other.push_constant_bytes_);
+    std::swap(shader_bytes_, other.shader_bytes_);
+    return *this;
+}
+
+Result<void> Pipeline::begin(Device& device, VkShaderStageFlags stages, std::uint32_t push_constant_bytes,
+                             const char* name) {
+    device_ = &device;
+    push_constant_bytes_ = push_constant_bytes;
+    RESTAGE_TRY(layout_, create_layout(device, stages, push_constant_bytes, name));
+    return {};
+}
+
+Result<void> Pipeline::finish(VkResult result, const char* name) {
+    if (result != VK_SUCCESS) {
+        pipeline_ = VK_NULL_HANDLE;
+        return device_->error(result, std::string("creating pipeline ") + name);
+    }
+    device_->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name);
+    return {};
+}
+
 // ---- compute -------------------------------------------------------------------------------------------------------
 
 Result<ComputePipeline> ComputePipeline::create(Device& device, const Spirv& shader, std::uint32_t push_constant_bytes,
                                                 std::span<const SpecConstant> constants, const char* name) {
     assert(shader.stage == ShaderStage::compute);
     ComputePipeline self;
-    self.device_ = &device;
-    self.push_constant_bytes_ = push_constant_bytes;
+    RESTAGE_CHECK(self.begin(device, VK_SHADER_STAGE_COMPUTE_BIT, push_constant_bytes, name));
     self.shader_bytes_ = shader.words.size() * sizeof(std::uint32_t);
     Modules modules(device);
     RESTAGE_TRY(const VkShaderModule module, modules.create(shader));
-    RESTAGE_TRY(self.layout_, create_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, push_constant_bytes, name));
     const Specialization specialization(constants);
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -105,26 +136,8 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, const Spirv& sha
                                            .layout = self.layout_};
     const VkResult result = device.vk().vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info,
                                                                  nullptr, &self.pipeline_);
-    if (result != VK_SUCCESS) {
-        self.pipeline_ = VK_NULL_HANDLE;
-        return device.error(result, std::string("creating pipeline ") + name);
-    }
-    device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(self.pipeline_), name);
+    RESTAGE_CHECK(self.finish(result, name));
     return self;
-}
-
-ComputePipeline::~ComputePipeline() {
-    if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-    if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
-}
-ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept { *this = std::move(other); }
-ComputePipeline& ComputePipeline::operator=(ComputePipeline&& other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(pipeline_, other.pipeline_);
-    std::swap(layout_, other.layout_);
-    std::swap(push_constant_bytes_, other.push_constant_bytes_);
-    std::swap(shader_bytes_, other.shader_bytes_);
-    return *this;
 }
 
 // ---- ray tracing ---------------------------------------------------------------------------------------------------
@@ -134,9 +147,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                                                       std::span<const SpecConstant> constants, const char* name) {
     if (!device.info().ray_tracing) return fail(device.info().missing_ray_tracing);
     RayTracingPipeline self;
-    self.device_ = &device;
-    self.push_constant_bytes_ = push_constant_bytes;
-    RESTAGE_TRY(self.layout_, create_layout(device, stages, push_constant_bytes, name));
+    RESTAGE_CHECK(self.begin(device, stages, push_constant_bytes, name));
 
     Modules modules(device);
     const Specialization specialization(constants);
@@ -200,11 +211,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     const VolkDeviceTable& vk = device.vk();
     VkResult result = vk.vkCreateRayTracingPipelinesKHR(device.handle(), VK_NULL_HANDLE, device.pipeline_cache(), 1,
                                                         &info, nullptr, &self.pipeline_);
-    if (result != VK_SUCCESS) {
-        self.pipeline_ = VK_NULL_HANDLE;
-        return device.error(result, std::string("creating ray-tracing pipeline ") + name);
-    }
-    device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(self.pipeline_), name);
+    RESTAGE_CHECK(self.finish(result, name));
 
     // The binding table: four regions, each a handle a group, in the order in which the groups were made.
     const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rt = device.ray_tracing_properties();
@@ -239,25 +246,6 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     for (VkStridedDeviceAddressRegionKHR* region : regions)
         if (region->size > 0) region->deviceAddress += aligned;
     return self;
-}
-
-RayTracingPipeline::~RayTracingPipeline() {
-    if (pipeline_) device_->vk().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-    if (layout_) device_->vk().vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
-}
-RayTracingPipeline::RayTracingPipeline(RayTracingPipeline&& other) noexcept { *this = std::move(other); }
-RayTracingPipeline& RayTracingPipeline::operator=(RayTracingPipeline&& other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(pipeline_, other.pipeline_);
-    std::swap(layout_, other.layout_);
-    std::swap(push_constant_bytes_, other.push_constant_bytes_);
-    std::swap(shader_bytes_, other.shader_bytes_);
-    std::swap(binding_table_, other.binding_table_);
-    std::swap(raygen_, other.raygen_);
-    std::swap(misses_, other.misses_);
-    std::swap(hits_, other.hits_);
-    std::swap(callables_, other.callables_);
-    return *this;
 }
 
 } // namespace restage::gpu

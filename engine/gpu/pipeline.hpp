@@ -22,15 +22,13 @@ struct SpecConstant {
     std::uint32_t value = 0;
 };
 
-class ComputePipeline {
+// What both kinds are made of.
+class Pipeline {
   public:
-    // The workgroup size is the shader's; it may come from specialization constants (local_size_x_id).
-    static Result<ComputePipeline> create(Device& device, const Spirv& shader, std::uint32_t push_constant_bytes,
-                                          std::span<const SpecConstant> constants, const char* name);
-    ComputePipeline() = default;
-    ~ComputePipeline();
-    ComputePipeline(ComputePipeline&& other) noexcept;
-    ComputePipeline& operator=(ComputePipeline&& other) noexcept;
+    Pipeline() = default;
+    ~Pipeline();
+    Pipeline(Pipeline&& other) noexcept;
+    Pipeline& operator=(Pipeline&& other) noexcept;
 
     explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
     VkPipeline handle() const { return pipeline_; }
@@ -38,12 +36,24 @@ class ComputePipeline {
     std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
     std::size_t shader_bytes() const { return shader_bytes_; } // of SPIR-V that it was made from
 
-  private:
+  protected:
+    // With a layout of `push_constant_bytes` for `stages`, and no pipeline yet.
+    Result<void> begin(Device& device, VkShaderStageFlags stages, std::uint32_t push_constant_bytes, const char* name);
+    // What vkCreate...Pipelines gave, named, or its error.
+    Result<void> finish(VkResult result, const char* name);
+
     Device* device_ = nullptr;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     std::uint32_t push_constant_bytes_ = 0;
     std::size_t shader_bytes_ = 0;
+};
+
+class ComputePipeline : public Pipeline {
+  public:
+    // The workgroup size is the shader's; it may come from specialization constants (local_size_x_id).
+    static Result<ComputePipeline> create(Device& device, const Spirv& shader, std::uint32_t push_constant_bytes,
+                                          std::span<const SpecConstant> constants, const char* name);
 };
 
 // One kind of surface: what runs at the closest hit, and (nullptr: nothing) at every candidate hit that is not opaque.
@@ -62,21 +72,11 @@ struct RayTracingShaders {
 };
 
 // Recursion depth is 1: only raygen traces. Geometry contributes nothing to the hit group index (sbtRecordStride 0).
-class RayTracingPipeline {
+class RayTracingPipeline : public Pipeline {
   public:
     static Result<RayTracingPipeline> create(Device& device, const RayTracingShaders& shaders,
                                              std::uint32_t push_constant_bytes, std::span<const SpecConstant> constants,
                                              const char* name);
-    RayTracingPipeline() = default;
-    ~RayTracingPipeline();
-    RayTracingPipeline(RayTracingPipeline&& other) noexcept;
-    RayTracingPipeline& operator=(RayTracingPipeline&& other) noexcept;
-
-    explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
-    VkPipeline handle() const { return pipeline_; }
-    VkPipelineLayout layout() const { return layout_; }
-    std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
-    std::size_t shader_bytes() const { return shader_bytes_; } // of SPIR-V that it was made from
     // Push constants are visible to all of them.
     static constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
                                                  VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
@@ -84,11 +84,6 @@ class RayTracingPipeline {
 
   private:
     friend class CommandList;
-    Device* device_ = nullptr;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    std::uint32_t push_constant_bytes_ = 0;
-    std::size_t shader_bytes_ = 0;
     Buffer binding_table_;
     VkStridedDeviceAddressRegionKHR raygen_{}, misses_{}, hits_{}, callables_{};
 };
