@@ -14,10 +14,12 @@
 #include <vector>
 
 // A broken file never justifies one allocation of this size: AddressSanitizer then ends the test.
+// NOLINTBEGIN(bugprone-reserved-identifier): the name is AddressSanitizer's
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
     return "max_allocation_size_mb=1024:quarantine_size_mb=64:detect_stack_use_after_return=1";
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 using namespace restage;
 using Catch::Matchers::ContainsSubstring;

@@ -52,7 +52,7 @@ std::string damage(std::string bytes, Random& random) {
             case 5:
                 bytes.insert(at, edges[below(random, std::size(edges))]);
                 break;
-            case 6: { // a number becomes another
+            default: { // a number becomes another
                 const auto digit = bytes.find_first_of("0123456789", at);
                 if (digit == std::string::npos) break;
                 const auto end = std::min(bytes.find_first_not_of("0123456789.-+e", digit), bytes.size());

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Lines of parameter tables that several materials share, so that one thing has one name, range and explanation
- * everywhere. Each fits a function of the shader library: roughness and remap are alpha_from_roughness (microfacet.glsl),
- * the coat is layered_coat_of (layered.glsl). Sugar: a plugin may write its own lines. */
+ * everywhere. Each fits a function of the shader library: roughness and remap are alpha_from_roughness
+ * (microfacet.glsl), the coat is layered_coat_of (layered.glsl). Sugar: a plugin may write its own lines. */
 #ifndef RESTAGE_MATERIAL_ROWS_H
 #define RESTAGE_MATERIAL_ROWS_H
 
