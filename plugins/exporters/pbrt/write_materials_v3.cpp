@@ -123,6 +123,17 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         return "mix";
     }
     if (type == "interface") return "none";
+    if (type == "principled") {
+        unlike("pbrt-v3's disney material is written, which has the same dials and other formulas");
+        color("base_color", "color", 0.8f);
+        put_float(p, v, "metallic", "metallic", 0);
+        put_float(p, v, "roughness", "roughness", 0.5f); // both square it
+        put_float(p, v, "ior", "eta", 1.5f);
+        put_float(p, v, "transmission", "spectrans", 0);
+        put_float(p, v, "clearcoat", "clearcoat", 0);
+        flag(p, "thin", v.boolean("thin", false));
+        return "disney";
+    }
     dropped(what + " (" + type + ")", "pbrt-v3 has no such material; a grey matte one stands for it");
     p.add_rgb("Kd", {0.5f, 0.5f, 0.5f});
     return "matte";

@@ -77,6 +77,22 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         return "mix";
     }
     if (type == "interface") return "interface";
+    if (type == "principled") { // by what there is most of
+        const auto mean = [&](const char* id, float otherwise) {
+            return v.ref(id) ? average(v.ref(id))[0] : v.number(id, otherwise);
+        };
+        const bool metallic = mean("metallic", 0) > 0.5f, glass = !metallic && mean("transmission", 0) > 0.5f;
+        unlike(metallic ? "pbrt-v4 does not have it; a conductor of its colour stands for it"
+               : glass  ? "pbrt-v4 does not have it; clear glass stands for it"
+                        : "pbrt-v4 does not have it; a coated diffuse material of its colour stands for it");
+        if (!glass) put_color(p, v, "base_color", "reflectance", {0.8f, 0.8f, 0.8f});
+        if (!metallic) put_float(p, v, "ior", "eta", 1.5f);
+        if (glass && v.boolean("thin", false)) return "thindielectric";
+        const float roughness = mean("roughness", 0.5f);
+        p.add_float("roughness", roughness * roughness); // alpha
+        flag(p, "remaproughness", false);
+        return metallic ? "conductor" : glass ? "dielectric" : "coateddiffuse";
+    }
     if (type == "substrate" || type == "plastic" || type == "uber") {
         unlike("pbrt-v4 does not have it; a coated diffuse material of its colour and roughness stands for it");
         put_color(p, v, "kd", "reflectance",
