@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras and KHR_lights_punctual. Both look along -z in glTF, along +z here.
+#include "common/stage.hpp"
+#include "importer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace restage::gltf {
+
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// Unit axes of a node, its scale left out.
+Matrix directions(const Matrix& world) {
+    Matrix m;
+    m.set_column(1, normalized(world.column(1), {0, 1, 0}));
+    m.set_column(2, normalized(world.column(2), {0, 0, 1}));
+    m.set_column(0, normalized(world.column(0), {1, 0, 0}));
+    m.set_column(3, world.column(3));
+    return m;
+}
+
+Matrix turned_forward(Matrix m) { // -z becomes +z
+    m.set_column(2, m.column(2) * -1);
+    return m;
+}
+
+} // namespace
+
+void Importer::camera(int index) {
+    const auto& node = model_.nodes[static_cast<std::size_t>(index)];
+    const auto& in = at(model_.cameras, node.camera, "camera", "node " + std::to_string(index));
+    const std::string name = !in.name.empty() ? in.name : node.name.empty() ? "camera" : node.name;
+    const std::string what = "camera " + quote(name);
+    const Matrix placed = turned_forward(directions(world_[static_cast<std::size_t>(index)]));
+    double aspect = 16.0 / 9, yfov = 0;
+    const double away = std::max(dot(bounds_.center() - placed.column(3), placed.column(2)), 1e-3);
+    if (in.type == "orthographic") {
+        const auto& o = in.orthographic;
+        if (!(o.ymag > 0)) {
+            report_.dropped(what, "its ymag is not above 0");
+            return;
+        }
+        if (o.xmag > 0) aspect = o.xmag / o.ymag;
+        yfov = 2 * std::atan(o.ymag / away);
+        report_.approximated(what,
+                             "orthographic; a perspective that shows as much at the middle of the scene stands for it");
+    } else {
+        yfov = in.perspective.yfov;
+        if (in.perspective.aspectRatio > 0) aspect = in.perspective.aspectRatio;
+        if (!(yfov > 0 && yfov < std::numbers::pi)) {
+            report_.dropped(what, "its field of view is not between 0 and 180 degrees");
+            return;
+        }
+    }
+    // yfov is the vertical angle; ours is that of the shorter side.
+    const double fov = aspect >= 1 ? yfov : 2 * std::atan(std::tan(yfov / 2) * aspect);
+    RestageCamera camera{.text = {name.c_str(), "", ""},
+                         .camera_to_world = {},
+                         .fov = static_cast<float>(fov * degrees),
+                         .screen_window = {},
+                         .lens_radius = 0,
+                         .focal_distance = static_cast<float>(away),
+                         .frame_aspect = 0};
+    std::copy(placed.m.begin(), placed.m.end(), camera.camera_to_world);
+    if (!out_.camera(out_.ctx, &camera)) return;
+    if (cameras_++ == 0) add_film(out_, aspect);
+}
+
+void Importer::light(int index, int light_index) {
+    const auto& in = at(model_.lights, light_index, "light", "node " + std::to_string(index));
+    const std::string name = !in.name.empty() ? in.name : node_name(index), what = "light " + quote(name);
+    RestageLight light{.text = {name.c_str(), "", ""},
+                       .kind = RESTAGE_LIGHT_POINT,
+                       .value = {},
+                       .light_to_world = {},
+                       .cone_angle = 30,
+                       .cone_delta = 5};
+    for (std::size_t i = 0; i < 3; ++i)
+        light.value[i] = static_cast<float>(std::max(in.intensity * (i < in.color.size() ? in.color[i] : 1.0), 0.0));
+    if (in.type == "directional") {
+        light.kind = RESTAGE_LIGHT_DISTANT;
+    } else if (in.type == "spot") {
+        light.kind = RESTAGE_LIGHT_SPOT;
+        light.cone_angle = static_cast<float>(std::clamp(in.spot.outerConeAngle * degrees, 0.01, 180.0));
+        light.cone_delta = static_cast<float>(
+            std::clamp((in.spot.outerConeAngle - in.spot.innerConeAngle) * degrees, 0.0, double(light.cone_angle)));
+        report_.approximated(what, "its edge falls off as a smooth step of the cosine");
+    } else if (in.type != "point") {
+        report_.dropped(what, "a light of the unknown type " + quote(in.type));
+        return;
+    }
+    if (in.range > 0) report_.dropped(what + ": range", "light reaches as far as it does");
+    report_.kept(what,
+                 "1 lux or candela is taken as 1 W/m^2 or W/sr, so that a surface of 1 nit (emissive factor 1) "
+                 "has the value 1 in the picture");
+    const Matrix placed = turned_forward(directions(world_[static_cast<std::size_t>(index)]));
+    std::copy(placed.m.begin(), placed.m.end(), light.light_to_world);
+    lights_ += out_.light(out_.ctx, &light) != 0;
+}
+
+} // namespace restage::gltf

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// KHR_materials_*: into the principled material where it has the same, else the nearest and a line in the report.
+#include "importer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace restage::gltf {
+
+void Importer::volume(const tinygltf::Value& v, const std::string& name, MadeMaterial& made, Values& values) {
+    if (number_of(v, "thicknessFactor", 0) <= 0) return; // a pane
+    values.boolean("thin", false);
+    if (v.Has("thicknessTexture"))
+        report_.kept("material " + quote(name) + ": thickness texture", "not needed: rays measure the thickness");
+    const double distance = number_of(v, "attenuationDistance", 0);
+    const Rgb color = color_of(v, "attenuationColor", {1, 1, 1});
+    if (distance <= 0 || color == Rgb{1, 1, 1}) return;
+    RestageMedium medium{.text = {name.c_str(), "", ""}, .sigma_a = {}, .sigma_s = {}, .g = 0};
+    for (std::size_t i = 0; i < 3; ++i) // transmittance after `distance` is the colour (Beer and Lambert)
+        medium.sigma_a[i] = static_cast<float>(-std::log(std::clamp(color[i], 1e-4, 1.0)) / distance);
+    made.interior = out_.medium(out_.ctx, &medium);
+    made.has_interior = made.interior != 0;
+}
+
+void Importer::extensions(const tinygltf::Material& m, MadeMaterial& made, Values& values) {
+    const std::string what = "material " + quote(m.name);
+    bool transmits = false;
+    for (const auto& [name, v] : m.extensions) {
+        if (name == "KHR_materials_emissive_strength") {
+            for (double& x : made.emission)
+                x *= std::max(number_of(v, "emissiveStrength", 1), 0.0);
+        } else if (name == "KHR_materials_ior") {
+            const double ior = number_of(v, "ior", 1.5);
+            if (ior < 1 || ior > 3)
+                report_.approximated(what + ": ior " + std::to_string(ior), "indices from 1 to 3 are rendered");
+            values.number("ior", std::clamp(ior, 1.0, 3.0));
+        } else if (name == "KHR_materials_specular") {
+            const Rgb color = color_of(v, "specularColorFactor", {1, 1, 1});
+            if (std::max({color[0], color[1], color[2]}) > 1)
+                report_.approximated(what + ": specular colour", "values above 1 are taken as 1");
+            put_scalar(values, "specular", number_of(v, "specularFactor", 1), use_of(v, "specularTexture", "specular"),
+                       3, made);
+            put_color(values, "specular_color", color, use_of(v, "specularColorTexture", "specular colour"), made);
+        } else if (name == "KHR_materials_transmission") {
+            const double factor = number_of(v, "transmissionFactor", 0);
+            transmits = factor > 0;
+            put_scalar(values, "transmission", factor, use_of(v, "transmissionTexture", "transmission"), 0, made);
+        } else if (name == "KHR_materials_clearcoat") {
+            put_scalar(values, "clearcoat", number_of(v, "clearcoatFactor", 0),
+                       use_of(v, "clearcoatTexture", "clear coat"), 0, made);
+            put_scalar(values, "clearcoat_roughness", number_of(v, "clearcoatRoughnessFactor", 0),
+                       use_of(v, "clearcoatRoughnessTexture", "clear coat roughness"), 1, made);
+            if (v.Has("clearcoatNormalTexture"))
+                report_.dropped(what + ": clear coat normal texture", "the coat follows the surface's own normals");
+        } else if (name == "KHR_materials_pbrSpecularGlossiness") {
+            report_.approximated(what + ": specular-glossiness",
+                                 "read as metallic-roughness: its diffuse colour, no metal");
+            values.number("metallic", 0);
+            values.number("roughness", 1 - std::clamp(number_of(v, "glossinessFactor", 1), 0.0, 1.0));
+            put_color(values, "base_color", color_of(v, "diffuseFactor", {1, 1, 1}),
+                      use_of(v, "diffuseTexture", "diffuse"), made);
+        } else if (name == "KHR_materials_sheen") {
+            report_.dropped(what + ": sheen", "the principled material has none");
+        } else if (name == "KHR_materials_anisotropy") {
+            report_.dropped(what + ": anisotropy", "its roughness is the same in all directions");
+        } else if (name == "KHR_materials_iridescence" || name == "KHR_materials_dispersion" ||
+                   name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_variants") {
+            report_.dropped(what + ": " + name, "not rendered");
+        } else if (name != "KHR_materials_volume" && name != "KHR_materials_unlit") {
+            report_.dropped(what + ": " + name, "not known");
+        }
+    }
+    if (!transmits) return;
+    values.boolean("thin", true);
+    if (const auto v = m.extensions.find("KHR_materials_volume"); v != m.extensions.end())
+        volume(v->second, m.name, made, values);
+}
+
+} // namespace restage::gltf

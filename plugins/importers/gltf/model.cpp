@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model.hpp"
+
+#include "common/file.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace restage::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_picture(const std::string& path) {
+    for (const char* extension : {"png", "jpg", "jpeg", "webp", "ktx2", "ktx", "dds", "gif", "bmp", "tga", "basis"})
+        if (has_extension(path.c_str(), extension)) return true;
+    return false;
+}
+
+// tinygltf's way to files: buffers are read here, pictures are not there.
+tinygltf::FsCallbacks file_access() {
+    return {.FileExists =
+                [](const std::string& path, void*) {
+                    std::error_code code;
+                    return !is_picture(path) && fs::is_regular_file(path, code);
+                },
+            .ExpandFilePath = [](const std::string& path, void*) { return path; },
+            .ReadWholeFile =
+                [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void*) {
+                    std::string reason;
+                    const auto read = read_file(path, reason);
+                    if (read) bytes->assign(read->begin(), read->end());
+                    if (!read && error) *error += path + ": " + reason;
+                    return read.has_value();
+                },
+            .WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                 void*) { return false; },
+            .user_data = nullptr};
+}
+
+// Pictures in data URIs are kept as they are; those in buffer views are looked up later, with the checks this lacks.
+bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                  int size, void*) {
+    if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+    image->as_is = true;
+    return true;
+}
+
+// "parse error at line 3, column 5: ..." of the JSON reader.
+[[noreturn]] void fail(std::string message, bool binary) {
+    std::uint32_t line = 0, column = 0;
+    if (const auto place = message.find("at line "); !binary && place != message.npos)
+        if (std::sscanf(message.c_str() + place, "at line %u, column %u", &line, &column) != 2) line = column = 0;
+    while (!message.empty() && std::strchr("\n\r ", message.back()))
+        message.pop_back();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    throw ImportError{message.empty() ? "the file cannot be understood" : message, line, column, {}};
+}
+
+void check_header(std::string_view bytes) { // of a GLB: magic, version, length, then chunks of length, type, data
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0; // little-endian, as the machines we run on
+        std::memcpy(&value, bytes.data() + at, 4);
+        return value;
+    };
+    if (bytes.size() < 20) throw ImportError{"byte " + std::to_string(bytes.size()) + ": the GLB header ends early"};
+    if (word(4) != 2)
+        throw ImportError{"byte 4: this is GLB version " + std::to_string(word(4)) + "; version 2 is read"};
+    if (word(8) > bytes.size())
+        throw ImportError{"byte 8: the file is cut: " + std::to_string(word(8)) + " bytes promised, " +
+                          std::to_string(bytes.size()) + " found"};
+    std::size_t at = 12;
+    while (at + 8 <= bytes.size() && at < word(8)) {
+        if (word(at) > bytes.size() - at - 8)
+            throw ImportError{"byte " + std::to_string(at) + ": a chunk of " + std::to_string(word(at)) +
+                              " bytes reaches past the end of the file"};
+        at += 8 + word(at);
+    }
+}
+
+} // namespace
+
+std::string decode_uri(std::string_view uri) {
+    std::string result;
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                      : -1;
+    };
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
+            result += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
+            i += 2;
+        } else {
+            result += uri[i];
+        }
+    }
+    return result;
+}
+
+tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const RestageSceneWriter1& out) {
+    if (!out.progress(out.ctx, 0.02f, "reading the scene")) throw Cancelled{};
+    tinygltf::TinyGLTF reader;
+    reader.SetFsCallbacks(file_access());
+    reader.SetImageLoader(keep_picture, nullptr);
+    tinygltf::Model model;
+    std::string errors, warnings;
+    const std::string folder = path.parent_path().string();
+    if (bytes.size() > 0xffffffffu) throw ImportError{"the file is larger than 4 GiB, which glTF does not allow"};
+    const bool binary = bytes.starts_with("glTF");
+    if (binary) check_header(bytes);
+    const auto size = static_cast<unsigned>(bytes.size());
+    const bool read =
+        binary ? reader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                             reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
+               : reader.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), size, folder);
+    for (const std::string& name : model.extensionsRequired) // known even when the rest could not be read for it
+        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
+            throw ImportError{"its geometry is compressed (" + name +
+                              "), which is not read; save it without compression"};
+    if (!read) fail(errors, binary);
+    if (!model.asset.version.empty() && model.asset.version[0] != '2')
+        throw ImportError{"this is glTF " + model.asset.version + "; version 2 is read: convert it"};
+    return model;
+}
+
+} // namespace restage::gltf

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures: which picture, which channel of it, and where on the surface. Pictures that are files stay files; embedded
+// ones, single channels, masks and mirrored tilings become pixels.
+#include "common/file.hpp"
+#include "importer.hpp"
+
+#include <cmath>
+#include <cstring>
+
+namespace restage::gltf {
+
+double number_of(const tinygltf::Value& object, const char* key, double otherwise) {
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return otherwise;
+    const double value = object.Get(key).GetNumberAsDouble();
+    return std::isfinite(value) ? value : otherwise;
+}
+
+Rgb color_of(const tinygltf::Value& object, const char* key, Rgb otherwise) {
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsArray()) return otherwise;
+    const auto& array = object.Get(key);
+    for (std::size_t i = 0; i < 3 && i < array.ArrayLen(); ++i)
+        if (array.Get(static_cast<int>(i)).IsNumber())
+            otherwise[i] = array.Get(static_cast<int>(i)).GetNumberAsDouble();
+    return otherwise;
+}
+
+UvTransform relative(const UvTransform& t, const UvTransform& base) {
+    if (base == UvTransform{}) return t;
+    const double det = base.a * base.d - base.b * base.c;
+    if (det == 0) return t;
+    const UvTransform i{base.d / det, -base.b / det, -base.c / det, base.a / det, 0, 0}; // of the linear part
+    UvTransform r{t.a * i.a + t.b * i.c, t.a * i.b + t.b * i.d, t.c * i.a + t.d * i.c, t.c * i.b + t.d * i.d, 0, 0};
+    r.x = t.x - r.a * base.x - r.b * base.y;
+    r.y = t.y - r.c * base.x - r.d * base.y;
+    for (double* off : {&r.b, &r.c})
+        if (std::abs(*off) < 1e-9) *off = 0;
+    return r;
+}
+
+TextureUse Importer::make_use(int index, int set, const tinygltf::ExtensionMap& extensions, const char* slot) const {
+    TextureUse use{index, set, {}, slot};
+    const auto it = extensions.find("KHR_texture_transform");
+    if (it == extensions.end() || !it->second.IsObject()) return use;
+    const auto& t = it->second;
+    use.set = static_cast<int>(number_of(t, "texCoord", set));
+    const Rgb offset = color_of(t, "offset", {0, 0, 0}), scale = color_of(t, "scale", {1, 1, 1});
+    const double angle = number_of(t, "rotation", 0), cosine = std::cos(angle), sine = std::sin(angle);
+    // Translation * Rotation * Scale; the extension's rotation is [cos sin; -sin cos] on (u, v).
+    use.transform = {cosine * scale[0], sine * scale[1], -sine * scale[0], cosine * scale[1], offset[0], offset[1]};
+    if (angle == 0) use.transform.b = use.transform.c = 0;
+    return use;
+}
+
+TextureUse Importer::use_of(const tinygltf::Value& owner, const char* key, const char* slot) const {
+    if (!owner.IsObject() || !owner.Has(key) || !owner.Get(key).IsObject()) return {};
+    const auto& info = owner.Get(key);
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions") && info.Get("extensions").IsObject() &&
+        info.Get("extensions").Has("KHR_texture_transform"))
+        extensions["KHR_texture_transform"] = info.Get("extensions").Get("KHR_texture_transform");
+    return make_use(static_cast<int>(number_of(info, "index", -1)), static_cast<int>(number_of(info, "texCoord", 0)),
+                    extensions, slot);
+}
+
+int Importer::image_of(const TextureUse& use) {
+    const auto& texture = at(model_.textures, use.index, "texture", use.slot + " texture");
+    if (texture.source < 0) {
+        report_.dropped("texture " + std::to_string(use.index), texture.extensions.contains("KHR_texture_basisu")
+                                                                    ? "KTX2 pictures (KHR_texture_basisu) are not read"
+                                                                : texture.extensions.contains("EXT_texture_webp")
+                                                                    ? "WebP pictures (EXT_texture_webp) are not read"
+                                                                    : "it names no picture");
+        return -1;
+    }
+    at(model_.images, texture.source, "image", "texture " + std::to_string(use.index));
+    return texture.source;
+}
+
+const Picture* Importer::picture(int index) {
+    const auto [it, fresh] = pictures_.try_emplace(index);
+    if (!fresh) return it->second ? &*it->second : nullptr;
+    const auto& image = model_.images[static_cast<std::size_t>(index)];
+    std::string reason;
+    if (!image.uri.empty()) {
+        it->second = read_picture(find_file(path_.parent_path(), decode_uri(image.uri)).string(), reason);
+    } else if (image.bufferView >= 0) {
+        const auto bytes = view_bytes(model_, image.bufferView, "image " + std::to_string(index));
+        it->second = decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, reason);
+    } else {
+        it->second = decode_picture({reinterpret_cast<const char*>(image.image.data()), image.image.size()}, reason);
+    }
+    if (!it->second)
+        report_.dropped("image " + quote(image.uri.empty() ? std::to_string(index) : decode_uri(image.uri)), reason);
+    return it->second ? &*it->second : nullptr;
+}
+
+RestageHandle Importer::image(int index, Purpose purpose, double number, bool mirror_u, bool mirror_v) {
+    const auto key = std::tuple(index, static_cast<int>(purpose), number, mirror_u, mirror_v);
+    if (const auto it = images_.find(key); it != images_.end()) return it->second;
+    RestageHandle& handle = images_[key];
+    const auto& source = model_.images[static_cast<std::size_t>(index)];
+    const bool as_it_is = purpose == Purpose::srgb || purpose == Purpose::linear;
+    if (as_it_is && !source.uri.empty() && !mirror_u && !mirror_v)
+        return handle = add_image_file(out_, find_file(path_.parent_path(), decode_uri(source.uri)).string(),
+                                       purpose == Purpose::srgb ? RESTAGE_SRGB : RESTAGE_LINEAR);
+    const Picture* p = picture(index);
+    if (!p) return 0;
+    static constexpr const char* suffixes[] = {"", "", " red", " green", " blue", " alpha", " mask", " scaled"};
+    std::string name = source.name.empty() ? decode_uri(source.uri) : source.name;
+    if (name.empty()) name = "image " + std::to_string(index);
+    name += suffixes[static_cast<int>(purpose)];
+    if (mirror_u || mirror_v) name += " mirrored";
+    const bool color = as_it_is || purpose == Purpose::normal;
+    const std::uint32_t width = p->width * (mirror_u ? 2 : 1), height = p->height * (mirror_v ? 2 : 1);
+    handle = add_pixels(out_, name, width, height, color ? 3 : 1, [&](std::size_t pixel, unsigned channel) {
+        std::size_t x = pixel % width, y = pixel / width;
+        if (x >= p->width) x = width - 1 - x;
+        if (y >= p->height) y = height - 1 - y;
+        const std::size_t from = y * p->width + x;
+        switch (purpose) {
+            case Purpose::srgb:
+                return srgb_to_linear(p->value(from, channel));
+            case Purpose::mask: // number: the least alpha that is seen
+                return p->value(from, 3) >= number ? 1.0 : 0.0;
+            case Purpose::normal: // number: scale of x and y (glTF 2.0, 3.9.3)
+                return channel == 2 ? p->value(from, 2)
+                                    : std::clamp(0.5 + (p->value(from, channel) - 0.5) * number, 0.0, 1.0);
+            case Purpose::linear:
+                return p->value(from, channel);
+            default:
+                return p->value(from, static_cast<unsigned>(purpose) - static_cast<unsigned>(Purpose::red));
+        }
+    });
+    return handle;
+}
+
+// uv as the mesh has it, v upwards -> st of the picture. Mirrored tilings are doubled pictures, tiled.
+Mapping Importer::mapping(const TextureUse& use, const UvPlan& plan, bool& mirror_u, bool& mirror_v,
+                          const std::string& material) {
+    const std::string what = "material " + quote(material) + ": " + use.slot + " texture";
+    UvTransform t = relative(use.transform, plan.baked);
+    if (use.set != plan.set)
+        report_.approximated(what, "it lies on another set of texture coordinates; objects have one");
+    if (!t.diagonal()) {
+        report_.approximated(what, "it is turned against the other textures; the turn is left out");
+        t = {};
+    }
+    const auto& texture = model_.textures[static_cast<std::size_t>(use.index)];
+    tinygltf::Sampler sampler;
+    if (texture.sampler >= 0)
+        sampler = at(model_.samplers, texture.sampler, "sampler", "texture " + std::to_string(use.index));
+    mirror_u = sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
+    mirror_v = sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
+    const bool clamp_u = sampler.wrapS == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    const bool clamp_v = sampler.wrapT == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    if (clamp_u != clamp_v)
+        report_.approximated(what, "it repeats in one direction and not in the other; here it repeats in both");
+    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST)
+        report_.approximated(what, "nearest-neighbour filtering is bilinear here");
+    if (mirror_u) t.a /= 2, t.x /= 2;
+    if (mirror_v) t.d /= 2, t.y /= 2;
+    return {.scale_u = t.a,
+            .scale_v = t.d,
+            .offset_u = t.x,
+            .offset_v = 1 - t.d - t.y,
+            .wrap = clamp_u && clamp_v ? "clamp" : "repeat"};
+}
+
+RestageHandle Importer::texture(const TextureUse& use, Purpose purpose, const UvPlan& plan, const std::string& material,
+                                double number) {
+    const int index = image_of(use);
+    if (index < 0) return 0;
+    bool mirror_u = false, mirror_v = false;
+    const Mapping map = mapping(use, plan, mirror_u, mirror_v, material);
+    const bool color = purpose == Purpose::srgb || purpose == Purpose::linear || purpose == Purpose::normal;
+    return add_imagemap(out_, material + " " + use.slot, image(index, purpose, number, mirror_u, mirror_v), !color,
+                        map);
+}
+
+} // namespace restage::gltf

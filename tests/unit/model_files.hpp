@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tests of the model importers share: a folder of files, the importers of this build, questions to the report.
+#pragma once
+
+#include "io/import.hpp"
+#include "plugin/registry.hpp"
+#include "scene/tables.hpp"
+
+#include <array>
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace restage::tests {
+
+class ModelFiles {
+  public:
+    ModelFiles() {
+        const plugin::SearchPath path[] = {{RESTAGE_BINARY_DIR "/lib/restage/plugins", true}};
+        registry.scan(path);
+        folder_ = std::filesystem::temp_directory_path() / ("restage-model-" + std::to_string(std::random_device()()));
+        std::filesystem::create_directories(folder_);
+    }
+    ~ModelFiles() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    ModelFiles(const ModelFiles&) = delete;
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    void write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    }
+    io::ImportedScene load(const std::string& name, const io::ImportOptions& options = {}) const {
+        auto in = io::import_scene(path(name), registry, options);
+        if (!in) FAIL(in.error().message);
+        return std::move(*in);
+    }
+    std::string error(const std::string& name) const {
+        const auto in = io::import_scene(path(name), registry);
+        return in ? "it was opened" : in.error().message;
+    }
+
+  private:
+    Log log_{[](LogLevel, std::string_view) {}};
+    std::filesystem::path folder_;
+
+  public:
+    plugin::Registry registry{log_};
+};
+
+// Is there such a line in the report, at that place ("file:line", or a part of it), that says that?
+inline bool says(const io::ImportedScene& in, RestageFate fate, const std::string& place, const std::string& words) {
+    for (const auto& e : in.report.entries)
+        if (const std::string line = io::to_string(e);
+            e.fate == fate && line.find(place) != line.npos && line.find(words) != line.npos)
+            return true;
+    for (const auto& e : in.report.entries)
+        UNSCOPED_INFO(io::to_string(e));
+    return false;
+}
+
+} // namespace restage::tests

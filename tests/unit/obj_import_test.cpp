@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The OBJ importer, through the registry as the program uses it: objects, groups, smoothing, materials, report, errors.
+#include "model_files.hpp"
+
+using namespace restage;
+using namespace restage::tests;
+using Catch::Approx;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+const char* const square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+
+struct Fold : ModelFiles { // two squares that share the edge 2-3, at a right angle
+    io::ImportedScene open(const std::string& s1, const std::string& s2) {
+        write("fold.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\no fold\n" + s1 + "\nf 1 2 3 4\n" +
+                              s2 + "\nf 2 5 6 3\n");
+        return load("fold.obj");
+    }
+};
+
+} // namespace
+
+TEST_CASE("obj: polygons become triangles, with texture coordinates upwards", "[obj]") {
+    ModelFiles files;
+    files.write("a.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
+    const auto in = files.load("a.obj");
+    REQUIRE(in.scene.instances.live() == 1);
+    const auto& instance = in.scene.instances[{1}];
+    CHECK(instance.name == "a"); // of the file
+    const auto& mesh = *in.scene.meshes[instance.mesh].data;
+    CHECK(mesh.triangles.size() == 2);
+    CHECK(mesh.positions.size() == 4); // corners are shared
+    CHECK(mesh.normals.empty()); // flat
+    REQUIRE(mesh.uvs.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(mesh.uvs[i] == glm::vec2(mesh.positions[i])); // v as in the file: upwards
+    CHECK(in.scene.materials[instance.material].type == "diffuse");
+    CHECK(in.scene.format == "obj");
+}
+
+TEST_CASE("obj: objects keep their names, and one with two materials is a group", "[obj]") {
+    ModelFiles files;
+    files.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+    files.write("a.obj", std::string("mtllib a.mtl\n") + square +
+                             "o first\nusemtl red\nf 1 2 3\no second\nf 1 2 3\nusemtl blue\nf 1 3 4\n");
+    const auto in = files.load("a.obj");
+    REQUIRE(in.scene.instances.live() == 3);
+    REQUIRE(in.scene.groups.live() == 1);
+    CHECK(in.scene.groups[{1}].name == "second");
+    const auto find = [&](const char* name) {
+        return in.scene.instances[scene::find_by_name<scene::Instance>(in.scene, name)];
+    };
+    CHECK_FALSE(find("first").group);
+    CHECK(find("second/red").group.value == 1);
+    CHECK(find("second/blue").group.value == 1);
+    CHECK(find("first").material == find("second/red").material);
+    CHECK(in.scene.materials[find("second/blue").material].params.color("reflectance", {}) ==
+          std::array<float, 3>{0, 0, 1});
+}
+
+TEST_CASE("obj: smoothing groups smooth within themselves only", "[obj]") {
+    Fold fold;
+    const float half = std::sqrt(0.5f);
+    const auto normals_at_edge = [&](const io::ImportedScene& in) {
+        const auto& mesh = *in.scene.meshes[{1}].data;
+        std::vector<glm::vec3> found;
+        for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+            if (mesh.positions[i] == glm::vec3(1, 0, 0)) found.push_back(mesh.normals[i]);
+        return found;
+    };
+    CHECK(fold.open("s off", "s off").scene.meshes[{1}].data->normals.empty());
+    const auto smooth = normals_at_edge(fold.open("s 1", ""));
+    REQUIRE(smooth.size() == 1);
+    CHECK(smooth[0].x == Approx(half));
+    CHECK(smooth[0].z == Approx(half));
+    CHECK(normals_at_edge(fold.open("s 1", "s 2")).size() == 2);
+    const auto mixed = normals_at_edge(fold.open("s 1", "s off"));
+    REQUIRE(mixed.size() >= 2); // smooth ones of a single face, and flat ones
+    for (const auto& n : mixed)
+        CHECK(glm::length(n) == Approx(1));
+}
+
+TEST_CASE("obj: MTL statements choose the nearest material", "[obj]") {
+    ModelFiles files;
+    files.write("m.mtl",
+                "newmtl matte\nKd .2 .4 .6\nKs 0 0 0\nnewmtl glossy\nKd .2 .4 .6\nKs .5 .5 .5\nNs 98\nNi 1.3\n"
+                "newmtl metal\nKd 0 0 0\nKs .9 .8 .7\nNs 200\nnewmtl mirror\nKd 0 0 0\nKs 1 1 1\nillum 3\n"
+                "newmtl glass\nKd 0 0 0\nKs 1 1 1\nillum 7\nNi 1.6\nTf .9 1 .9\nd 0.2\n"
+                "newmtl pbr\nKd .2 .4 .6\nPr .25\nPm 1\nPc .5\nPs .5\nnewmtl veil\nKd 1 1 1\nd .25\nnewmtl lamp\nKd 0 "
+                "0 0\nKe 3 2 1\n"
+                "newmtl unused\nKd 1 1 1\n");
+    std::string text = std::string("mtllib m.mtl\n") + square;
+    for (const char* name : {"matte", "glossy", "metal", "mirror", "glass", "pbr", "veil", "lamp"})
+        text += std::string("o ") + name + "\nusemtl " + name + "\nf 1 2 3\n";
+    files.write("m.obj", text);
+    const auto in = files.load("m.obj");
+    const auto instance = [&](const char* name) {
+        return in.scene.instances[scene::find_by_name<scene::Instance>(in.scene, name)];
+    };
+    const auto material = [&](const char* name) -> const scene::Material& {
+        return in.scene.materials[instance(name).material];
+    };
+    CHECK(material("matte").type == "diffuse");
+    CHECK(material("glossy").type == "uber");
+    CHECK(material("glossy").params.number("uroughness", 0) == Approx(std::sqrt(0.02)));
+    CHECK(material("glossy").params.number("eta", 0) == Approx(1.3));
+    CHECK(material("metal").type == "conductor");
+    CHECK(material("metal").params.color("reflectance", {})[1] == Approx(0.8));
+    CHECK(material("mirror").type == "conductor");
+    CHECK(material("mirror").params.number("uroughness", 1) == 0);
+    CHECK(material("glass").type == "dielectric");
+    CHECK(material("glass").params.number("eta", 0) == Approx(1.6));
+    CHECK(instance("glass").alpha == 1); // it is clear, not a veil
+    CHECK(material("pbr").type == "principled");
+    CHECK(material("pbr").params.number("roughness", 0) == Approx(0.25));
+    CHECK(material("pbr").params.number("metallic", 0) == 1);
+    CHECK(material("pbr").params.number("clearcoat", 0) == Approx(0.5));
+    CHECK(instance("veil").alpha == Approx(0.25));
+    REQUIRE(instance("lamp").emission);
+    CHECK(instance("lamp").emission->radiance == glm::vec3(3, 2, 1));
+    CHECK(says(in, RESTAGE_DROPPED, "m.mtl:29", "Ps"));
+    CHECK(says(in, RESTAGE_DROPPED, "", "1 of 9 are used by no face"));
+}
+
+TEST_CASE("obj: what is missing is reported with its place, and the rest opens", "[obj]") {
+    ModelFiles files;
+    files.write("a.mtl", "newmtl wood\nKd 1 1 1\nmap_Kd no\\such.png\n");
+    files.write("a.obj", std::string("mtllib a.mtl\nmtllib other.mtl\n") + square +
+                             "usemtl wood\nf 1 2 3\nusemtl stone\nf 1 3 4\nl 1 2\nfoo bar\nf 1//9 2//9 3//9\n");
+    const auto in = files.load("a.obj");
+    CHECK(in.scene.instances.live() == 2);
+    CHECK(says(in, RESTAGE_DROPPED, "a.obj:2", "other.mtl"));
+    CHECK(says(in, RESTAGE_DROPPED, "such.png", ""));
+    CHECK(says(in, RESTAGE_APPROXIMATED, "a.obj:13", "stone"));
+    CHECK(says(in, RESTAGE_DROPPED, "a.obj:15", "lines have no surface"));
+    CHECK(says(in, RESTAGE_DROPPED, "a.obj:16", "foo"));
+    CHECK(says(in, RESTAGE_APPROXIMATED, "a.obj:17", "normal 9 of 0"));
+}
+
+TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
+    ModelFiles files;
+    files.write("a.obj", "v -3 0 7\nv 5 1 7\nv 0 9 -2\nf 1 2 3\n");
+    const auto in = files.load("a.obj");
+    REQUIRE(in.scene.environment.value);
+    REQUIRE(in.scene.active_camera.value);
+    CHECK(says(in, RESTAGE_KEPT, "", "the file has none; one that shows everything is added"));
+    CHECK(says(in, RESTAGE_KEPT, "", "a neutral studio is added"));
+    const auto& camera = in.scene.cameras[in.scene.active_camera.value];
+    CHECK(glm::determinant(glm::dmat3(camera.camera_to_world)) == Approx(-1)); // a right-handed world
+    const auto& film = in.scene.film.value;
+    const double half = std::tan(glm::radians(camera.fov / 2.0)), aspect = double(film.width) / film.height;
+    for (const glm::vec3& p : in.scene.meshes[{1}].data->positions) {
+        const glm::dvec4 q = glm::inverse(camera.camera_to_world) * glm::dvec4(p, 1);
+        CHECK(q.z > 0);
+        CHECK(std::abs(q.x) < half * aspect * q.z);
+        CHECK(std::abs(q.y) < half * q.z);
+    }
+}
+
+TEST_CASE("obj: broken files name the line and the column", "[obj]") {
+    ModelFiles files;
+    const auto error = [&](const std::string& text) {
+        files.write("bad.obj", text);
+        return files.error("bad.obj");
+    };
+    CHECK_THAT(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"),
+               ContainsSubstring("bad.obj:4:7: the face names vertex 4 of 3"));
+    CHECK_THAT(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 0 3\n"), ContainsSubstring("bad.obj:4:5: "));
+    CHECK_THAT(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n"), ContainsSubstring("bad.obj:4:9: "));
+    CHECK_THAT(error("v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n"), ContainsSubstring("bad.obj:2:5: "));
+    CHECK_THAT(error("v 0 0 0\n"), ContainsSubstring("no faces"));
+    CHECK_THAT(error(""), ContainsSubstring("bad.obj"));
+}
