@@ -119,7 +119,7 @@ def error(f):
         trimmed = fit.curves(scene, "trimmed")
         for config, points in fit.curves(scene, "rel_mse").items():
             at = next((i for i, p in enumerate(points) if p["samples"] == 16), -1)
-            row = [name, config, points[-1]["samples"], f"{points[at]['cpu']:.1f}"]
+            row = [name, config, points[-1]["samples"], points[at]["samples"], f"{points[at]['cpu']:.1f}"]
             for curve, noise in ((points, "reference_noise"), (trimmed[config], "reference_noise_trimmed")):
                 exponent, floor = fit.power_law(curve)
                 row += [f"{curve[at]['error']:.4f}", f"{curve[at]['error'] * curve[at]['cpu']:.3f}", f"{exponent:.2f}",
@@ -133,8 +133,8 @@ def error(f):
             "noise (in brackets) and of what is not alike (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has "
             "p = 1, stratified samples more where the picture is smooth; a denoised picture less, for its bias.\n\n![error against samples](error_samples.svg)\n\n"
             "![error against CPU time](error_time.svg)\n\n" +
-            table(["scene", "strategy", "samples to", "CPU-s at 16", "relMSE at 16", "x CPU-s", "p", "fitted floor (noise)",
-                   "trimmed at 16", "x CPU-s", "p", "fitted floor (noise)"], rows) + notes)
+            table(["scene", "strategy", "curve to", "samples", "CPU-s", "relMSE", "x CPU-s", "p", "fitted floor (noise)",
+                   "trimmed", "x CPU-s", "p", "fitted floor (noise)"], rows) + notes)
 
 
 SECTIONS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "standard": standard, "error": error}
