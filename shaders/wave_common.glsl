@@ -3,6 +3,7 @@
 #ifndef RESTAGE_WAVE_COMMON
 #define RESTAGE_WAVE_COMMON
 #include "path/film.glsl"
+#include "shared/wave_data.h"
 
 layout(local_size_x = 64) in;
 
@@ -12,5 +13,22 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PathArray {
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GuideArray { GuideSample at[]; };
 
 layout(push_constant, scalar) uniform Push { WavePush push; };
+
+// The scene, with what is pushed in place of what lies behind its address.
+SceneData wave_scene() {
+    SceneData scene = SceneRef(push.scene).scene;
+    scene.instances = push.instances;
+    scene.materials = push.materials;
+    scene.params = push.params;
+    scene.lights = push.lights;
+    scene.light_alias = push.light_alias;
+    scene.light_count = push.light_count;
+    scene.max_depth = push.max_depth;
+    scene.russian_roulette = push.russian_roulette;
+    scene.clamp_direct = push.clamp_direct;
+    scene.clamp_indirect = push.clamp_indirect;
+    scene.ray_epsilon = push.ray_epsilon;
+    return scene;
+}
 
 #endif

@@ -8,10 +8,9 @@
 
 void main() {
     if (gl_GlobalInvocationID.x >= push.queue_count) return;
-    FrameData frame = FrameRef(push.frame).frame;
-    uint i = UintArray(frame.queue).at[push.queue_first + gl_GlobalInvocationID.x];
-    PathState path = PathArray(frame.paths).at[i];
-    path_escape(SceneRef(frame.scene).scene, RayArray(frame.rays).at[i].direction, path);
-    PathArray(frame.paths).at[i].radiance = path.radiance;
-    RayArray(frame.rays).at[i].tfar = -1.0;
+    uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
+    PathState path = PathArray(push.paths).at[i];
+    path_escape(wave_scene(), RayArray(push.rays).at[i].direction, path);
+    PathArray(push.paths).at[i].radiance = path.radiance;
+    RayArray(push.rays).at[i].tfar = -1.0;
 }

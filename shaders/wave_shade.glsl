@@ -5,11 +5,10 @@
 
 void main() {
     if (gl_GlobalInvocationID.x >= push.queue_count) return;
-    FrameData frame = FrameRef(push.frame).frame;
-    uint i = UintArray(frame.queue).at[push.queue_first + gl_GlobalInvocationID.x];
-    SceneData scene = SceneRef(frame.scene).scene;
-    RayHit ray = RayArray(frame.rays).at[i];
-    PathState path = PathArray(frame.paths).at[i];
+    uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
+    SceneData scene = wave_scene();
+    RayHit ray = RayArray(push.rays).at[i];
+    PathState path = PathArray(push.paths).at[i];
     InstanceData inst = InstanceArray(scene.instances).at[ray.inst];
     MaterialData material = MaterialArray(scene.materials).at[ray.geom];
 
@@ -23,31 +22,35 @@ void main() {
         path.radiance = vec3(0);
         path.throughput = vec3(0);
         next.tmax = -1.0;
-        atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
+        atomicAdd(CounterArray(FrameRef(push.frame).frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }
-    if (HAS_GUIDES && first) {
-        guide.weight = GuideArray(frame.guides).at[i].weight;
-        guide.pad0 = 0u;
-        GuideArray(frame.guides).at[i] = guide;
+    if (HAS_GUIDES && first) { // all but the weight, which wave_generate wrote
+        GuideArray guides = GuideArray(push.guides);
+        guides.at[i].albedo = guide.albedo;
+        guides.at[i].normal = guide.normal;
+        guides.at[i].depth = guide.depth;
+        guides.at[i].instance_id = guide.instance_id;
+        guides.at[i].material_id = guide.material_id;
     }
-    ShadowArray shadows = ShadowArray(frame.shadows);
+    // Only what changes is written, the rest stays as the tracer and wave_generate set it.
+    ShadowArray shadows = ShadowArray(push.shadows);
     shadows.at[i].tfar = shadow.tmax;
     if (shadow.tmax > 0.0) {
         shadows.at[i].origin = shadow.origin;
-        shadows.at[i].tnear = 0.0;
         shadows.at[i].direction = shadow.direction;
-        shadows.at[i].time = 0.0;
-        shadows.at[i].mask = 0xffffffffu;
-        shadows.at[i].flags = 0u;
         shadows.at[i].contribution = contribution;
     }
-    RayArray rays = RayArray(frame.rays);
+    RayArray rays = RayArray(push.rays);
     rays.at[i].tfar = next.tmax;
     if (next.tmax > 0.0) {
         rays.at[i].origin = next.origin;
         rays.at[i].direction = next.direction;
-        rays.at[i].geom = NONE;
-        rays.at[i].inst = NONE;
     }
-    PathArray(frame.paths).at[i] = path;
+    PathArray paths = PathArray(push.paths);
+    paths.at[i].throughput = path.throughput;
+    paths.at[i].pdf = path.pdf;
+    paths.at[i].radiance = path.radiance;
+    paths.at[i].flags = path.flags;
+    paths.at[i].eta_scale = path.eta_scale;
+    if (HAS_MEDIA) paths.at[i].medium = path.medium;
 }

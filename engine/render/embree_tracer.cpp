@@ -4,6 +4,7 @@
 // hits, in natural path order and in place, and queues each hit for its type's kernel.
 #include "render/embree_scene.hpp"
 #include "render/wave_kernels.hpp"
+#include "shared/wave_data.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,6 +24,8 @@ constexpr std::uint32_t group_size = 64;      // of the kernels
 constexpr std::size_t chunk = 2048;           // paths a job
 constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
 
+static_assert(sizeof(shared::WavePush) == 128);
+
 class EmbreeTracer final : public Tracer {
   public:
     explicit EmbreeTracer(const TracerContext& c) : c_(c), kernels_(c) {}
@@ -39,6 +42,12 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), host, "counters"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
         std::memset(counters_.mapped(), 0, counters_.size());
+        std::memset(rays_.mapped(), 0, rays_.size()); // what kernels do not write stays so
+        std::memset(shadows_.mapped(), 0, shadows_.size());
+        for (auto& ray : rays_.span<shared::RayHit>())
+            ray.mask = ~0u;
+        for (auto& shadow : shadows_.span<shared::ShadowRay>())
+            shadow.mask = ~0u;
         types_.resize(wave_paths);
         return {};
     }
@@ -95,6 +104,27 @@ class EmbreeTracer final : public Tracer {
         f.queue = queue_.address();
         f.counters = counters_.address();
         RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
+        const shared::SceneData& data = scene.data();
+        push_ = {.frame = frame_.address(),
+                 .rays = f.rays,
+                 .shadows = f.shadows,
+                 .paths = f.paths,
+                 .guides = f.guides,
+                 .queue = f.queue,
+                 .scene = f.scene,
+                 .instances = data.instances,
+                 .materials = data.materials,
+                 .params = data.params,
+                 .lights = data.lights,
+                 .light_alias = data.light_alias,
+                 .queue_first = 0,
+                 .queue_count = 0,
+                 .light_count = data.light_count,
+                 .max_depth = data.max_depth,
+                 .russian_roulette = data.russian_roulette,
+                 .clamp_direct = data.clamp_direct,
+                 .clamp_indirect = data.clamp_indirect,
+                 .ray_epsilon = data.ray_epsilon};
         const std::uint32_t count = f.pixel_count * f.samples;
         stats_.paths += count;
 
@@ -102,8 +132,8 @@ class EmbreeTracer final : public Tracer {
         active_.resize(count);
         for (std::uint32_t i = 0; i < count; ++i)
             active_[i] = i;
-        for (;;) {
-            trace_rays(scene);
+        for (std::uint32_t bounce = 0;; ++bounce) {
+            trace_rays(scene, bounce >= data.max_depth);
             if (active_.empty() && !escaped_) break;
             RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
             if (!ready) return false;
@@ -121,8 +151,9 @@ class EmbreeTracer final : public Tracer {
 
     void dispatch(gpu::CommandList& list, const gpu::ComputePipeline& kernel, std::uint32_t first,
                   std::uint32_t count) {
-        const shared::WavePush push{frame_.address(), first, count};
-        list.dispatch(kernel, gpu::push_bytes(push), (count + group_size - 1) / group_size);
+        push_.queue_first = first;
+        push_.queue_count = count;
+        list.dispatch(kernel, gpu::push_bytes(push_), (count + group_size - 1) / group_size);
     }
 
     template <class Record>
@@ -139,9 +170,15 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
+    // A path's last vertex only emits.
+    static bool ends_unlit(const GpuScene& scene, const shared::PathState& path, std::uint32_t instance) {
+        const std::uint32_t depth = path.flags & PATH_DEPTH_MASK;
+        return depth > 0 && depth >= scene.data().max_depth && !(scene.instances()[instance].flags & INSTANCE_EMITS);
+    }
+
     // Shadow rays of the last vertex, then the next hits, for the active paths in natural order. Afterwards `queue_`
     // holds the hit paths sorted by type, type_count_ their numbers, active_ those that will be shaded.
-    void trace_rays(const GpuScene& scene) {
+    void trace_rays(const GpuScene& scene, bool last_vertex) {
         const auto start = Clock::now();
         auto rays = rays_.span<shared::RayHit>();
         auto shadows = shadows_.span<shared::ShadowRay>();
@@ -165,9 +202,12 @@ class EmbreeTracer final : public Tracer {
                     std::uint8_t type = type_none;
                     if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
                         ++closest;
+                        ray.geom = ray.inst = NONE;
                         embree_->intersect(ray);
                         if (ray.inst == NONE) {
                             type = environment ? type_escape : type_none;
+                        } else if (last_vertex && ends_unlit(scene, paths[i], ray.inst)) {
+                            type = type_none;
                         } else {
                             // varies over the surface and does not depend on the tracer
                             const glm::vec3 p(ray.u, ray.v, float(ray.prim));
@@ -226,6 +266,7 @@ class EmbreeTracer final : public Tracer {
     WaveKernels kernels_;
     bool escaped_ = false;
     gpu::CommandList list_;
+    shared::WavePush push_{}; // of this wave
     std::vector<std::uint32_t> active_, next_active_;
     std::vector<std::uint8_t> types_; // by path
     std::vector<std::array<std::uint32_t, 256>> counts_;

@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "render/material_composer.hpp"
+#include "shared/wave_data.h"
 
 namespace restage::render {
 

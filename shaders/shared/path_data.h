@@ -100,11 +100,6 @@ struct FrameData { // behind the push constant
     uint seed;
 };
 
-struct WavePush {
-    address frame;
-    uint queue_first, queue_count;
-};
-
 struct TracePush { // of the ray-tracing pipeline: one sample a pixel of a rectangle of the film
     address frame;
     address tlas;

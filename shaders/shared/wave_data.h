@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Push constants of the wavefront's kernels: what every path of a wave asks for alike, so that kernels need
+// not load it from behind an address once a path.
+#ifndef RESTAGE_SHARED_WAVE_DATA_H
+#define RESTAGE_SHARED_WAVE_DATA_H
+#include "shared/types.h"
+
+RESTAGE_SHARED_BEGIN
+
+struct WavePush { // 128 bytes: what every device has room for
+    address frame;  // FrameData
+    address rays;   // as in FrameData, from here
+    address shadows;
+    address paths;
+    address guides;
+    address queue;
+    address scene;
+    address instances; // as in SceneData, from here
+    address materials;
+    address params;
+    address lights;
+    address light_alias;
+    uint queue_first, queue_count;
+    uint light_count;
+    uint max_depth;
+    uint russian_roulette;
+    float clamp_direct, clamp_indirect;
+    float ray_epsilon;
+};
+
+RESTAGE_SHARED_END
+#endif
