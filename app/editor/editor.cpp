@@ -306,4 +306,6 @@ void Editor::mark(const std::string& name) {
     marks_[name] = {a.x, a.y, b.x, b.y};
 }
 
+void Editor::mark(const std::string& name, ImVec2 point) { marks_[name] = {point.x, point.y, point.x, point.y}; }
+
 } // namespace restage::editor

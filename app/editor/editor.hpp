@@ -123,6 +123,7 @@ class Editor {
 
     // Names the last item for tests that drive the program from outside: see probe().
     void mark(const std::string& name);
+    void mark(const std::string& name, ImVec2 point);
     // State and marks as JSON, for tests.
     std::string probe() const;
 

@@ -13,6 +13,8 @@ namespace restage::editor {
 
 namespace {
 
+constexpr float handle_size = 0.16f; // of the picture's half width
+
 glm::dmat3 rotation_of(const glm::dmat4& m) {
     glm::dmat3 r(m);
     for (int i = 0; i < 3; ++i)
@@ -76,6 +78,7 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     ImGuizmo::SetRect(corner.x, corner.y, size.x, size.y);
     ImGuizmo::SetOrthographic(false);
     ImGuizmo::AllowAxisFlip(false);
+    ImGuizmo::SetGizmoSizeClipSpace(handle_size);
     const auto operation = e.view.gizmo == GizmoMode::move     ? ImGuizmo::TRANSLATE
                            : e.view.gizmo == GizmoMode::rotate ? ImGuizmo::ROTATE
                                                                : ImGuizmo::SCALE;
@@ -86,6 +89,16 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     const bool moved =
         ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation, ImGuizmo::LOCAL,
                              glm::value_ptr(drag.current), nullptr, io.KeyCtrl ? snap : nullptr);
+
+    for (int i = 0; i < 3; ++i) { // the middle of each handle, for tests
+        const glm::dvec3 a = session::project(camera, drag.pivot, e.film_aspect());
+        const glm::dvec3 b = session::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * reach * 1e-3, e.film_aspect());
+        const glm::dvec2 on_screen = glm::dvec2(b - a) * glm::dvec2(size.x, size.y);
+        const glm::dvec2 tip = glm::dvec2(a) * glm::dvec2(size.x, size.y) +
+                               (glm::length(on_screen) > 0 ? glm::normalize(on_screen) : glm::dvec2(0)) *
+                                   (0.6 * handle_size / 2 * size.x);
+        e.mark(i == 0 ? "gizmo.x" : i == 1 ? "gizmo.y" : "gizmo.z", {corner.x + float(tip.x), corner.y + float(tip.y)});
+    }
 
     if (ImGuizmo::IsUsing() && !drag.active) { // it begins
         drag.active = true;

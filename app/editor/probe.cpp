@@ -39,6 +39,8 @@ std::string Editor::probe() const {
     const auto frame = live_->frame(), clean = live_->denoised();
     j["view"] = {{"state", int(status.state)},
                  {"text", status.text},
+                 {"current", status.current},
+                 {"compiling", status.compiling},
                  {"samples", status.samples},
                  {"divider", status.divider},
                  {"asked", asked_.version},

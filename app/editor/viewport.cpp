@@ -32,31 +32,34 @@ void Viewport::draw(Editor& e) {
     e.set_picture_size(glm::max(
         glm::uvec2(size.x * pixels.x * e.view.resolution, size.y * pixels.y * e.view.resolution), glm::uvec2(16)));
 
-    ImGui::SetCursorScreenPos(corner);
-    ImGui::SetNextItemAllowOverlap();
-    ImGui::InvisibleButton(
-        "##picture", size,
-        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-    e.mark("picture");
-    const bool over = ImGui::IsItemHovered();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
-
     update_textures(e);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    if (picture_.ready())
-        draw->AddImage(picture_.ref(), corner, end);
+    if (picture_.ready()) draw->AddImage(picture_.ref(), corner, end);
     else {
         const char* text = e.opening().running() ? "Opening..." : "Open a scene with Ctrl+O, or drop a file here";
         const ImVec2 extent = ImGui::CalcTextSize(text);
         draw->AddText({corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2},
                       ImGui::GetColorU32(colors::dim), text);
     }
+    // ImGuizmo takes no click where an item is hovered: its handles come first, and the picture is no item under them.
     bool gizmo = false;
     if (e.view.show_overlays && picture_.ready()) {
         if (outline_.ready()) draw->AddImage(outline_.ref(), corner, end);
         gizmo = draw_gizmo(e, corner, size);
         draw_overlays(e);
     }
+    ImGui::SetCursorScreenPos(corner);
+    if (gizmo) {
+        ImGui::Dummy(size);
+    } else {
+        ImGui::SetNextItemAllowOverlap();
+        ImGui::InvisibleButton("##picture", size,
+                               ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                                   ImGuiButtonFlags_MouseButtonMiddle);
+    }
+    e.mark("picture");
+    const bool over = ImGui::IsItemHovered();
     navigate(e, over);
     stick(e, over);
     if (!sticking_) pick(e, over, gizmo);

@@ -46,6 +46,7 @@ struct LiveView::Impl {
     std::optional<Request> mail; // the newest request, not yet taken
     std::optional<render::RendererOptions> new_options;
     std::uint64_t last_number = 0; // given out
+    bool taking = false; // a request was taken from `mail`, and is not yet known to show something else
     std::uint64_t visible = 0; // the newest request that shows something else than the one before
     std::shared_ptr<const Frame> newest, newest_denoised, to_denoise;
     ViewStatus now;
@@ -119,8 +120,11 @@ struct LiveView::Impl {
                 if (mail) {
                     work.request = std::move(mail);
                     mail.reset();
+                    taking = true;
                     lock.unlock();
                     begin(work);
+                    lock.lock();
+                    taking = false;
                     continue;
                 }
             }
@@ -380,7 +384,10 @@ std::shared_ptr<const Frame> LiveView::best(bool want_denoised) const {
 
 ViewStatus LiveView::status() const {
     std::lock_guard lock(impl_->mutex);
-    return impl_->now;
+    ViewStatus status = impl_->now;
+    status.current = !impl_->mail && !impl_->new_options && !impl_->taking && impl_->newest &&
+                     impl_->newest->request == impl_->visible;
+    return status;
 }
 
 std::string LiveView::denoiser_missing() const {

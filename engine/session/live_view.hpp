@@ -50,6 +50,7 @@ struct ViewStatus {
     std::string text; // of `failed`: why
     std::string device, tracer; // once started
     std::string compiling; // a material type whose code is not ready: a stand-in is shown; "" = none
+    bool current = false; // frame() shows the newest request
     std::uint32_t samples = 0, divider = 1; // of the picture being made
     double samples_per_second = 0; // pixels times samples, measured
     std::size_t gpu_bytes = 0;

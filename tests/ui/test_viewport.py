@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The viewport with a real mouse and real keys: pick, drag, copy, delete, navigate, undo; each step on the document and on
+the picture."""
+import pathlib
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DEMO = ROOT / "scenes/demo/demo.pbrt"
+CHAIR = ("picture", 0.62, 0.88)
+SKY = ("picture", 0.1, 0.3)
+
+
+@pytest.fixture
+def editor(launch):
+    editor = launch(DEMO)
+    editor.settled()
+    return editor
+
+
+def names(state):
+    return sorted(item["name"] for item in state["selection"])
+
+
+def difference(a, b):
+    """Mean absolute difference over 8x8 blocks, so that noise counts little."""
+    def blocks(x):
+        h, w = x.shape[0] // 8 * 8, x.shape[1] // 8 * 8
+        return x[:h, :w].reshape(h // 8, 8, w // 8, 8, 3).mean((1, 3))
+    return np.abs(blocks(a) - blocks(b))
+
+
+def test_opens_and_shows_a_picture(editor):
+    state = editor.state()
+    assert state["counts"]["instances"] == 119 and not state["modified"]
+    picture = editor.picture()
+    assert picture.std() > 0.1, "the viewport shows one flat colour"
+
+
+def test_a_chair_is_picked_moved_copied_and_deleted_and_all_is_undone_and_redone(editor):
+    before = editor.picture()
+    editor.click(CHAIR)
+    state = editor.wait(lambda s: s["selection"], "a selection")
+    assert names(state) == ["chair-cushion", "chair-frame"], "a click picks the whole group"
+    start = np.array(state["selection"][0]["position"])
+
+    # its handles: along x only
+    x, y = editor.point("gizmo.x")
+    editor.drag((x, y), (x + 60, y + 45))
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "the drag as one step")
+    moved = np.array(state["selection"][0]["position"]) - start
+    assert abs(moved[0]) > 0.05 and abs(moved[1]) < 1e-6 and abs(moved[2]) < 1e-6
+    assert state["history"]["undo"].startswith("Move")
+    editor.settled()
+    assert difference(before, editor.picture()).max() > 0.15, "the picture does not show the move"
+
+    editor.key("ctrl+d")
+    state = editor.wait(lambda s: s["history"]["position"] == 2, "a copy")
+    assert state["counts"]["instances"] == 121
+    assert names(state) == ["chair-cushion 4", "chair-frame 4"]
+    editor.key("Delete")
+    state = editor.wait(lambda s: s["history"]["position"] == 3, "the deletion")
+    assert state["counts"]["instances"] == 119 and not state["selection"]
+
+    for expected in (2, 1, 0):
+        editor.key("ctrl+z")
+        editor.wait(lambda s: s["history"]["position"] == expected, f"undo to {expected}")
+    assert not editor.state()["modified"]
+    editor.key("Escape")
+    editor.move(SKY)
+    editor.settled()
+    # The same picture again, but for noise (and for the outline that is gone).
+    assert np.percentile(difference(before, editor.picture()), 95) < 0.12
+    for expected in (1, 2, 3):
+        editor.key("ctrl+y")
+        editor.wait(lambda s: s["history"]["position"] == expected, f"redo to {expected}")
+
+
+def test_a_drag_with_alt_leaves_the_original(editor):
+    editor.click(CHAIR)
+    state = editor.wait(lambda s: s["selection"], "a selection")
+    start = state["selection"][0]["position"]
+    x, y = editor.point("gizmo.y")
+    editor.drag((x, y), (x - 50, y + 20), keys=["alt"])
+    state = editor.wait(lambda s: s["history"]["size"] == 1, "one step")
+    assert state["counts"]["instances"] == 121, "nothing was copied"
+    assert "4" in state["selection"][0]["name"] and state["selection"][0]["position"] != start
+    editor.key("ctrl+z")
+    state = editor.wait(lambda s: s["history"]["position"] == 0, "undo")
+    assert state["counts"]["instances"] == 119
+
+
+def test_orbit_pan_zoom_and_back(editor):
+    eye = np.array(editor.state()["camera"])
+    editor.drag(("picture", 0.8, 0.3), ("picture", 0.7, 0.35), keys=["alt"])
+    orbited = editor.wait(lambda s: s["history"]["position"] == 1, "orbiting as one step")
+    assert np.linalg.norm(np.array(orbited["camera"]) - eye) > 0.1
+    editor.drag(("picture", 0.8, 0.3), ("picture", 0.75, 0.3), button=2)
+    panned = editor.wait(lambda s: s["history"]["position"] == 2, "panning as one step")
+    editor.click(("picture", 0.5, 0.5), button=4)  # the wheel
+    editor.wait(lambda s: s["history"]["position"] == 3, "zooming as one step")
+    editor.key("shift+Home")
+    back = editor.wait(lambda s: s["history"]["position"] == 4, "the camera of the file")
+    assert np.allclose(back["camera"], eye)
+    for _ in range(4):
+        editor.key("ctrl+z")
+    state = editor.wait(lambda s: s["history"]["position"] == 0, "undo of all")
+    assert np.allclose(state["camera"], eye) and panned["camera"] != orbited["camera"]
+
+
+def test_a_click_on_the_same_place_picks_what_is_behind(editor):
+    editor.click(CHAIR)
+    first = names(editor.wait(lambda s: s["selection"], "a selection"))
+    editor.click(CHAIR)
+    editor.wait(lambda s: names(s) != first and s["selection"], "something behind it")
+
+
+def test_a_box_picks_all_that_is_seen_in_it(editor):
+    editor.key("q")  # no handles
+    editor.drag(("picture", 0.02, 0.02), ("picture", 0.98, 0.98))
+    state = editor.wait(lambda s: len(s["selection"]) > 50, "many objects")
+    assert state["history"]["size"] == 0
+    editor.key("Escape")
+    editor.wait(lambda s: not s["selection"], "an empty selection")
+
+
+def test_what_is_shown_restarts_nothing(editor):
+    request = editor.state()["view"]["request"]
+    editor.key("n")            # denoising off
+    editor.key("shift+o")      # overlays off
+    editor.click(CHAIR)
+    editor.wait(lambda s: s["selection"], "a selection")
+    assert editor.state()["view"]["request"] == request
+    editor.key("Tab")
+    editor.wait(lambda s: s["view"]["request"] != request, "a larger picture once the panels are gone")
+
+
+def test_hiding_is_a_change_and_shows(editor):
+    before = editor.picture()
+    editor.click(CHAIR)
+    editor.wait(lambda s: s["selection"], "a selection")
+    editor.key("h")
+    editor.wait(lambda s: s["history"]["position"] == 1, "hiding")
+    editor.key("Escape")
+    editor.settled()
+    assert difference(before, editor.picture()).max() > 0.15
+    editor.key("alt+h")
+    editor.wait(lambda s: s["history"]["position"] == 2, "showing all")
