@@ -92,11 +92,12 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
 
     for (int i = 0; i < 3; ++i) { // the middle of each handle, for tests
         const glm::dvec3 a = session::project(camera, drag.pivot, e.film_aspect());
-        const glm::dvec3 b = session::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * reach * 1e-3, e.film_aspect());
+        const glm::dvec3 b =
+            session::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * reach * 1e-3, e.film_aspect());
         const glm::dvec2 on_screen = glm::dvec2(b - a) * glm::dvec2(size.x, size.y);
-        const glm::dvec2 tip = glm::dvec2(a) * glm::dvec2(size.x, size.y) +
-                               (glm::length(on_screen) > 0 ? glm::normalize(on_screen) : glm::dvec2(0)) *
-                                   (0.6 * handle_size / 2 * size.x);
+        const glm::dvec2 tip =
+            glm::dvec2(a) * glm::dvec2(size.x, size.y) +
+            (glm::length(on_screen) > 0 ? glm::normalize(on_screen) : glm::dvec2(0)) * (0.6 * handle_size / 2 * size.x);
         e.mark(i == 0 ? "gizmo.x" : i == 1 ? "gizmo.y" : "gizmo.z", {corner.x + float(tip.x), corner.y + float(tip.y)});
     }
 

@@ -35,7 +35,8 @@ void Viewport::draw(Editor& e) {
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     update_textures(e);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    if (picture_.ready()) draw->AddImage(picture_.ref(), corner, end);
+    if (picture_.ready())
+        draw->AddImage(picture_.ref(), corner, end);
     else {
         const char* text = e.opening().running() ? "Opening..." : "Open a scene with Ctrl+O, or drop a file here";
         const ImVec2 extent = ImGui::CalcTextSize(text);
@@ -54,9 +55,9 @@ void Viewport::draw(Editor& e) {
         ImGui::Dummy(size);
     } else {
         ImGui::SetNextItemAllowOverlap();
-        ImGui::InvisibleButton("##picture", size,
-                               ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                                   ImGuiButtonFlags_MouseButtonMiddle);
+        ImGui::InvisibleButton(
+            "##picture", size,
+            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     }
     e.mark("picture");
     const bool over = ImGui::IsItemHovered();
