@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY files (Turk 1994): every size is checked against the bytes that are there before anything is allocated. Of the
-// vertices x y z, nx ny nz and u v (or s t, texture_u.., as pbrt) are read; of the faces their vertex indices.
+// The data of PLY files (Turk 1994): every size is checked against the bytes that are there before anything is
+// allocated. Of the vertices x y z, nx ny nz and u v (or s t, texture_u.., as pbrt) are read; of the faces their vertex
+// indices.
 #include "lexer.hpp"
 #include "mesh.hpp"
+#include "ply_header.hpp"
 
 #include <bit>
 #include <charconv>
@@ -12,41 +14,6 @@
 namespace restage::pbrt {
 
 namespace {
-
-enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
-
-std::optional<Type> type_named(std::string_view name) {
-    static const std::map<std::string_view, Type> names = {
-        {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
-        {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
-        {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
-        {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
-    const auto found = names.find(name);
-    return found == names.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::size_t size_of(Type type) {
-    constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[static_cast<int>(type)];
-}
-
-struct Property {
-    std::string name;
-    Type type{};
-    bool is_list = false;
-    Type count_type{};
-    std::size_t offset = 0; // in the row, when the element has no lists
-};
-
-struct Element {
-    std::string name;
-    std::size_t count = 0;
-    std::vector<Property> properties;
-    bool has_lists = false;
-    std::size_t stride = 0;
-};
-
-enum class Format { ascii, little, big };
 
 template <class T>
 double load(const char* from, bool swap) {
@@ -62,21 +29,21 @@ double load(const char* from, bool swap) {
     return static_cast<double>(value);
 }
 
-double load(Type type, const char* from, bool swap) {
+double load(PlyType type, const char* from, bool swap) {
     switch (type) {
-        case Type::i8:
+        case PlyType::i8:
             return load<std::int8_t>(from, swap);
-        case Type::u8:
+        case PlyType::u8:
             return load<std::uint8_t>(from, swap);
-        case Type::i16:
+        case PlyType::i16:
             return load<std::int16_t>(from, swap);
-        case Type::u16:
+        case PlyType::u16:
             return load<std::uint16_t>(from, swap);
-        case Type::i32:
+        case PlyType::i32:
             return load<std::int32_t>(from, swap);
-        case Type::u32:
+        case PlyType::u32:
             return load<std::uint32_t>(from, swap);
-        case Type::f32:
+        case PlyType::f32:
             return load<float>(from, swap);
         default:
             return load<double>(from, swap);
@@ -85,11 +52,12 @@ double load(Type type, const char* from, bool swap) {
 
 class Reader {
   public:
-    Reader(const std::string& path, std::string_view bytes, Location at) : path_(path), bytes_(bytes), at_(at) {}
+    explicit Reader(std::string_view bytes) : bytes_(bytes), header_(read_ply_header(bytes)), position_(header_.size) {
+        swap_ = header_.format == (std::endian::native == std::endian::little ? PlyFormat::big : PlyFormat::little);
+    }
 
     Mesh read() {
-        header();
-        for (const Element& element : elements_) {
+        for (const PlyElement& element : header_.elements) {
             if (element.name == "vertex")
                 vertices(element);
             else if (element.name == "face")
@@ -107,84 +75,15 @@ class Reader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw ImportError{at_, path_ + ": " + what + "; export the mesh again or remove the shape"};
-    }
-
-    std::string_view line() {
-        const std::size_t end = bytes_.find('\n', position_);
-        if (end == bytes_.npos) fail("the header does not end");
-        std::string_view text = bytes_.substr(position_, end - position_);
-        position_ = end + 1;
-        if (text.ends_with('\r')) text.remove_suffix(1);
-        return text;
-    }
-
-    static std::vector<std::string_view> words(std::string_view text) {
-        std::vector<std::string_view> out;
-        while (true) {
-            const auto begin = text.find_first_not_of(" \t");
-            if (begin == text.npos) return out;
-            const auto end = std::min(text.find_first_of(" \t", begin), text.size());
-            out.push_back(text.substr(begin, end - begin));
-            text.remove_prefix(end);
-        }
-    }
-
-    void header() {
-        if (words(line()) != std::vector<std::string_view>{"ply"})
-            fail("it is no PLY file (the first line is not 'ply')");
-        bool has_format = false;
-        while (true) {
-            const auto part = words(line());
-            if (part.empty() || part[0] == "comment" || part[0] == "obj_info") continue;
-            if (part[0] == "end_header") break;
-            if (part[0] == "format" && part.size() >= 2) {
-                has_format = true;
-                if (part[1] == "ascii")
-                    format_ = Format::ascii;
-                else if (part[1] == "binary_little_endian")
-                    format_ = Format::little;
-                else if (part[1] == "binary_big_endian")
-                    format_ = Format::big;
-                else
-                    fail("format '" + std::string(part[1]) + "' is unknown");
-            } else if (part[0] == "element" && part.size() == 3) {
-                Element element{.name = std::string(part[1]), .properties = {}};
-                const auto [end, code] =
-                    std::from_chars(part[2].data(), part[2].data() + part[2].size(), element.count);
-                if (code != std::errc() || end != part[2].data() + part[2].size())
-                    fail("the number of '" + element.name + "' elements is not readable");
-                elements_.push_back(std::move(element));
-            } else if (part[0] == "property" && !elements_.empty() &&
-                       (part.size() == 3 || (part.size() == 5 && part[1] == "list"))) {
-                Element& element = elements_.back();
-                Property property{.name = std::string(part.back())};
-                property.is_list = part.size() == 5;
-                const auto type = type_named(part[part.size() - 2]);
-                const auto count_type = property.is_list ? type_named(part[2]) : type;
-                if (!type || !count_type) fail("property '" + property.name + "' has an unknown type");
-                property.type = *type;
-                property.count_type = *count_type;
-                property.offset = element.stride;
-                element.stride += size_of(*type);
-                element.has_lists |= property.is_list;
-                element.properties.push_back(std::move(property));
-            } else {
-                fail("header line '" + std::string(part[0].substr(0, 40)) + " ...' is not understood");
-            }
-        }
-        if (!has_format) fail("the header names no format");
-        swap_ = format_ == (std::endian::native == std::endian::little ? Format::big : Format::little);
-    }
+    [[noreturn]] static void fail(const std::string& what) { throw PlyProblem{what}; }
 
     std::size_t left() const { return bytes_.size() - position_; }
 
     // Rows that cannot be there are refused before memory is asked for.
-    void check_count(const Element& element) const {
+    void check_count(const PlyElement& element) const {
         std::size_t row = 0;
-        for (const Property& property : element.properties)
-            row += format_ == Format::ascii
+        for (const PlyProperty& property : element.properties)
+            row += header_.format == PlyFormat::ascii
                        ? 2
                        : (property.is_list ? size_of(property.count_type) : size_of(property.type));
         // The last number of an ascii file may lack the blank after it.
@@ -213,38 +112,38 @@ class Reader {
         return value;
     }
 
-    double number(Type type) {
-        if (format_ == Format::ascii) return ascii_number();
+    double number(PlyType type) {
+        if (header_.format == PlyFormat::ascii) return ascii_number();
         if (left() < size_of(type)) fail("the file ends early (truncated?)");
         const double value = load(type, bytes_.data() + position_, swap_);
         position_ += size_of(type);
         return value;
     }
 
-    std::size_t list_count(const Property& property) {
+    std::size_t list_count(const PlyProperty& property) {
         const double count = number(property.count_type);
         if (!(count >= 0) || count != std::floor(count)) fail("a list has " + shortest(count) + " entries");
-        const double least = format_ == Format::ascii ? 1 : double(size_of(property.type));
+        const double least = header_.format == PlyFormat::ascii ? 1 : double(size_of(property.type));
         if (count * least > double(left()) + 1)
             fail("a list of " + shortest(count) + " entries does not fit into the file (truncated?)");
         return static_cast<std::size_t>(count);
     }
 
-    void skip(const Element& element) {
+    void skip(const PlyElement& element) {
         check_count(element);
-        if (format_ != Format::ascii && !element.has_lists) {
+        if (header_.format != PlyFormat::ascii && !element.has_lists) {
             position_ += element.count * element.stride;
             return;
         }
         for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i)
-            for (const Property& property : element.properties) {
+            for (const PlyProperty& property : element.properties) {
                 const std::size_t n = property.is_list ? list_count(property) : 1;
                 for (std::size_t k = 0; k < n; ++k)
                     number(property.type);
             }
     }
 
-    static int find(const Element& element, std::string_view name) {
+    static int find(const PlyElement& element, std::string_view name) {
         for (std::size_t i = 0; i < element.properties.size(); ++i)
             if (element.properties[i].name == name && !element.properties[i].is_list) return static_cast<int>(i);
         return -1;
@@ -256,7 +155,7 @@ class Reader {
         std::size_t width = 0, component = 0;
     };
 
-    std::vector<Target> targets(const Element& element) {
+    std::vector<Target> targets(const PlyElement& element) {
         std::vector<Target> out(element.properties.size());
         const auto bind = [&](std::vector<float>& array, std::initializer_list<const char*> names) {
             std::vector<int> at;
@@ -276,16 +175,16 @@ class Reader {
         return out;
     }
 
-    void vertices(const Element& element) {
+    void vertices(const PlyElement& element) {
         check_count(element);
         const auto target = targets(element);
-        if (format_ != Format::ascii && !element.has_lists) {
+        if (header_.format != PlyFormat::ascii && !element.has_lists) {
             for (std::size_t p = 0; p < target.size(); ++p) {
-                const Property& property = element.properties[p];
+                const PlyProperty& property = element.properties[p];
                 if (!target[p].array) continue;
                 const char* from = bytes_.data() + position_ + property.offset;
                 float* to = target[p].array->data() + target[p].component;
-                if (property.type == Type::f32 && !swap_)
+                if (property.type == PlyType::f32 && !swap_)
                     for (std::size_t i = 0; i < element.count; ++i)
                         std::memcpy(to + i * target[p].width, from + i * element.stride, sizeof(float));
                 else
@@ -297,7 +196,7 @@ class Reader {
         } else {
             for (std::size_t i = 0; i < element.count; ++i)
                 for (std::size_t p = 0; p < target.size(); ++p) {
-                    const Property& property = element.properties[p];
+                    const PlyProperty& property = element.properties[p];
                     const std::size_t n = property.is_list ? list_count(property) : 1;
                     for (std::size_t k = 0; k < n; ++k) {
                         const double value = number(property.type);
@@ -319,7 +218,7 @@ class Reader {
         return static_cast<std::uint32_t>(value);
     }
 
-    void faces(const Element& element) {
+    void faces(const PlyElement& element) {
         check_count(element);
         std::size_t list = element.properties.size();
         for (std::size_t p = 0; p < element.properties.size(); ++p)
@@ -328,10 +227,10 @@ class Reader {
                 list = p;
         if (list == element.properties.size()) fail("its faces have no list 'vertex_indices'");
         mesh_.indices.reserve(element.count * 3);
-        const Property& indices = element.properties[list];
-        const bool is_plain = element.properties.size() == 1 && format_ != Format::ascii && !swap_ &&
-                              indices.count_type == Type::u8 &&
-                              (indices.type == Type::i32 || indices.type == Type::u32);
+        const PlyProperty& indices = element.properties[list];
+        const bool is_plain = element.properties.size() == 1 && header_.format != PlyFormat::ascii && !swap_ &&
+                              indices.count_type == PlyType::u8 &&
+                              (indices.type == PlyType::i32 || indices.type == PlyType::u32);
         std::vector<std::uint32_t> corner;
         for (std::size_t i = 0; i < element.count; ++i) {
             // Triangles of nothing but 32-bit indices: nearly every PLY there is.
@@ -343,7 +242,7 @@ class Reader {
                 continue;
             }
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
-                const Property& property = element.properties[p];
+                const PlyProperty& property = element.properties[p];
                 const std::size_t n = property.is_list ? list_count(property) : 1;
                 if (p == list) corner.clear();
                 for (std::size_t k = 0; k < n; ++k) {
@@ -373,52 +272,21 @@ class Reader {
                 mesh_.has_bent_quads = true;
     }
 
-    const std::string& path_;
     std::string_view bytes_;
-    Location at_;
+    PlyHeader header_;
     std::size_t position_ = 0;
-    Format format_ = Format::ascii;
     bool swap_ = false;
-    std::vector<Element> elements_;
     Mesh mesh_;
 };
 
 } // namespace
 
-Mesh read_ply(const std::string& path, std::string_view bytes, Location at) { return Reader(path, bytes, at).read(); }
-
-std::size_t repair_normals(Mesh& mesh) {
-    std::vector<char> broken(mesh.vertex_count());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < mesh.normals.size() / 3; ++i) {
-        const float* n = mesh.normals.data() + 3 * i;
-        const double squared = double(n[0]) * double(n[0]) + double(n[1]) * double(n[1]) + double(n[2]) * double(n[2]);
-        if (!(squared > 1e-30) || !std::isfinite(squared)) {
-            broken[i] = 1;
-            ++count;
-        }
+Mesh read_ply(const std::string& path, std::string_view bytes, Location at) {
+    try {
+        return Reader(bytes).read();
+    } catch (const PlyProblem& problem) {
+        throw ImportError{at, path + ": " + problem.what + "; export the mesh again or remove the shape"};
     }
-    if (count == 0) return 0;
-    std::vector<Vec3> sums(mesh.vertex_count());
-    const auto point = [&](std::uint32_t i) {
-        const float* p = mesh.positions.data() + 3 * std::size_t(i);
-        return Vec3{double(p[0]), double(p[1]), double(p[2])};
-    };
-    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-        const std::uint32_t* v = mesh.indices.data() + t;
-        const Vec3 n = cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0])); // weighted by area
-        for (int k = 0; k < 3; ++k)
-            sums[v[k]] = sums[v[k]] + n;
-    }
-    for (std::size_t i = 0; i < broken.size(); ++i) {
-        if (!broken[i]) continue;
-        Vec3 n = normalize(sums[i]);
-        if (!(dot(n, n) > 0.5)) n = {0, 0, 1};
-        mesh.normals[3 * i] = static_cast<float>(n.x);
-        mesh.normals[3 * i + 1] = static_cast<float>(n.y);
-        mesh.normals[3 * i + 2] = static_cast<float>(n.z);
-    }
-    return count;
 }
 
 } // namespace restage::pbrt

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a PLY file says it holds.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace restage::pbrt {
+
+struct PlyProblem { // thrown; becomes an ImportError with the file's name
+    std::string what;
+};
+
+enum class PlyType { i8, u8, i16, u16, i32, u32, f32, f64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type{};
+    bool is_list = false;
+    PlyType count_type{};
+    std::size_t offset = 0; // in the row, when the element has no lists
+};
+
+struct PlyElement {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<PlyProperty> properties;
+    bool has_lists = false;
+    std::size_t stride = 0;
+};
+
+enum class PlyFormat { ascii, little, big };
+
+struct PlyHeader {
+    PlyFormat format = PlyFormat::ascii;
+    std::vector<PlyElement> elements;
+    std::size_t size = 0; // [byte]; the data follow
+};
+
+std::size_t size_of(PlyType type);
+PlyHeader read_ply_header(std::string_view bytes);
+
+} // namespace restage::pbrt
