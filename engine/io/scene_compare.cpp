@@ -41,7 +41,8 @@ std::uint64_t hash_of(const std::vector<T>& values, std::uint64_t seed) {
 
 class Describer {
   public:
-    Describer(const Scene& scene, const plugin::Registry& registry) : scene_(scene), registry_(registry) {
+    Describer(const Scene& scene, const plugin::Registry& registry, bool names)
+        : scene_(scene), registry_(registry), names_(names) {
         scene.instances.each([&](auto, const Instance& i) { ++members_[i.group.value]; });
     }
 
@@ -124,7 +125,19 @@ class Describer {
         if (i.hidden) text += "; hidden";
         if (i.group && members_[i.group.value] > 1)
             text += "; in a group of " + std::to_string(members_[i.group.value]);
+        if (!names_) return text;
+        text += "; called \"" + i.name + "\", in \"" + group(i.group) + "\"";
+        if (const Material* m = scene_.materials.find(i.material)) text += ", of \"" + m->name + "\"";
+        if (const Mesh* m = scene_.meshes.find(i.mesh)) text += ", mesh \"" + m->name + "\"";
         return text;
+    }
+
+    std::string group(Id<Group> id) {
+        std::string path;
+        const Group* g = scene_.groups.find(id);
+        for (int depth = 0; g && depth < 100; ++depth, g = scene_.groups.find(g->parent))
+            path = g->name + (path.empty() ? "" : "/") + path;
+        return path;
     }
 
   private:
@@ -153,6 +166,7 @@ class Describer {
 
     const Scene& scene_;
     const plugin::Registry& registry_;
+    const bool names_;
     std::unordered_map<std::uint32_t, std::string> meshes_, images_;
     std::unordered_map<std::uint32_t, std::size_t> members_;
 };
@@ -160,7 +174,11 @@ class Describer {
 class Comparison {
   public:
     Comparison(const Scene& a, const Scene& b, const plugin::Registry& registry, const SceneCompareOptions& options)
-        : a_(a), b_(b), describe_a_(a, registry), describe_b_(b, registry), options_(options) {}
+        : a_(a),
+          b_(b),
+          describe_a_(a, registry, options.names),
+          describe_b_(b, registry, options.names),
+          options_(options) {}
 
     std::vector<std::string> run() {
         instances();
@@ -168,6 +186,7 @@ class Comparison {
         environment();
         camera();
         film();
+        if (options_.names) names();
         if (found_ > options_.most) out_.push_back(std::to_string(found_ - options_.most) + " more differences");
         return std::move(out_);
     }
@@ -210,7 +229,7 @@ class Comparison {
     }
 
     void lights() {
-        const auto describe = [](const Scene& s) {
+        const auto describe = [this](const Scene& s) {
             std::vector<std::string> all;
             s.lights.each([&](auto, const Light& l) {
                 const glm::dvec3 at(l.light_to_world[3]), along = glm::normalize(glm::dvec3(l.light_to_world[2]));
@@ -218,14 +237,37 @@ class Comparison {
                 if (l.kind != RESTAGE_LIGHT_DISTANT) text += " at " + shown(glm::vec3(at));
                 if (l.kind != RESTAGE_LIGHT_POINT) text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
                 if (l.kind == RESTAGE_LIGHT_SPOT) text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta);
+                if (options_.names) text += " called \"" + l.name + "\"";
                 all.push_back(std::move(text));
             });
-            std::sort(all.begin(), all.end());
             return all;
         };
-        const auto x = describe(a_), y = describe(b_);
+        same_list("lights", describe(a_), describe(b_));
+    }
+
+    void names() { // of what instances and lights do not say
+        const auto groups = [](const Scene& s, Describer& d) {
+            std::vector<std::string> all;
+            s.groups.each([&](Id<Group> id, const Group&) { all.push_back(d.group(id)); });
+            return all;
+        };
+        same_list("groups", groups(a_, describe_a_), groups(b_, describe_b_));
+        const auto cameras = [](const Scene& s) {
+            std::vector<std::string> all;
+            s.cameras.each([&](Id<Camera> id, const Camera& c) {
+                all.push_back("\"" + c.name + "\", fov " + shown(c.fov) + " at " +
+                              shown(glm::vec3(c.camera_to_world[3])) + (id == s.active_camera.value ? ", active" : ""));
+            });
+            return all;
+        };
+        same_list("cameras", cameras(a_), cameras(b_));
+    }
+
+    void same_list(const char* what, std::vector<std::string> x, std::vector<std::string> y) {
+        std::sort(x.begin(), x.end());
+        std::sort(y.begin(), y.end());
         for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i)
-            same("lights", i < x.size() ? x[i] : "none", i < y.size() ? y[i] : "none");
+            same(what, i < x.size() ? x[i] : "none", i < y.size() ? y[i] : "none");
     }
 
     void environment() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Do two scenes mean the same picture? Names, ids, the order of things, where files are and how an object is split into
-// groups of one do not count; geometry, materials as a renderer sees them, places, lights, camera and film do.
+// groups of one do not count unless asked for; geometry, materials as a renderer sees them, places, lights, camera and
+// film do.
 #pragma once
 
 #include "plugin/registry.hpp"
@@ -14,6 +15,7 @@ namespace restage::io {
 struct SceneCompareOptions {
     double transform_tolerance = 1e-9; // of the largest entry of the matrix
     std::size_t most = 20; // differences listed
+    bool names = false; // what things are called, how groups nest and which cameras wait count too
 };
 
 // Sentences, none when the scenes are alike. The registry gives the defaults of parameters that are not set.

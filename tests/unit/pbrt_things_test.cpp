@@ -357,18 +357,42 @@ TEST_CASE("pbrt camera, film and settings", "[pbrt]") {
             loaded("Camera \"" + std::string(kind) + "\" WorldBegin").reports("Camera \"" + std::string(kind) + "\""));
 }
 
+TEST_CASE("pbrt camera: a realistic one has the angle of its lenses", "[pbrt]") {
+    const Folder folder;
+    // A thin symmetric lens of R = 50 mm and n = 1.5 with a stop of 4 mm: f = R / (2 (n - 1)) = 50 mm.
+    folder.file("thin.dat", "# radius thickness eta aperture\n50 0 1.5 30\n-50 5 0 30\n0 5 0 4\n");
+    const auto camera = [&](const char* params) {
+        Recorder r;
+        REQUIRE(r.load_file(folder.file("s.pbrt", "Camera \"realistic\" " + std::string(params) +
+                                                      "\nFilm \"rgb\" \"integer xresolution\" 400 \"integer "
+                                                      "yresolution\" 300 \"float diagonal\" 25\nWorldBegin\n")) == 1);
+        CHECK(r.reports("Camera \"realistic\""));
+        return r.raw_cameras.at(0);
+    };
+    const RestageCamera thin = camera(
+        "\"string lensfile\" \"thin.dat\" \"float aperturediameter\" 10 \"float "
+        "focusdistance\" 2");
+    CHECK(double(thin.fov) ==
+          Catch::Approx(2 * std::atan(7.5 / 50) * 180 / std::numbers::pi)); // 15 mm is the shorter side
+    CHECK(thin.lens_radius == Catch::Approx(0.002));
+    CHECK(thin.focal_distance == 2);
+    CHECK(camera("\"string lensfile\" \"none.dat\"").fov == 45);
+    folder.file("empty.dat", "1 2 3\n");
+    CHECK(camera("\"string lensfile\" \"empty.dat\"").fov == 45);
+}
+
 TEST_CASE("pbrt report: the same thing is one line with a count and the first place", "[pbrt]") {
     std::string text = v4;
     for (int i = 0; i < 5; ++i)
-        text += "Shape \"curve\" \"point3 P\" [ 0 0 0 ]\n";
+        text += "Shape \"teapot\" \"point3 P\" [ 0 0 0 ]\n";
     const Recorder r = loaded(text + "NamedMaterial \"x\"\nNamedMaterial \"y\"\n");
-    int curves = 0;
+    int teapots = 0;
     for (const auto& line : r.lines)
-        if (line.what == "Shape \"curve\"") {
-            ++curves;
+        if (line.what == "Shape \"teapot\"") {
+            ++teapots;
             CHECK(line.line == 3);
             CHECK(line.fate == RESTAGE_DROPPED);
             CHECK(line.note.find("5 times") != std::string::npos);
         }
-    CHECK(curves == 1);
+    CHECK(teapots == 1);
 }

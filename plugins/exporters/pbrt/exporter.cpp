@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 namespace restage::pbrt_out {
@@ -51,6 +52,9 @@ Kept Exporter::kept(const RestageText& text, const std::string& what) {
                 out.whole.push_back(rest);
             else if (ours)
                 out.for_values[id] = rest;
+            else
+                approximated(what, std::string("what ") + text.verbatim_format +
+                                       " had as spectra, or in its own way, is written as this scene shows it");
             continue;
         }
         (ours ? out.lines : out.foreign).push_back(line);
@@ -61,14 +65,59 @@ Kept Exporter::kept(const RestageText& text, const std::string& what) {
     return out;
 }
 
+bool Exporter::put_exact(Params& params, const Kept& k, const char* id, const float (&value)[3],
+                         const std::string& what) {
+    const auto line = k.for_values.find(id);
+    if (line == k.for_values.end()) return false;
+    const char* at = line->second.c_str();
+    bool same = true;
+    for (const float x : value) {
+        char* end = nullptr;
+        same = same && static_cast<float>(std::strtod(at, &end)) == x;
+        if (end) at = end;
+    }
+    Params original;
+    original.add_raw(at);
+    if (same && original.stands_alone()) {
+        params.remove_all_of(original);
+        params.add_raw(at);
+        return true;
+    }
+    approximated(what, same ? "its light was given in another colour space; its colour in sRGB is written"
+                            : "its light was given by a spectrum or a picture; the colour it has now is written");
+    return false;
+}
+
+std::string Exporter::finished(Params& params) {
+    params.map_strings([&](const std::string& text) {
+        const std::filesystem::path path(text);
+        std::error_code code;
+        return path.is_absolute() && std::filesystem::is_regular_file(path, code) ? place_file(text) : text;
+    });
+    return params.text();
+}
+
 void Exporter::comment(const std::vector<std::string>& comment_lines, const char* indent) {
     for (const std::string& line : comment_lines)
         text_ += indent + ("# " + line) + "\n";
 }
 
-std::string Exporter::unique_name(const char* kind, const char* name) {
-    std::string base = plain_name(name);
-    if (base.empty()) base = kind;
+void Exporter::mark(const char* indent, const char* key, const std::vector<std::string>& strings) {
+    text_ += std::string(indent) + "# " + key + ":";
+    for (const std::string& text : strings)
+        text_ += " " + quote(text);
+    text_ += "\n";
+}
+
+void Exporter::only_for_us(std::size_t start) {
+    std::string ours;
+    for (const std::string& line : lines(std::string_view(text_).substr(start)))
+        ours += "#restage " + line + "\n";
+    text_.replace(start, text_.npos, ours);
+}
+
+std::string Exporter::unique_name(const char* kind, const std::string& name) {
+    const std::string base = name.empty() ? kind : name;
     std::string result = base;
     for (unsigned i = 2; !names_[kind].insert(result).second; ++i)
         result = base + " " + std::to_string(i);

@@ -63,19 +63,24 @@ class Exporter {
     void dropped(const std::string& what, const std::string& note) { report(RESTAGE_DROPPED, what, note); }
     Kept kept(const RestageText& text, const std::string& what);
     void comment(const std::vector<std::string>& lines, const char* indent = "");
-    std::string unique_name(const char* kind, const char* name);
+    std::string unique_name(const char* kind, const std::string& name);
     void flag(Params& params, const char* name, bool value) const; // v3 writes "true", v4 true
 
     // write_head.cpp: camera, film, filter, sampler, integrator, options
     void head();
-    void camera(const Kept& settings);
+    void camera(RestageHandle, bool active);
     void film(const Kept& settings, double shutter_time);
     void filter(const Kept& settings);
     void sampler_and_integrator(const Kept& settings);
     double shutter_time() const;
 
+    // What a light's colour was before it became RGB, if nobody has edited it since; else false.
+    bool put_exact(Params&, const Kept&, const char* id, const float (&value)[3], const std::string& what);
+    std::string finished(Params&); // as text, with the files it names in place
+
     // write_textures.cpp
     std::string image_file(RestageHandle image);
+    std::string place_file(const std::string& path); // how the scene file names it; copied if that was asked for
     std::string texture(RestageHandle); // writes it and what it needs first; its name, "" = cannot be
     void put_argument(Params&, const Values&, const char* id, const char* name, bool is_float, float otherwise);
     void put_image_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
@@ -109,9 +114,15 @@ class Exporter {
     void plan_objects();
     void write_object(const std::string& name, const std::vector<RestageHandle>& members);
     void write_instance(RestageHandle, const char* indent, const double* relative_to);
-    std::string shape_line(RestageHandle mesh, const RestageInstance&, const Kept&);
+    std::vector<std::string> shape_lines(RestageHandle mesh, const RestageInstance&, const Kept&);
     std::string ply_file(RestageHandle mesh, const RestageMesh&);
     void transform(const double m[16], const char* indent);
+    std::vector<std::string> group_path(RestageHandle group);
+    void groups_of_nothing(); // so that they are there again
+
+    // What pbrt has no place for, in comments that the importer reads (build_names.cpp there says how).
+    void mark(const char* indent, const char* key, const std::vector<std::string>& strings);
+    void only_for_us(std::size_t start); // what was written since `start` becomes lines `#restage ...`
 
     const RestageSceneReader1& in_;
     const Options options_;
@@ -119,8 +130,12 @@ class Exporter {
     std::string text_;
     std::set<std::string> reported_;
     std::map<std::string, std::set<std::string>> names_; // by kind
+    std::map<std::string, std::string> files_; // by path
     std::map<RestageHandle, std::string> textures_, materials_, media_, meshes_, images_;
     std::map<RestageHandle, unsigned> mesh_uses_; // Shape lines that will name it
+    std::map<RestageHandle, std::string> group_names_;
+    std::set<RestageHandle> written_groups_;
+    std::map<RestageHandle, std::vector<RestageHandle>> members_; // by group
     std::map<RestageHandle, std::string> object_of_; // by group: the object it is an instance of
     std::map<std::string, std::vector<RestageHandle>> objects_; // members, of the first group
     std::map<RestageHandle, std::string> object_of_instance_; // ungrouped instances that share everything

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 namespace restage::pbrt_out {
 
@@ -28,6 +29,19 @@ std::size_t skip_string(std::string_view s, std::size_t i) {
     for (++i; i < s.size() && s[i] != '"'; ++i)
         if (s[i] == '\\') ++i;
     return std::min(i + 1, s.size());
+}
+
+std::string unquote(std::string_view text) { // of quote()
+    std::string out;
+    for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+        if (text[i] != '\\' || i + 2 >= text.size()) {
+            out += text[i];
+            continue;
+        }
+        const char c = text[++i];
+        out += c == 'n' ? '\n' : c == 't' ? '\t' : c == 'r' ? '\r' : c;
+    }
+    return out;
 }
 
 } // namespace
@@ -147,8 +161,9 @@ bool Params::has(std::string_view name) const {
 
 bool Params::stands_alone() const {
     return std::none_of(entries_.begin(), entries_.end(), [](const Entry& e) {
-        return e.type == "rgb" || e.type == "color" ||
-               (e.value.starts_with('"') && e.value.find_first_of("./\\") != std::string::npos);
+        if (e.type == "rgb" || e.type == "color") return e.name != "scale"; // v3's, made from a number
+        return e.value.starts_with('"') && e.value.find_first_of("./\\") != std::string::npos &&
+               !std::filesystem::path(unquote(e.value)).is_absolute();
     });
 }
 
@@ -156,6 +171,11 @@ std::string Params::value(std::string_view name) const {
     for (const Entry& e : entries_)
         if (e.name == name) return e.value;
     return "";
+}
+
+void Params::map_strings(const std::function<std::string(const std::string&)>& f) {
+    for (Entry& e : entries_)
+        if (e.value.starts_with('"') && skip_string(e.value, 0) == e.value.size()) e.value = quote(f(unquote(e.value)));
 }
 
 std::string Params::text(std::string_view separator) const {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,10 @@ class Params {
     void remove_all_of(const Params& others); // by name
     void retype(bool for_v3); // point and vector for v3, point3 and vector3 for v4
     bool has(std::string_view name) const;
-    // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no names of files.
+    // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no relative names of files.
     bool stands_alone() const;
     std::string value(std::string_view name) const; // "" = absent
+    void map_strings(const std::function<std::string(const std::string&)>&); // each value that is one string
     bool empty() const { return entries_.empty(); }
     std::string text(std::string_view separator = " ") const;
 

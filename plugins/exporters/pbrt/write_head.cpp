@@ -36,7 +36,9 @@ void Exporter::head() {
             word != "Sampler")
             text_ += line + "\n"; // Option, Accelerator, TransformTimes
     }
-    camera(kept_settings);
+    if (const RestageHandle active = in_.active_camera(in_.ctx)) camera(active, true);
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_CAMERA); ++h)
+        if (h != in_.active_camera(in_.ctx)) camera(h, false);
     film(kept_settings, shutter_time());
     filter(kept_settings);
     sampler_and_integrator(kept_settings);
@@ -57,23 +59,25 @@ double Exporter::shutter_time() const {
     return close > open ? close - open : 1;
 }
 
-void Exporter::camera(const Kept&) {
-    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_CAMERA); ++h)
-        if (RestageCamera other{}; h != in_.active_camera(in_.ctx) && in_.camera(in_.ctx, h, &other))
-            dropped(std::string("camera \"") + other.text.name + "\"",
-                    "pbrt has one camera: the active one is written");
+// pbrt has one camera, the active one. The others are for us only.
+void Exporter::camera(RestageHandle handle, bool active) {
     RestageCamera camera{};
-    if (!in_.camera(in_.ctx, in_.active_camera(in_.ctx), &camera)) return;
+    if (!in_.camera(in_.ctx, handle, &camera)) return;
     const std::string what = std::string("camera \"") + camera.text.name + "\"";
     const Kept k = kept(camera.text, what);
-    comment(k.foreign);
+    const std::size_t start = text_.size();
+    const char* indent = active ? "" : "    ";
     const auto to_camera = inverse(camera.camera_to_world);
     if (!to_camera) throw ExportError("", what + " has a transform that cannot be inverted");
-    if (const RestageHandle around = in_.camera_medium(in_.ctx)) {
+    const RestageHandle around = active ? in_.camera_medium(in_.ctx) : 0;
+    if (around) {
         const std::string name = medium(around);
         text_ += "MediumInterface \"\" " + quote(name) + "\n";
     }
-    transform(to_camera->data(), "");
+    if (!active) text_ += "AttributeBegin\n    Identity\n";
+    mark(indent, "name", {camera.text.name});
+    comment(k.foreign, indent);
+    transform(to_camera->data(), indent);
     Params params;
     std::string type = "perspective";
     params.add_float("fov", camera.fov);
@@ -97,9 +101,11 @@ void Exporter::camera(const Kept&) {
             params.add_raw(line);
         }
     }
-    text_ += "Camera " + quote(type) + " " + params.text() + "\n";
-    if (in_.camera_medium(in_.ctx))
-        text_ += "MediumInterface \"\" \"\"\n"; // else every shape would inherit the camera's
+    text_ += std::string(indent) + "Camera " + quote(type) + " " + finished(params) + "\n";
+    if (around) text_ += "MediumInterface \"\" \"\"\n"; // else every shape would inherit the camera's
+    if (active) return;
+    text_ += "AttributeEnd\n";
+    only_for_us(start);
 }
 
 void Exporter::film(const Kept& k, double time) {

@@ -119,7 +119,7 @@ std::string Exporter::material(RestageHandle handle) {
         params.add_raw(line);
     comment(k.foreign);
     const std::string name = unique_name("material", m.text.name);
-    text_ += "MakeNamedMaterial " + quote(name) + " " + params.text() + "\n";
+    text_ += "MakeNamedMaterial " + quote(name) + " " + finished(params) + "\n";
     return materials_[handle] = name;
 }
 

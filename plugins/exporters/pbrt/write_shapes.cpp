@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace restage::pbrt_out {
 
@@ -21,6 +22,12 @@ std::string signature(const RestageInstance& i) {
 }
 
 bool shareable(const RestageInstance& i) { return !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_HIDDEN)); }
+
+std::string mesh_name_of(const std::string& file) { // as the importer takes it
+    std::string stem = std::filesystem::path(file).stem().string();
+    if (stem.ends_with(".ply")) stem.resize(stem.size() - 4);
+    return stem;
+}
 
 bool close(const std::array<double, 16>& a, const std::array<double, 16>& b) {
     double size = 0, difference = 0;
@@ -42,26 +49,21 @@ void Exporter::transform(const double m[16], const char* indent) {
 }
 
 void Exporter::plan_objects() {
-    std::map<RestageHandle, std::vector<RestageHandle>> members; // by group
     std::set<RestageHandle> unfit;
     const std::uint32_t instances = in_.count(in_.ctx, RESTAGE_KIND_INSTANCE),
                         groups = in_.count(in_.ctx, RESTAGE_KIND_GROUP);
     RestageInstance i{};
     for (RestageHandle h = 1; h <= instances; ++h)
         if (in_.instance(in_.ctx, h, &i) && i.group) {
-            members[i.group].push_back(h);
+            members_[i.group].push_back(h);
             if (!shareable(i)) unfit.insert(i.group);
         }
-    bool nested = false;
+    // pbrt's objects are one level deep: a group of groups is written as comments alone.
     for (RestageHandle g = 1; g <= groups; ++g)
-        if (RestageGroup group{}; in_.group(in_.ctx, g, &group) && group.parent) {
-            unfit.insert(g);
-            unfit.insert(group.parent);
-            nested = true;
+        if (RestageGroup group{}; in_.group(in_.ctx, g, &group)) {
+            group_names_[g] = unique_name("group", group.text.name);
+            if (group.parent) unfit.insert(group.parent);
         }
-    if (nested || std::any_of(unfit.begin(), unfit.end(), [&](RestageHandle g) { return members.count(g) > 0; }))
-        approximated("groups",
-                     "pbrt has none but objects without emitters in one level; the others are written as comments");
 
     // Groups: the same things at the same places relative to the first.
     struct Made {
@@ -69,7 +71,7 @@ void Exporter::plan_objects() {
         std::vector<std::array<double, 16>> relative;
     };
     std::map<std::string, std::vector<Made>> made; // by what is in them
-    for (const auto& [group, handles] : members) {
+    for (const auto& [group, handles] : members_) {
         if (unfit.count(group)) continue;
         std::string key;
         std::vector<std::array<double, 16>> relative;
@@ -102,7 +104,9 @@ void Exporter::plan_objects() {
     std::map<std::string, std::vector<RestageHandle>> alone;
     for (RestageHandle h = 1; h <= instances; ++h)
         if (in_.instance(in_.ctx, h, &i) && shareable(i) && !object_of_.count(i.group))
-            if (RestageMesh mesh{}; in_.mesh(in_.ctx, i.mesh, &mesh) && !*mesh.primitive && inverse(i.object_to_world))
+            if (RestageMesh mesh{}; in_.mesh(in_.ctx, i.mesh, &mesh) &&
+                                    (!*mesh.primitive || std::strchr(mesh.primitive, '\n')) &&
+                                    inverse(i.object_to_world))
                 alone[signature(i)].push_back(h);
     std::map<RestageHandle, const std::vector<RestageHandle>*> in_order; // of the first of each
     for (const auto& [key, handles] : alone)
@@ -114,6 +118,25 @@ void Exporter::plan_objects() {
         for (const RestageHandle h : *handles)
             object_of_instance_[h] = name;
     }
+}
+
+// Outermost first; a circle ends where it closes.
+std::vector<std::string> Exporter::group_path(RestageHandle group) {
+    std::vector<std::string> path;
+    for (RestageGroup g{}; group && in_.group(in_.ctx, group, &g) && path.size() < 100; group = g.parent) {
+        path.insert(path.begin(), group_names_[group]);
+        written_groups_.insert(group);
+    }
+    return path;
+}
+
+void Exporter::groups_of_nothing() {
+    for (const auto& [group, name] : group_names_)
+        if (!written_groups_.count(group)) {
+            text_ += "\nAttributeBegin\n";
+            mark("    ", "group", group_path(group));
+            text_ += "AttributeEnd\n";
+        }
 }
 
 void Exporter::shapes() {
@@ -136,9 +159,11 @@ void Exporter::shapes() {
         if (h % 64 == 0 &&
             !in_.progress(in_.ctx, 0.3f + 0.6f * static_cast<float>(h) / static_cast<float>(instances), "shapes"))
             return;
-        if (i.flags & RESTAGE_INSTANCE_HIDDEN) {
-            dropped(std::string("instance \"") + i.text.name + "\"",
-                    "it is hidden: pbrt would show it, so it is left out");
+        if (i.flags & RESTAGE_INSTANCE_HIDDEN) { // pbrt would show it
+            text_ += "\n";
+            const std::size_t start = text_.size();
+            write_instance(h, "", nullptr);
+            only_for_us(start);
             continue;
         }
         const auto grouped = object_of_.find(i.group);
@@ -154,10 +179,27 @@ void Exporter::shapes() {
         if (by_group && !placed_groups.insert(i.group).second) continue; // the group was placed with its first member
         const std::string& object = by_group ? grouped->second : shared->second;
         text_ += "\nAttributeBegin\n";
-        comment({plain_name(i.text.name)}, "    ");
+        if (by_group) {
+            RestageGroup group{};
+            in_.group(in_.ctx, i.group, &group);
+            written_groups_.insert(i.group);
+            mark("    ", "name", {group_names_[i.group]});
+            if (group.parent) mark("    ", "group", group_path(group.parent));
+            const auto names = [&](const std::vector<RestageHandle>& handles) {
+                std::vector<std::string> out;
+                for (const RestageHandle member : handles)
+                    if (RestageInstance m{}; in_.instance(in_.ctx, member, &m)) out.emplace_back(m.text.name);
+                return out;
+            };
+            if (const auto own = names(members_[i.group]); own != names(objects_[object])) mark("    ", "names", own);
+        } else {
+            mark("    ", "alone", {i.text.name});
+            if (i.group) mark("    ", "group", group_path(i.group));
+        }
         transform(i.object_to_world, "    ");
         text_ += "    ObjectInstance " + quote(object) + "\nAttributeEnd\n";
     }
+    groups_of_nothing();
 }
 
 void Exporter::write_object(const std::string& name, const std::vector<RestageHandle>& members) {
@@ -175,13 +217,17 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     in_.instance(in_.ctx, handle, &i);
     const std::string what = std::string("instance \"") + i.text.name + "\"", deep = std::string(indent) + "    ";
     const Kept k = kept(i.text, what);
-    const std::string line = shape_line(i.mesh, i, k); // may write files and textures first
+    const auto shape_text = shape_lines(i.mesh, i, k); // may write files and textures first
+    const bool many = shape_text.size() > 1; // then the name is the block's
+    if (many) mark(indent, "name", {i.text.name});
     text_ += std::string(indent) + "AttributeBegin\n";
-    RestageGroup group{};
-    if (i.group && !relative_to && in_.group(in_.ctx, i.group, &group))
-        comment({plain_name(group.text.name) + " / " + plain_name(i.text.name)}, deep.c_str());
-    else
-        comment({plain_name(i.text.name)}, deep.c_str());
+    if (!many) mark(deep.c_str(), "name", {i.text.name});
+    if (i.group && !relative_to) mark(deep.c_str(), "group", group_path(i.group));
+    RestageMesh mesh{};
+    in_.mesh(in_.ctx, i.mesh, &mesh);
+    const auto file = meshes_.find(i.mesh);
+    const std::string implied = file == meshes_.end() ? i.text.name : mesh_name_of(file->second);
+    if (mesh.text.name != implied) mark(deep.c_str(), "mesh", {mesh.text.name});
     comment(k.foreign, deep.c_str());
     if (i.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION) text_ += deep + "ReverseOrientation\n";
     if (!relative_to) {
@@ -194,11 +240,14 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
         Params light;
         light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
+        if (put_exact(light, k, "emission", i.emission, what) && light.has("filename")) light.remove("L");
         if (i.flags & RESTAGE_INSTANCE_TWO_SIDED) flag(light, "twosided", true);
-        text_ += deep + "AreaLightSource \"diffuse\" " + light.text() + "\n";
+        text_ += deep + "AreaLightSource \"diffuse\" " + finished(light) + "\n";
     }
     text_ += deep + "NamedMaterial " + quote(material(i.material)) + "\n";
-    text_ += deep + line + "\n" + indent + "AttributeEnd\n";
+    for (const std::string& line : shape_text)
+        text_ += deep + line + "\n";
+    text_ += std::string(indent) + "AttributeEnd\n";
 }
 
 std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
@@ -222,53 +271,56 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
     return file;
 }
 
-std::string Exporter::shape_line(RestageHandle handle, const RestageInstance& i, const Kept& k) {
+std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const RestageInstance& i, const Kept& k) {
     RestageMesh mesh{};
     if (!in_.mesh(in_.ctx, handle, &mesh))
         throw ExportError("", std::string("instance \"") + i.text.name + "\" has no mesh");
-    Params params;
-    std::string type;
-    if (*mesh.primitive) {
-        const std::string primitive = mesh.primitive;
+    const auto finish = [&](const std::string& type, Params& params) {
+        if (i.alpha_texture)
+            params.add("texture", "alpha", quote(texture(i.alpha_texture)));
+        else if (i.alpha != 1)
+            params.add_float("alpha", i.alpha);
+        for (const std::string& line : k.lines)
+            params.add_raw(line);
+        return "Shape " + quote(type) + " " + params.text();
+    };
+    std::vector<std::string> out; // the shapes that the triangles stand for: one, or many curves
+    for (const std::string& primitive : lines(mesh.primitive)) {
         const std::size_t space = std::min(primitive.find(' '), primitive.size());
-        type = primitive.substr(0, space);
-        const std::set<std::string> only_v3{"cone", "paraboloid", "hyperboloid", "heightfield", "heightfield2"};
-        const bool foreign = v3() ? type == "bilinearmesh" : only_v3.count(type) > 0;
-        if (foreign)
-            type.clear(); // as triangles
-        else
-            params.add_raw(primitive.substr(space));
+        const std::string type = primitive.substr(0, space);
+        const std::set<std::string> only_v3{"cone",        "paraboloid",   "hyperboloid",
+                                            "heightfield", "heightfield2", "nurbs"};
+        if (v3() ? type == "bilinearmesh" : only_v3.count(type) > 0) break; // as triangles
+        Params params;
+        params.add_raw(std::string_view(primitive).substr(space));
         params.retype(v3());
+        out.push_back(finish(type, params));
     }
-    if (type.empty() && mesh.triangle_count <= most_inline_triangles && mesh_uses_[handle] <= 1) {
+    if (!out.empty()) return out;
+    Params params;
+    std::string type = "plymesh";
+    if (mesh.triangle_count <= most_inline_triangles && mesh_uses_[handle] <= 1) {
         type = "trianglemesh";
         const auto list = [](const auto* values, std::size_t count) {
-            std::string out;
+            std::string text;
             for (std::size_t n = 0; n < count; ++n) {
-                if (n > 0) out += ' ';
+                if (n > 0) text += ' ';
                 if constexpr (std::is_same_v<decltype(*values), const float&>)
-                    out += number(values[n]);
+                    text += number(values[n]);
                 else
-                    out += std::to_string(values[n]);
+                    text += std::to_string(values[n]);
             }
-            return out;
+            return text;
         };
         const std::size_t vertices = mesh.vertex_count;
         params.add("integer", "indices", list(mesh.indices, std::size_t{mesh.triangle_count} * 3));
         params.add(v3() ? "point" : "point3", "P", list(mesh.positions, 3 * vertices));
         if (mesh.normals) params.add("normal", "N", list(mesh.normals, 3 * vertices));
         if (mesh.uvs) params.add(v3() ? "float" : "point2", "uv", list(mesh.uvs, 2 * vertices));
-    } else if (type.empty()) {
-        type = "plymesh";
+    } else {
         params.add_string("filename", ply_file(handle, mesh));
     }
-    if (i.alpha_texture)
-        params.add("texture", "alpha", quote(texture(i.alpha_texture)));
-    else if (i.alpha != 1)
-        params.add_float("alpha", i.alpha);
-    for (const std::string& line : k.lines)
-        params.add_raw(line);
-    return "Shape " + quote(type) + " " + params.text();
+    return {finish(type, params)};
 }
 
 } // namespace restage::pbrt_out

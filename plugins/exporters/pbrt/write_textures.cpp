@@ -2,8 +2,6 @@
 // Textures and the image files they read.
 #include "exporter.hpp"
 
-#include <cstring>
-
 namespace restage::pbrt_out {
 
 namespace fs = std::filesystem;
@@ -35,35 +33,35 @@ bool is_float_file(const std::string& extension) {
 
 } // namespace
 
+std::string Exporter::place_file(const std::string& path) {
+    std::string& file = files_[path];
+    if (!file.empty()) return file;
+    const fs::path source(path);
+    if (options_.textures == Files::absolute) return file = source.generic_string();
+    if (const std::string inside = out_.inside(source); !inside.empty()) return file = inside; // beside the scene
+    if (options_.textures == Files::relative) {
+        file = source.lexically_relative(out_.folder()).generic_string();
+        return file = file.empty() ? source.generic_string() : file; // on another drive
+    }
+    file = out_.unique_file("textures", plain_name(source.stem().string()), source.extension().string());
+    out_.copy(source, file);
+    return file;
+}
+
 std::string Exporter::image_file(RestageHandle handle) {
     if (const auto it = images_.find(handle); it != images_.end()) return it->second;
     RestageImage image{};
     if (!in_.image(in_.ctx, handle, &image)) return "";
     std::string& file = images_[handle];
     std::error_code code;
-    const bool on_disk = *image.path && fs::exists(image.path, code);
-    if (!on_disk && image.pixels) {
+    if (*image.path && fs::exists(image.path, code)) return file = place_file(image.path);
+    if (image.pixels) {
         file = out_.unique_file("textures", plain_name(fs::path(image.text.name).stem().string()), ".pfm");
         out_.write(file, pfm_bytes(image));
-    } else if (!on_disk) {
-        dropped(std::string("image \"") + image.text.name + "\"", std::string("its file is not there: ") + image.path);
-        file = image.path;
-    } else if (options_.textures == Files::absolute) {
-        file = fs::path(image.path).generic_string();
-    } else if (const std::string inside = out_.inside(image.path); !inside.empty()) {
-        file = inside; // is beside the scene already
-    } else if (options_.textures == Files::relative) {
-        file = fs::path(image.path).lexically_relative(out_.folder()).generic_string();
-        if (file.empty()) file = fs::path(image.path).generic_string(); // on another drive
-    } else {
-        const fs::path source(image.path);
-        for (const auto& [other, name] : images_) // the same file with another encoding
-            if (RestageImage o{}; other != handle && in_.image(in_.ctx, other, &o) && !std::strcmp(o.path, image.path))
-                return file = name;
-        file = out_.unique_file("textures", plain_name(source.stem().string()), source.extension().string());
-        out_.copy(source, file);
+        return file;
     }
-    return file;
+    dropped(std::string("image \"") + image.text.name + "\"", std::string("its file is not there: ") + image.path);
+    return file = image.path;
 }
 
 // `"rgb tex" [..]`, `"float tex" ..` or `"texture tex" "name"`.
@@ -211,7 +209,7 @@ std::string Exporter::texture(RestageHandle handle) {
     comment(k.foreign);
     const std::string name = unique_name("texture", t.text.name);
     text_ += "Texture " + quote(name) + (is_float ? " \"float\" " : " \"spectrum\" ") + quote(written) + " " +
-             params.text() + "\n";
+             finished(params) + "\n";
     return textures_[handle] = name;
 }
 

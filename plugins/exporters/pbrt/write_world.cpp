@@ -60,13 +60,14 @@ void Exporter::environment() {
         else if (!v3() && scale[0] != 1)
             params.add_float("scale", scale[0]);
     }
+    put_exact(params, k, "scale", e.scale, what);
     for (const std::string& line : k.lines)
         params.add_raw(line);
     text_ += "\nAttributeBegin\n";
-    comment({plain_name(e.text.name)}, "    ");
+    mark("    ", "name", {e.text.name});
     comment(k.foreign, "    ");
     transform(e.light_to_world, "    ");
-    text_ += "    LightSource \"infinite\" " + params.text() + "\nAttributeEnd\n";
+    text_ += "    LightSource \"infinite\" " + finished(params) + "\nAttributeEnd\n";
 }
 
 void Exporter::lights() {
@@ -97,23 +98,23 @@ void Exporter::lights() {
             default:
                 continue;
         }
-        std::string line = std::string("LightSource ") + quote(type) + " ";
-        for (const std::string& text : k.lines) {
-            const KeptLine l = split_directive(text);
-            if (l.word == "LightSource" && !l.name.empty()) { // of a kind that is only approximated here
-                params = Params().add_raw(l.rest);
-                for (const char* placed : {"from", "to"}) // are in the transform already
-                    params.remove(placed);
-                line = "LightSource " + quote(l.name) + " ";
-            } else {
-                params.add_raw(text);
-            }
+        put_exact(params, k, "value", light.value, what);
+        for (const std::string& text : k.lines)
+            params.add_raw(text);
+        Params whole; // of a kind that is only approximated here
+        std::string kind = type;
+        if (put_exact(whole, k, "whole", light.value, what)) {
+            const KeptLine l = split_directive(k.for_values.at("whole").substr(k.for_values.at("whole").find('L')));
+            kind = l.name;
+            params = Params().add_raw(l.rest);
+            for (const char* placed : {"from", "to"}) // are in the transform already
+                params.remove(placed);
         }
         text_ += "\nAttributeBegin\n";
-        comment({plain_name(light.text.name)}, "    ");
+        mark("    ", "name", {light.text.name});
         comment(k.foreign, "    ");
         transform(light.light_to_world, "    ");
-        text_ += "    " + line + params.text() + "\nAttributeEnd\n";
+        text_ += "    LightSource " + quote(kind) + " " + finished(params) + "\nAttributeEnd\n";
     }
 }
 

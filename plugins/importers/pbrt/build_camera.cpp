@@ -32,7 +32,10 @@ void Builder::camera(const Directive& d) {
         import_.approximated(d.at, what, "a perspective camera of a narrow angle from farther back stands for it");
     } else if (d.name == "realistic") {
         fov = 45;
-        import_.approximated(d.at, what, "a pinhole camera with fov 45 stands for it; its lenses are not simulated");
+        const bool known = realistic_camera(d, out);
+        import_.approximated(d.at, what,
+                             known ? "a thin lens of the same focal length and aperture stands for it"
+                                   : "a pinhole camera with fov 45 stands for it; its lenses are not simulated");
     } else if (d.name == "environment" || d.name == "spherical") {
         fov = 90;
         import_.approximated(d.at, what, "a perspective camera with fov 90 stands for it");
@@ -40,9 +43,11 @@ void Builder::camera(const Directive& d) {
         import_.approximated(d.at, what, "there is no such camera in pbrt; a perspective one stands for it");
         if (!(fov > 0 && fov < 180)) fov = 90;
     }
-    out.fov = static_cast<float>(fov);
-    out.lens_radius = static_cast<float>(d.params.number("lensradius", 0));
-    out.focal_distance = static_cast<float>(d.params.number("focaldistance", 1e6));
+    if (!(out.fov > 0)) { // no lens file has said it
+        out.fov = static_cast<float>(fov);
+        out.lens_radius = static_cast<float>(d.params.number("lensradius", 0));
+        out.focal_distance = static_cast<float>(d.params.number("focaldistance", 1e6));
+    }
     out.frame_aspect = static_cast<float>(d.params.number("frameaspectratio", 0));
     if (!(out.lens_radius >= 0) || !(out.focal_distance > 0) || !(out.frame_aspect >= 0))
         throw ImportError{
@@ -63,7 +68,8 @@ void Builder::camera(const Directive& d) {
     for (const char* name : {"shutteropen", "shutterclose"})
         if (d.params.has(name)) (verbatim += to_text(*d.params.find(name))) += '\n';
     verbatim += import_.keep_unused(d.params, what);
-    out.text = import_.text("camera", verbatim.c_str());
+    const std::string name = take_name({"camera"});
+    out.text = import_.text(name.c_str(), verbatim.c_str());
     import_.out.camera(import_.out.ctx, &out);
 }
 

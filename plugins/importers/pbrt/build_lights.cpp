@@ -17,6 +17,29 @@ double Builder::light_scale(const Directive& d, Rgb& color) {
     return 1;
 }
 
+// "=id r g b parameters": what `value` was before it became RGB. The numbers tell the exporter whether it still is.
+std::string Builder::exact_light(const Directive& d, const char* id, const char* name, const float (&value)[3],
+                                 double scale) {
+    const auto reduced = [&](const char* of) {
+        if (!d.params.has(of)) return false;
+        const Param& param = *d.params.find(of);
+        const bool is_rgb = param.type == "rgb" || param.type == "color";
+        return param.type != "float" && (!is_rgb || param.color_space != ColorSpace::srgb);
+    };
+    if (!reduced(name) && !reduced("scale")) return "";
+    std::string line = std::string("=") + id;
+    for (const float x : value)
+        line += " " + shortest(static_cast<double>(x));
+    if (d.params.has(name)) line += " " + to_text(*d.params.find(name));
+    if (d.params.has("scale") && d.params.find("scale")->type != "float")
+        line += " " + to_text(*d.params.find("scale"));
+    else if (scale != 1 && import_.v3()) // a spectrum there
+        line += " \"rgb scale\" [ " + shortest(scale) + " " + shortest(scale) + " " + shortest(scale) + " ]";
+    else if (scale != 1)
+        line += " \"float scale\" [ " + shortest(scale) + " ]";
+    return line + "\n";
+}
+
 void Builder::light(const Directive& d) {
     const std::string what = "LightSource " + quote(d.name);
     if (d.name == "infinite" || d.name == "exinfinite") {
@@ -76,9 +99,15 @@ void Builder::light(const Directive& d) {
     out.value[2] = static_cast<float>(value.b);
     std::memcpy(out.light_to_world, to_world.m.data(), sizeof out.light_to_world);
     std::string verbatim = import_.keep_unused(d.params, what);
-    if (d.name == "goniometric" || d.name == "projection")
-        verbatim = "LightSource " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
-    const std::string name = d.name + " " + std::to_string(d.at.line);
+    if (d.name == "goniometric" || d.name == "projection") { // `whole`: all of it, as long as the colour is this
+        std::string numbers;
+        for (const float x : out.value)
+            numbers += " " + shortest(static_cast<double>(x));
+        verbatim = "=whole" + numbers + " LightSource " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
+    } else {
+        verbatim += exact_light(d, "value", is_distant ? "L" : "I", out.value, scale);
+    }
+    const std::string name = take_name({std::string(next_.label), state_.label, d.name + " light"});
     out.text = import_.text(name.c_str(), verbatim.c_str());
     import_.out.light(import_.out.ctx, &out);
 }
@@ -91,7 +120,11 @@ void Builder::infinite_light(const Directive& d) {
     for (const char* name : {"samples", "nsamples"})
         d.params.find(name); // how, not what
     const std::string file = d.params.string(d.params.has("filename") ? "filename" : "mapname", "");
-    if (d.params.find("portal")) import_.approximated(d.at, what, "the light is not limited to its portal");
+    std::string kept; // of what is only pbrt's
+    if (const Param* portal = d.params.find("portal")) {
+        import_.approximated(d.at, what, "the light is not limited to its portal; written back as it is");
+        kept += to_text(*portal) + "\n";
+    }
     const double illuminance = d.params.number("illuminance", -1);
     RestageHandle pixels = 0;
     if (!file.empty()) {
@@ -100,10 +133,11 @@ void Builder::infinite_light(const Directive& d) {
         if (illuminance > 0)
             import_.approximated(d.at, what,
                                  "\"illuminance\" of a picture is not reached; the picture's own values are used");
+        if (illuminance > 0) kept += to_text(*d.params.find("illuminance")) + "\n";
     } else if (illuminance > 0) {
         scale *= illuminance / std::numbers::pi;
     }
-    const std::string verbatim = import_.keep_unused(d.params, what);
+    kept += import_.keep_unused(d.params, what);
     if (!file.empty() && pixels == 0) return; // the missing image is in the report
     value = value * scale;
     PendingEnvironment& pending = environment_;
@@ -122,14 +156,14 @@ void Builder::infinite_light(const Directive& d) {
     pending.set = true;
     pending.has_image = pixels != 0;
     pending.at = d.at;
-    pending.verbatim = verbatim;
-    pending.name = file.empty() ? "environment" : std::filesystem::path(file).stem().string();
+    pending.name = take_name({std::filesystem::path(file).stem().string(), "environment"});
     pending.value = {};
     pending.value.image = pixels;
     pending.value.mapping = import_.v3() || d.params.has("mapname") ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL;
     pending.value.scale[0] = static_cast<float>(value.r);
     pending.value.scale[1] = static_cast<float>(value.g);
     pending.value.scale[2] = static_cast<float>(value.b);
+    pending.verbatim = kept + exact_light(d, "scale", "L", pending.value.scale, scale);
     const Matrix to_world = ctm(d);
     std::memcpy(pending.value.light_to_world, to_world.m.data(), sizeof pending.value.light_to_world);
 }

@@ -3,6 +3,7 @@
 // (mix, hair, subsurface), the version of the file does. Defaults are written out, since they differ between versions.
 #include "builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace restage::pbrt {
@@ -79,7 +80,76 @@ void Builder::put_metal(Values& values, const Directive& d, const char* eta, con
     put_color(values, k_id, d, k, Role::unbounded, rgb_equal_energy(*named_spectrum("metal-Cu-k")));
 }
 
-RestageHandle Builder::material(const Directive& d, const std::string& name, const std::string& type) {
+bool is_material_parameter(std::string_view name) { // of pbrt-v3's materials; not "alpha", which is the shape's own
+    static const std::set<std::string_view> names = {"Kd",
+                                                     "Ks",
+                                                     "Kr",
+                                                     "Kt",
+                                                     "sigma",
+                                                     "roughness",
+                                                     "uroughness",
+                                                     "vroughness",
+                                                     "eta",
+                                                     "k",
+                                                     "index",
+                                                     "opacity",
+                                                     "remaproughness",
+                                                     "bumpmap",
+                                                     "reflect",
+                                                     "transmit",
+                                                     "amount",
+                                                     "color",
+                                                     "metallic",
+                                                     "speculartint",
+                                                     "anisotropic",
+                                                     "sheen",
+                                                     "sheentint",
+                                                     "clearcoat",
+                                                     "clearcoatgloss",
+                                                     "spectrans",
+                                                     "flatness",
+                                                     "thin",
+                                                     "difftrans",
+                                                     "scatterdistance",
+                                                     "mfp",
+                                                     "sigma_a",
+                                                     "sigma_s",
+                                                     "sigma_prime_s",
+                                                     "g",
+                                                     "eumelanin",
+                                                     "pheomelanin",
+                                                     "beta_m",
+                                                     "beta_n"};
+    return names.count(name) > 0;
+}
+
+// pbrt-v3 (GraphicsState::GetMaterialForShape): a material reads its parameters from the shape first.
+RestageHandle Builder::material_of_shape(const Directive& shape) {
+    const RestageHandle own = state_.material ? state_.material : default_material(shape);
+    const auto overrides = [](const Param& param) { return is_material_parameter(param.name); };
+    if (!import_.v3() || (state_.material && !state_.material_from) ||
+        std::none_of(shape.params.params.begin(), shape.params.params.end(), overrides))
+        return own;
+    Directive merged;
+    merged.word = "Material";
+    merged.at = shape.at;
+    merged.name = "matte";
+    if (const Directive* from = state_.material_from) {
+        merged.name = from->verb == Verb::material ? from->name : from->params.string("type", "matte");
+        merged.params = from->params;
+    }
+    for (const Param& param : shape.params.params)
+        if (overrides(param)) {
+            std::erase_if(merged.params.params, [&](const Param& p) { return p.name == param.name; });
+            merged.params.params.push_back(param);
+            param.used = true;
+        }
+    const auto name = material_names_.find(own);
+    return material(merged, "", merged.name, name == material_names_.end() ? "" : name->second);
+}
+
+RestageHandle Builder::material(const Directive& d, const std::string& name, const std::string& type,
+                                const std::string& wanted_label) {
     // The same anonymous material over and over (Material "diffuse" before each lamp) is one.
     const bool anonymous = name.empty();
     std::string key;
@@ -120,8 +190,8 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
         put_common(values, d);
     verbatim += exact_ + import_.keep_unused(d.params, what);
     exact_.clear();
-    std::string label = name;
-    if (label.empty()) label = type + " " + std::to_string(d.at.line);
+    std::string label = name.empty() ? wanted_label : name;
+    if (label.empty()) label = type.empty() ? "interface" : type;
     const RestageMaterialDesc desc{.text = import_.text(label.c_str(), verbatim.c_str()),
                                    .type = plugin.c_str(),
                                    .values = values.data(),
@@ -129,7 +199,26 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     const RestageHandle handle = import_.out.material(import_.out.ctx, &desc);
     if (plugin == "interface") interfaces_.insert(handle);
     if (anonymous) materials_by_content_[key] = handle;
+    if (!anonymous) material_names_[handle] = name;
     return handle;
+}
+
+// The colour that many strands together have: Chiang et al. 2016, "A Practical and Controllable Hair and Fur Model for
+// Production Path Tracing", Eq. 9, solved for the colour; pigments as in pbrt (hair.cpp, SigmaAFromConcentration).
+Rgb Builder::hair_color(const Directive& d) {
+    for (const char* name : {"reflectance", "color"})
+        if (const auto given = import_.color(d.params, name, Role::albedo)) return *given;
+    auto sigma = import_.color(d.params, "sigma_a", Role::unbounded);
+    if (!sigma) {
+        const bool pheomelanin = d.params.has("pheomelanin");
+        const double eu = float_argument(d, "eumelanin", pheomelanin ? 0 : 1.3).value.r;
+        sigma = Rgb{0.419, 0.697, 1.37} * eu + Rgb{0.187, 0.4, 1.05} * float_argument(d, "pheomelanin", 0).value.r;
+    }
+    const double b = float_argument(d, "beta_n", 0.3).value.r;
+    const double depth =
+        5.969 - 0.215 * b + 2.532 * b * b - 10.73 * b * b * b + 5.574 * std::pow(b, 4) + 0.245 * std::pow(b, 5);
+    const auto of = [&](double absorbed) { return std::exp(-std::sqrt(std::max(absorbed, 0.0)) * depth); };
+    return {of(sigma->r), of(sigma->g), of(sigma->b)};
 }
 
 void Builder::approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin) {
@@ -159,10 +248,8 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
         put_roughness(values, d, "", 0);
         values.choice("remap", !d.params.boolean("remaproughness", true) ? "none" : import_.v3() ? "v3" : "v4");
     } else if (type == "hair") {
-        note = "hair scattering is not simulated; a diffuse one of a brown stands for it";
-        color = {0.22, 0.12, 0.06};
-        for (const char* name : {"reflectance", "color"})
-            if (const auto given = import_.color(d.params, name, Role::albedo)) color = *given;
+        note = "hair scattering is not simulated; a diffuse one of the hair's colour stands for it";
+        color = hair_color(d);
     } else if (type == "disney") {
         note = "of Disney's model its base colour, metallic and roughness are used";
         const double metallic = float_argument(d, "metallic", 0).value.r;

@@ -10,13 +10,19 @@ namespace restage::pbrt {
 
 namespace {
 
+std::string stem_of(const std::string& file) { // "models/cup.ply.gz" -> "cup"
+    std::string stem = std::filesystem::path(file).stem().string();
+    if (stem.ends_with(".ply")) stem.resize(stem.size() - 4);
+    return stem;
+}
+
 void set_matrix(double (&to)[16], const Matrix& from) { std::memcpy(to, from.m.data(), sizeof to); }
 
 bool is_affine(const Matrix& m) { return m.at(3, 0) == 0 && m.at(3, 1) == 0 && m.at(3, 2) == 0 && m.at(3, 3) == 1; }
 
 } // namespace
 
-RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
+RestageHandle Builder::ply_mesh(const Directive& d, const std::string& name, const Mesh*& data) {
     const std::string file = d.params.string("filename", "");
     if (file.empty()) throw ImportError{d.at, "Shape \"plymesh\" needs \"string filename\""};
     const std::string path = import_.resolve(file, d.at).string();
@@ -41,8 +47,6 @@ RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
                              std::to_string(repaired) + " normals without a direction are replaced by the faces'");
     RestageHandle& handle = mesh_cache_[path];
     if (handle == 0) {
-        std::string name = std::filesystem::path(path).stem().string();
-        if (name.ends_with(".ply")) name.resize(name.size() - 4); // of .ply.gz
         const RestageMesh out{.text = import_.text(name.c_str(), ""),
                               .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                               .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
@@ -58,15 +62,17 @@ RestageHandle Builder::ply_mesh(const Directive& d, const Mesh*& data) {
     return handle;
 }
 
-RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
-    if (d.name == "plymesh") return ply_mesh(d, data);
+RestageHandle Builder::mesh(const Directive& d, const std::string& name, const Mesh*& data) {
+    if (d.name == "plymesh") return ply_mesh(d, name, data);
     Mesh mesh;
     std::string primitive; // the shape's own line, for what is more than triangles
     const bool is_triangles = d.name == "trianglemesh";
     if (!is_triangles) {
         primitive = d.name;
         for (const Param& param : d.params.params)
-            if (param.name != "alpha" && param.name != "shadowalpha") (primitive += ' ') += to_text(param);
+            if (param.name != "alpha" && param.name != "shadowalpha" &&
+                !(import_.v3() && is_material_parameter(param.name)))
+                (primitive += ' ') += to_text(param);
         if (const auto known = mesh_cache_.find(primitive); known != mesh_cache_.end() && !state_.area_light) {
             d.params.mark_all_used();
             return known->second;
@@ -82,11 +88,11 @@ RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
         mesh = make_loop(import_, d);
     } else if (d.name == "heightfield" || d.name == "heightfield2") {
         mesh = make_heightfield(import_, d);
+    } else if (d.name == "nurbs") {
+        mesh = make_nurbs(import_, d);
     } else {
         d.params.mark_all_used();
-        import_.dropped(d.at, "Shape " + quote(d.name),
-                        d.name == "curve" || d.name == "nurbs" ? d.name + "s are not made into triangles"
-                                                               : "there is no such shape in pbrt");
+        import_.dropped(d.at, "Shape " + quote(d.name), "there is no such shape in pbrt");
         return 0;
     }
     if (const std::size_t repaired = repair_normals(mesh))
@@ -100,7 +106,6 @@ RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
         import_.dropped(d.at, "Shape " + quote(d.name), "it is empty");
         return 0;
     }
-    const std::string name = d.name + " " + std::to_string(d.at.line);
     const RestageMesh out{.text = import_.text(name.c_str(), ""),
                           .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                           .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
@@ -124,6 +129,10 @@ RestageHandle Builder::mesh(const Directive& d, const Mesh*& data) {
 
 void Builder::shape(const Directive& d) {
     const Matrix to_world = ctm(d);
+    const std::string stem = d.name == "plymesh" ? stem_of(d.params.string("filename", "")) : "";
+    std::string mesh_name = std::move(next_.mesh);
+    const std::string name = shape_name(d, stem);
+    if (mesh_name.empty()) mesh_name = stem.empty() ? name : stem;
     if (!is_affine(to_world) || !(std::abs(determinant3(to_world)) > 0)) {
         d.params.mark_all_used();
         import_.dropped(
@@ -131,15 +140,26 @@ void Builder::shape(const Directive& d) {
             is_affine(to_world) ? "its transformation flattens it to nothing" : "its transformation is not affine");
         return;
     }
+    if (d.name == "curve") {
+        curve(d, to_world, name, mesh_name);
+        return;
+    }
     const Mesh* data = nullptr;
-    RestageInstance instance{};
-    instance.alpha = 1;
-    instance.mesh = mesh(d, data);
-    if (instance.mesh == 0) {
+    const RestageHandle handle = mesh(d, mesh_name, data);
+    if (handle == 0) {
         d.params.mark_all_used();
         return;
     }
-    instance.material = state_.material ? state_.material : default_material(d);
+    RestageInstance instance = instance_of(d, to_world);
+    instance.mesh = handle;
+    const std::string emitted = state_.area_light && data ? emission(d, *data, instance) : "";
+    place(instance, name, import_.keep_unused(d.params, "Shape " + quote(d.name)) + emitted);
+}
+
+RestageInstance Builder::instance_of(const Directive& d, const Matrix& to_world) {
+    RestageInstance instance{};
+    instance.alpha = 1;
+    instance.material = material_of_shape(d);
     if (d.params.has("alpha")) {
         const Argument alpha = float_argument(d, "alpha", 1);
         instance.alpha_texture = alpha.texture;
@@ -161,12 +181,12 @@ void Builder::shape(const Directive& d) {
         instance.has_medium_interface = 1;
     }
     set_matrix(instance.object_to_world, to_world);
-    if (state_.area_light && data) emission(d, *data, instance);
-    const std::string what = "Shape " + quote(d.name);
-    const std::string verbatim = import_.keep_unused(d.params, what);
-    const std::string name = d.name == "plymesh"
-                                 ? std::filesystem::path(d.params.string("filename", "")).stem().string()
-                                 : d.name + " " + std::to_string(d.at.line);
+    if (d.ours) instance.flags |= RESTAGE_INSTANCE_HIDDEN;
+    instance.group = state_.group;
+    return instance;
+}
+
+void Builder::place(RestageInstance instance, const std::string& name, const std::string& verbatim) {
     instance.text = import_.text(name.c_str(), verbatim.c_str());
     if (open_object_.empty()) {
         import_.out.instance(import_.out.ctx, &instance);
@@ -176,52 +196,66 @@ void Builder::shape(const Directive& d) {
     instance.text.name = object.names.emplace_back(name).c_str();
     instance.text.verbatim = object.names.emplace_back(verbatim).c_str();
     object.instances.push_back(instance);
+    object.named_by_itself = own_name_;
 }
 
-bool Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance) {
+void Builder::end_object() {
+    flush_curves();
+    Object& object = objects_[open_object_];
+    if (object.instances.size() == 1 && !object.named_by_itself && !is_generic_name(open_object_))
+        object.instances[0].text.name = object.names.emplace_back(open_object_).c_str();
+    open_object_.clear();
+}
+
+// Returns the verbatim line of what its light was before it became RGB.
+std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance) {
     const Directive& d = *state_.area_light;
-    if (!open_object_.empty()) {
-        import_.dropped(d.at, "AreaLightSource in ObjectBegin", "pbrt lets objects that are instanced not emit");
+    const auto no_light = [&](const std::string& what, const char* why) {
+        import_.dropped(d.at, what, why);
         d.params.mark_all_used();
-        return false;
-    }
-    if (!import_.v3() && interfaces_.count(instance.material)) {
-        import_.dropped(d.at, "AreaLightSource on an interface", "pbrt lets surfaces without a material not emit");
-        d.params.mark_all_used();
-        return false;
-    }
-    if (d.name != "diffuse" && d.name != "area") {
-        import_.dropped(d.at, "AreaLightSource " + quote(d.name), "there is no such area light in pbrt");
-        d.params.mark_all_used();
-        return false;
-    }
+        return std::string();
+    };
+    if (!open_object_.empty())
+        return no_light("AreaLightSource in ObjectBegin", "pbrt lets objects that are instanced not emit");
+    if (!import_.v3() && interfaces_.count(instance.material))
+        return no_light("AreaLightSource on an interface", "pbrt lets surfaces without a material not emit");
+    if (d.name != "diffuse" && d.name != "area")
+        return no_light("AreaLightSource " + quote(d.name), "there is no such area light in pbrt");
     Rgb radiance = import_.color(d.params, "L", Role::light, {1, 1, 1});
-    const double scale = light_scale(d, radiance);
+    double scale = light_scale(d, radiance);
     const bool two_sided = d.params.boolean("twosided", false);
-    if (d.params.find("filename"))
-        import_.approximated(d.at, "AreaLightSource with a picture",
-                             "emits evenly, with the strength of a white picture");
-    radiance = radiance * scale;
     const double power = d.params.number("power", -1); // v4: of each light, and each triangle is one
     if (power > 0) {
         Matrix to_world;
         std::memcpy(to_world.m.data(), instance.object_to_world, sizeof instance.object_to_world);
         const bool by_triangle = shape.name == "trianglemesh" || shape.name == "plymesh" || shape.name == "loopsubdiv";
         const double lights = by_triangle ? static_cast<double>(mesh.triangle_count()) : 1;
-        radiance = radiance * (power * lights / ((two_sided ? 2 : 1) * area(mesh, to_world) * 3.14159265358979323846));
+        scale *= power * lights / ((two_sided ? 2 : 1) * area(mesh, to_world) * 3.14159265358979323846);
         if (lights > 2)
             import_.approximated(d.at, "\"power\" of an AreaLightSource",
                                  "pbrt gives it to each triangle; it is spread evenly");
     }
+    radiance = radiance * scale;
     for (const char* name : {"samples", "nsamples"})
         d.params.find(name); // how, not what
     instance.flags |= RESTAGE_INSTANCE_EMITS | (two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
     instance.emission[0] = static_cast<float>(radiance.r);
     instance.emission[1] = static_cast<float>(radiance.g);
     instance.emission[2] = static_cast<float>(radiance.b);
+    std::string exact = exact_light(d, "emission", "L", instance.emission, scale);
+    if (d.params.find("filename")) {
+        import_.approximated(d.at, "AreaLightSource with a picture",
+                             "emits evenly, with the strength of a white picture; written back as it is");
+        exact = "=emission";
+        for (const float x : instance.emission)
+            exact += " " + shortest(static_cast<double>(x));
+        for (const Param& param : d.params.params)
+            if (param.name != "twosided") exact += " " + to_text(param);
+        exact += "\n";
+    }
     import_.keep_unused(d.params, "AreaLightSource " + quote(d.name));
     d.params.mark_all_used(); // said once
-    return true;
+    return exact;
 }
 
 void Builder::object_instance(const Directive& d) {
@@ -234,9 +268,21 @@ void Builder::object_instance(const Directive& d) {
         return;
     }
     const Matrix placed = ctm(d);
-    const RestageGroup group{.text = import_.text(d.name.c_str(), "")};
-    const RestageHandle handle = import_.out.group(import_.out.ctx, &group);
-    for (RestageInstance instance : found->second.instances) { // a copy
+    const auto& members = found->second.instances;
+    const std::vector<std::string> names = std::move(next_.members);
+    const bool alone = next_.alone && members.size() == 1;
+    const std::string name = take_name({std::string(next_.label), d.name, state_.label, "object"});
+    RestageHandle handle = state_.group;
+    if (!alone) {
+        const RestageGroup group{.text = import_.text(name.c_str(), ""), .parent = state_.group};
+        handle = import_.out.group(import_.out.ctx, &group);
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        RestageInstance instance = members[i];
+        if (alone)
+            instance.text.name = name.c_str();
+        else if (names.size() == members.size())
+            instance.text.name = names[i].c_str();
         Matrix own;
         std::memcpy(own.m.data(), instance.object_to_world, sizeof instance.object_to_world);
         const Matrix to_world = placed * own;
@@ -246,6 +292,7 @@ void Builder::object_instance(const Directive& d) {
         }
         set_matrix(instance.object_to_world, to_world);
         instance.group = handle;
+        if (d.ours) instance.flags |= RESTAGE_INSTANCE_HIDDEN;
         import_.out.instance(import_.out.ctx, &instance);
     }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace restage::pbrt {
 
@@ -30,6 +31,8 @@ bool Builder::run(SceneFile& scene) {
     if (!import_.v3()) // v4 looks names up when the file has been read
         for (const Directive& directive : scene.directives)
             if (directive.verb == Verb::make_named_material) later_materials_.emplace(directive.name, &directive);
+    for (const Directive& directive : scene.directives)
+        if (directive.verb == Verb::film) film_ = &directive; // a camera before it may ask for its size
     std::size_t done = 0;
     for (Directive& directive : scene.directives) {
         if (++done % 16 == 0 &&
@@ -38,7 +41,10 @@ bool Builder::run(SceneFile& scene) {
             return false;
         for (Param& param : directive.params.params)
             param.color_space = state_.color_space;
+        if (directive.verb != Verb::shape && directive.verb != Verb::film)
+            import_.make_files_absolute(directive.params);
         step(directive);
+        if (directive.verb == Verb::shape) directive.params = {}; // done with: the host has its copy
     }
     finish(scene);
     return true;
@@ -55,6 +61,7 @@ void Builder::finish(const SceneFile& scene) {
     }
     if (import_.v3() && !scene.has_world_end)
         import_.approximated(scene.end, "WorldEnd", "missing; the file may have been cut short");
+    flush_curves();
     film_and_settings();
     flush_environment();
 }
@@ -114,6 +121,9 @@ void Builder::pop(const Directive& directive, bool only_transform) {
         state_.ctm[0] = top.state.ctm[0];
         state_.ctm[1] = top.state.ctm[1];
         state_.active = top.state.active;
+        state_.label = std::move(top.state.label);
+        state_.name = std::move(top.state.name);
+        state_.group = top.state.group;
     } else {
         state_ = std::move(top.state);
     }
@@ -176,6 +186,10 @@ void Builder::option_step(Directive& d) {
             integrator_ = &d;
             break;
         case Verb::camera:
+            if (d.ours) { // a further one, behind the active one
+                camera(d);
+                break;
+            }
             camera_ = &d;
             coordinate_systems_["camera"] = {inverse(state_.ctm[0]).value_or(Matrix{}),
                                              inverse(state_.ctm[1]).value_or(Matrix{})};
@@ -197,6 +211,7 @@ void Builder::option_step(Directive& d) {
 }
 
 void Builder::step(Directive& d) {
+    read_comments(d);
     switch (d.verb) {
         case Verb::identity:
         case Verb::translate:
@@ -265,6 +280,8 @@ void Builder::step(Directive& d) {
         case Verb::transform_begin:
         case Verb::import_begin:
             push(d);
+            if (!block_label_.empty()) state_.label = std::exchange(block_label_, {});
+            if (!block_name_.empty()) state_.name = std::exchange(block_name_, {});
             break;
         case Verb::attribute_end:
         case Verb::import_end:
@@ -278,13 +295,14 @@ void Builder::step(Directive& d) {
             if (!open_object_.empty())
                 throw ImportError{
                     d.at, "ObjectBegin inside an object; close " + quote(open_object_) + " with ObjectEnd first"};
+            flush_curves(); // those are of the world
             push(d);
             open_object_ = d.name.empty() ? " " : d.name;
             objects_[open_object_] = {};
             break;
         case Verb::object_end:
             pop(d, false);
-            open_object_.clear();
+            end_object();
             break;
         case Verb::object_instance:
             object_instance(d);
@@ -307,15 +325,22 @@ void Builder::step(Directive& d) {
                 break; // made ahead
             const RestageHandle handle = material(d, d.name, d.params.string("type", import_.v3() ? "matte" : ""));
             writable_names().materials[d.name] = handle;
+            writable_names().material_sources[d.name] = &d;
             break;
         }
         case Verb::named_material:
             state_.material = named_material(d, d.name);
+            if (const auto source = state_.names->material_sources.find(d.name);
+                source != state_.names->material_sources.end())
+                state_.material_from = source->second;
+            else
+                state_.material_from = nullptr;
             break;
         case Verb::material:
             in_world(d);
             add_attributes(d, "material");
             state_.material = material(d, "", d.name);
+            state_.material_from = &d;
             break;
         case Verb::area_light_source:
             in_world(d);

@@ -3,7 +3,7 @@
 // kind of thing has a file of its own (build_*.cpp).
 #pragma once
 
-#include "mesh.hpp"
+#include "curves.hpp"
 
 #include <set>
 
@@ -12,6 +12,7 @@ namespace restage::pbrt {
 // Names visible at a point of the file. v3 scopes them to attribute blocks, v4 has one space for all.
 struct Names {
     std::map<std::string, RestageHandle> float_textures, color_textures, materials;
+    std::map<std::string, const Directive*> material_sources;
 };
 
 struct State { // pbrt's graphics state
@@ -19,6 +20,9 @@ struct State { // pbrt's graphics state
     unsigned active = 3;
     bool reverse_orientation = false;
     RestageHandle material = 0; // 0 = the default, made when first needed
+    const Directive* material_from = nullptr; // what made it; v3: shapes may override its parameters
+    RestageHandle group = 0; // of comments `# group: ...`
+    std::string label, name; // words before the block; what things in it are called, by `# name:`
     const Directive* area_light = nullptr;
     std::string interior, exterior;
     ColorSpace color_space = ColorSpace::srgb;
@@ -31,6 +35,9 @@ struct Argument {
     RestageHandle texture = 0;
     Rgb value;
 };
+
+// Numbered by a program ("mesh_00012"), so that a material's name says more.
+bool is_generic_name(std::string_view name);
 
 class Builder {
   public:
@@ -51,6 +58,12 @@ class Builder {
     const Matrix& ctm(const Directive& directive); // at shutter opening; motion is reported
     bool in_world(const Directive& directive) const;
 
+    // build_names.cpp
+    void read_comments(const Directive& directive);
+    RestageHandle group_at(const std::vector<std::string>& path);
+    std::string take_name(std::initializer_list<std::string_view> best_first);
+    std::string shape_name(const Directive& directive, const std::string& file_stem);
+
     // build_textures.cpp
     void texture(const Directive& directive);
     // A file that is missing is reported; `keep_missing`: its name is kept, so that it can be found later.
@@ -67,9 +80,12 @@ class Builder {
     RestageHandle scaled_texture(RestageHandle texture, double scale, bool is_float);
 
     // build_materials*.cpp
-    RestageHandle material(const Directive& directive, const std::string& name, const std::string& type);
+    RestageHandle material(const Directive& directive, const std::string& name, const std::string& type,
+                           const std::string& label = "");
+    RestageHandle material_of_shape(const Directive& shape);
     bool material_v4(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    Rgb hair_color(const Directive& d);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     void put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id,
                    const char* k_id);
@@ -82,17 +98,27 @@ class Builder {
 
     // build_shapes.cpp
     void shape(const Directive& directive);
-    RestageHandle mesh(const Directive& directive, const Mesh*& data);
-    RestageHandle ply_mesh(const Directive& directive, const Mesh*& data);
+    RestageHandle mesh(const Directive& directive, const std::string& name, const Mesh*& data);
+    RestageHandle ply_mesh(const Directive& directive, const std::string& name, const Mesh*& data);
+    // All of an instance but mesh, name and emission.
+    RestageInstance instance_of(const Directive& shape, const Matrix& to_world);
+    void place(RestageInstance instance, const std::string& name, const std::string& verbatim);
+    void curve(const Directive& directive, const Matrix& to_world, const std::string& name,
+               const std::string& mesh_name);
+    void flush_curves();
+    void end_object();
     void object_instance(const Directive& directive);
-    bool emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance);
+    std::string emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance);
 
     // build_lights.cpp, build_camera.cpp, build_media.cpp
     void light(const Directive& directive);
     void infinite_light(const Directive& directive);
     void flush_environment();
     double light_scale(const Directive& d, Rgb& color);
+    std::string exact_light(const Directive& d, const char* id, const char* name, const float (&value)[3],
+                            double scale);
     void camera(const Directive& directive);
+    bool realistic_camera(const Directive& directive, RestageCamera& out);
     void film_and_settings();
     void medium(const Directive& directive);
     RestageHandle medium_named(const std::string& name, const Directive& directive);
@@ -121,8 +147,19 @@ class Builder {
     struct Object {
         std::vector<RestageInstance> instances;
         std::deque<std::string> names;
+        bool named_by_itself = false; // its only member has a name of its own
     };
     std::map<std::string, Object> objects_;
+
+    struct CurveGroup { // becomes one instance
+        CurveBatch batch;
+        RestageInstance instance;
+        Matrix to_world, to_object;
+        std::string name, mesh_name, verbatim;
+        Location at;
+    };
+    std::deque<CurveGroup> curves_;
+    std::multimap<std::string, CurveGroup*> curves_by_state_;
     std::string open_object_;
     std::map<std::string, RestageHandle> mesh_cache_; // by what they are made from
     std::map<std::string, Mesh> emitter_meshes_;
@@ -130,6 +167,16 @@ class Builder {
     std::map<std::pair<RestageHandle, double>, RestageHandle> scaled_textures_;
     std::string exact_; // "=id parameter" lines: what a value was before it became RGB
     RestageHandle default_material_ = 0;
+    std::map<RestageHandle, std::string> material_names_; // of named ones
+
+    struct Next { // what comments say of the next thing
+        std::string name, label, mesh; // label: guessed
+        std::vector<std::string> members;
+        bool alone = false;
+    } next_;
+    std::string block_label_, block_name_; // for the block that begins
+    bool own_name_ = false; // of the last shape: not after its material or object
+    std::map<std::string, RestageHandle> groups_; // by path
 
     struct PendingEnvironment {
         bool set = false, has_image = false;

@@ -5,6 +5,8 @@
 
 #include "params.hpp"
 
+#include <deque>
+
 namespace restage::pbrt {
 
 enum class Version { v3, v4 };
@@ -62,6 +64,8 @@ struct Directive {
     std::string second, third;      // Texture: value type and class; MediumInterface: exterior; Option: value
     std::vector<double> numbers;    // of transforms
     ParamList params;
+    std::vector<std::string_view> comments; // on lines of their own before it, without the '#'
+    bool ours = false; // of a line `#restage ...`: a comment to pbrt
 };
 
 struct MissingFile {
@@ -70,7 +74,7 @@ struct MissingFile {
 };
 
 struct SceneFile {
-    std::vector<Directive> directives;
+    std::deque<Directive> directives; // does not move when it grows
     std::vector<MissingFile> missing; // of Include and Import: reported, the rest goes on
     bool has_world_begin = false, has_world_end = false;
     Location end;
@@ -80,6 +84,8 @@ struct SceneFile {
 // everything the scene names. `goes_on` is asked now and then; when it says no, parsing stops and nullopt is returned.
 std::optional<SceneFile> parse(Sources& sources, const std::filesystem::path& folder,
                                const std::function<bool()>& goes_on);
+
+bool is_directive(std::string_view word);
 
 // pbrt-v3 or v4, by what only one of them knows; v4 when there is no evidence. `evidence` is one sentence of proof.
 Version detect_version(const SceneFile& scene, const Sources& sources, std::string& evidence);

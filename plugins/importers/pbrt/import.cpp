@@ -92,6 +92,19 @@ std::filesystem::path Import::resolve(const std::string& name, Location at) cons
     return code ? path : real;
 }
 
+void Import::make_files_absolute(ParamList& params) const {
+    for (Param& param : params.params) {
+        if (param.strings.size() != 1 || param.strings[0].empty()) continue;
+        const bool file = param.type == "string" &&
+                          (param.name.ends_with("filename") || param.name.ends_with("file") || param.name == "mapname");
+        const bool spectrum_file = param.type == "spectrum" && !named_spectrum(param.strings[0]);
+        if (!file && !spectrum_file) continue;
+        const std::filesystem::path path = resolve(param.strings[0], param.at);
+        std::error_code code;
+        if (std::filesystem::is_regular_file(path, code)) param.strings[0] = path.string();
+    }
+}
+
 std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location at) {
     const std::string path = resolve(name, at).string();
     if (const auto known = spectra_.find(path); known != spectra_.end()) return known->second;

@@ -56,6 +56,9 @@ class Import {
     // Where the scene means: beside the main file, else beside the file that says it. Absolute; may not exist.
     std::filesystem::path resolve(const std::string& name, Location at) const;
 
+    // Files that are there, by their absolute path: what is kept verbatim is written elsewhere.
+    void make_files_absolute(ParamList& params) const;
+
     // A colour parameter in linear sRGB. nullopt: absent, a texture, or unreadable (reported).
     std::optional<Rgb> color(const ParamList& params, std::string_view name, Role role);
     Rgb color(const ParamList& params, std::string_view name, Role role, Rgb otherwise) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lexer.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -62,15 +63,30 @@ Location Lexer::place(const Frame& frame, const char* at) const {
     return {frame.file, frame.line, static_cast<std::uint32_t>(at - frame.line_start) + 1};
 }
 
+// At '#': takes the comment, or only its mark when what follows is meant for us.
+void Lexer::skip_comment(Frame& frame) {
+    constexpr std::string_view mark = "#restage ";
+    const bool own_line = std::all_of(frame.ours_from ? frame.ours_from : frame.line_start, frame.at, is_blank);
+    if (own_line && std::string_view(frame.at, static_cast<std::size_t>(frame.end - frame.at)).starts_with(mark)) {
+        frame.at += mark.size();
+        frame.ours_from = frame.at;
+        return;
+    }
+    const char* begin = frame.at + 1;
+    while (frame.at != frame.end && *frame.at != '\n' && *frame.at != '\r')
+        ++frame.at;
+    if (own_line) comments_.emplace_back(begin, static_cast<std::size_t>(frame.at - begin));
+}
+
 void Lexer::skip_blanks(Frame& frame) {
     while (frame.at != frame.end) {
         const char c = *frame.at;
         if (c == '\n' || (c == '\r' && (frame.at + 1 == frame.end || frame.at[1] != '\n'))) {
             ++frame.line;
             frame.line_start = frame.at + 1;
+            frame.ours_from = nullptr;
         } else if (c == '#') {
-            while (frame.at != frame.end && *frame.at != '\n' && *frame.at != '\r')
-                ++frame.at;
+            skip_comment(frame);
             continue;
         } else if (!is_blank(c)) {
             return;
@@ -121,16 +137,17 @@ bool Lexer::number(double& value) {
 Token Lexer::scan() {
     Frame& frame = frames_.back();
     skip_blanks(frame);
-    if (frame.at == frame.end) return {TokenKind::end_of_file, {}, place(frame, frame.at)};
     const Location at = place(frame, frame.at);
+    const bool ours = frame.ours_from != nullptr;
+    if (frame.at == frame.end) return {TokenKind::end_of_file, {}, at, ours};
     const char c = *frame.at;
-    if (c == '[') return {TokenKind::open, {frame.at++, 1}, at};
-    if (c == ']') return {TokenKind::close, {frame.at++, 1}, at};
+    if (c == '[') return {TokenKind::open, {frame.at++, 1}, at, ours};
+    if (c == ']') return {TokenKind::close, {frame.at++, 1}, at, ours};
     if (c == '"') return scan_text(frame);
     const char* begin = frame.at;
     while (frame.at != frame.end && !ends_word(*frame.at))
         ++frame.at;
-    return {TokenKind::word, {begin, static_cast<std::size_t>(frame.at - begin)}, at};
+    return {TokenKind::word, {begin, static_cast<std::size_t>(frame.at - begin)}, at, ours};
 }
 
 Token Lexer::scan_text(Frame& frame) {
@@ -148,10 +165,14 @@ Token Lexer::scan_text(Frame& frame) {
     if (frame.at == frame.end)
         throw ImportError{at, "the file ends inside this string; add the missing '\"' or restore the rest of the file"};
     const std::string_view raw{begin, static_cast<std::size_t>(frame.at++ - begin)};
-    if (!escapes) return {TokenKind::text, raw, at};
-    std::string& out = unescaped_.emplace_back();
+    const bool ours = frame.ours_from != nullptr;
+    return {TokenKind::text, escapes ? std::string_view(unescaped_.emplace_back(unescape(raw))) : raw, at, ours};
+}
+
+std::string unescape(std::string_view raw) {
+    std::string out;
     for (std::size_t i = 0; i < raw.size(); ++i) {
-        if (raw[i] != '\\') {
+        if (raw[i] != '\\' || i + 1 == raw.size()) {
             out += raw[i];
             continue;
         }
@@ -181,7 +202,7 @@ Token Lexer::scan_text(Frame& frame) {
                 (out += '\\') += next; // "textures\wood.png": a path of Windows, not an escape
         }
     }
-    return {TokenKind::text, out, at};
+    return out;
 }
 
 } // namespace restage::pbrt

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tokens of pbrt scene files, each with its place, over a stack of included files. Knows no directive.
+// Lines that start with `#restage ` are comments to pbrt and text to this lexer: what Restage keeps and pbrt has no
+// place for.
 #pragma once
 
 #include "source.hpp"
 
 #include <deque>
+#include <utility>
 
 namespace restage::pbrt {
 
@@ -20,6 +23,7 @@ struct Token {
     TokenKind kind = TokenKind::end_of_file;
     std::string_view text; // of `text`: without the quotes, escapes resolved
     Location at;
+    bool ours = false; // on a line that starts with `#restage `: a comment to pbrt
 };
 
 class Lexer {
@@ -39,6 +43,10 @@ class Lexer {
     // If the next token is a number, takes it: the fast way through long arrays. Throws on "1.2.3", NaN and overflow.
     bool number(double& value);
     Location here();
+    // Comments on lines of their own, without the '#', since they were last taken; the next token's included if it was
+    // peeked at.
+    std::vector<std::string_view> take_comments() { return std::exchange(comments_, {}); }
+    void forget_comments() { comments_.clear(); }
 
   private:
     struct Frame {
@@ -47,7 +55,9 @@ class Lexer {
         const char* end = nullptr;
         const char* line_start = nullptr;
         std::uint32_t line = 1;
+        const char* ours_from = nullptr; // behind the last `#restage `, while its line lasts
     };
+    void skip_comment(Frame& frame);
     void skip_blanks(Frame& frame);
     Location place(const Frame& frame, const char* at) const;
     Token scan();
@@ -55,6 +65,7 @@ class Lexer {
 
     Sources& sources_;
     std::vector<Frame> frames_;
+    std::vector<std::string_view> comments_;
     std::deque<std::string> unescaped_; // strings whose escapes had to be resolved
     Token peeked_;
     bool has_peeked_ = false;
@@ -62,5 +73,7 @@ class Lexer {
 
 // A number in full, as pbrt reads it ("+1", "1.", ".5", "1e-3"); throws ImportError with the remedy.
 double parse_number(std::string_view text, Location at);
+
+std::string unescape(std::string_view text); // pbrt's \\n, \\t, \\", ...; what is no escape stays as it is
 
 } // namespace restage::pbrt

@@ -27,9 +27,13 @@ Mesh make_triangle_mesh(Import& import, const Directive& shape); // trianglemesh
 Mesh make_bilinear(Import& import, const Directive& shape); // bilinearmesh
 Mesh make_loop(Import& import, const Directive& shape); // loopsubdiv, limit positions and normals
 Mesh make_heightfield(Import& import, const Directive& shape); // v3
+Mesh make_nurbs(Import& import, const Directive& shape); // v3
 
 // A PLY file: ascii, binary of either byte order, gzip, polygons of any size. Throws ImportError{at} when it is broken.
 Mesh read_ply(const std::string& path, std::string_view bytes, Location at);
+
+// v3: a parameter of a shape that its material reads first.
+bool is_material_parameter(std::string_view name);
 
 // Normals that are zero or not finite are replaced by the mean of the faces around. Returns how many.
 std::size_t repair_normals(Mesh& mesh);

@@ -107,6 +107,10 @@ class Parser {
         const auto found = rules().find(token.text);
         if (found == rules().end()) unknown(token);
         Directive out{.verb = found->second.verb, .at = token.at, .word = std::string(token.text)};
+        out.ours = token.ours;
+        out.comments = std::exchange(carried_, {});
+        for (const std::string_view comment : lexer_.take_comments())
+            out.comments.push_back(comment);
         switch (found->second.shape) {
             case Shape::bare:
                 break;
@@ -203,6 +207,7 @@ class Parser {
     Param param(const Token& declaration) {
         Param out;
         out.at = declaration.at;
+        lexer_.forget_comments(); // between parameters they say nothing of what follows
         const std::string_view blanks = " \t";
         const std::string_view all = declaration.text;
         const auto begin = all.find_first_not_of(blanks);
@@ -220,7 +225,10 @@ class Parser {
                 while (lexer_.number(value))
                     out.numbers.push_back(value);
                 const Token token = lexer_.next();
-                if (token.kind == TokenKind::close) break;
+                if (token.kind == TokenKind::close) {
+                    lexer_.forget_comments();
+                    break;
+                }
                 if (token.kind == TokenKind::end_of_file || token.kind == TokenKind::open)
                     throw ImportError{token.at, "the '[' of line " + std::to_string(opened.line) + " for " +
                                                     quote(all) +
@@ -286,6 +294,8 @@ class Parser {
         if (import) {
             scene_.directives.push_back(std::move(directive));
             imports_.push_back(lexer_.depth() + 1);
+        } else {
+            carried_ = std::move(directive.comments);
         }
         lexer_.push(sources_.add(name, std::move(*bytes)));
     }
@@ -295,10 +305,13 @@ class Parser {
     const std::function<bool()>& goes_on_;
     Lexer lexer_;
     SceneFile scene_;
+    std::vector<std::string_view> carried_; // before an Include: they are about what it holds
     std::vector<std::size_t> imports_; // depths of the frames that Import opened
 };
 
 } // namespace
+
+bool is_directive(std::string_view word) { return rules().count(word) > 0; }
 
 std::optional<SceneFile> parse(Sources& sources, const std::filesystem::path& folder,
                                const std::function<bool()>& goes_on) {
