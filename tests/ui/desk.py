@@ -93,10 +93,11 @@ class Editor:
         state["marks"] = sorted(state.get("marks", {}))[:40]
         return state
 
-    def settled(self, seconds=60):
-        """Waits until a whole picture of the newest scene is there."""
+    def settled(self, samples=4, seconds=90):
+        """Waits until a whole picture of the newest scene is there, with so many samples, and denoised."""
         return self.wait(lambda s: not s["opening"] and s["view"]["state"] in (2, 3) and s["view"]["divider"] == 1
-                         and s["view"]["samples"] >= 1 and s["view"]["current"], "a whole picture", seconds)
+                         and s["view"]["samples"] >= samples and s["view"]["current"] and not s["view"]["compiling"]
+                         and s["view"]["denoised_samples"] >= samples, "a whole picture", seconds)
 
     # --- hands ---
     def point(self, where):
@@ -156,13 +157,9 @@ class Editor:
 
     def kill(self):
         self.process.kill()
-        self.process.wait(10)
+        self.process.wait(120)  # the driver's threads of lowest priority end late on a busy machine
 
     def close(self):
         if self.process.poll() is None:
-            self.process.terminate()
-            try:
-                self.process.wait(10)
-            except subprocess.TimeoutExpired:
-                self.kill()
+            self.kill()
         self.log.close()

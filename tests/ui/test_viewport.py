@@ -71,7 +71,7 @@ def test_a_chair_is_picked_moved_copied_and_deleted_and_all_is_undone_and_redone
     editor.move(SKY)
     editor.settled()
     # The same picture again, but for noise (and for the outline that is gone).
-    assert np.percentile(difference(before, editor.picture()), 95) < 0.12
+    assert np.percentile(difference(before, editor.picture()), 90) < 0.08
     for expected in (1, 2, 3):
         editor.key("ctrl+y")
         editor.wait(lambda s: s["history"]["position"] == expected, f"redo to {expected}")
@@ -110,6 +110,7 @@ def test_orbit_pan_zoom_and_back(editor):
 
 
 def test_a_click_on_the_same_place_picks_what_is_behind(editor):
+    editor.key("q")  # no handles in the way
     editor.click(CHAIR)
     first = names(editor.wait(lambda s: s["selection"], "a selection"))
     editor.click(CHAIR)
