@@ -4,10 +4,22 @@
 #include "commands/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <string>
+#include <vector>
 
 namespace {
+
+bool has_display() {
+#if defined(__linux__)
+    return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+#else
+    return true;
+#endif
+}
 
 int run(int argc, char** argv) {
     using namespace restage::app;
@@ -34,8 +46,16 @@ int run(int argc, char** argv) {
     for (auto* add : all_commands)
         add(program, context);
 
+    // `restage SCENE` is `restage edit SCENE`, and `restage` alone opens the editor where there is a display.
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const bool is_file = !arguments.empty() && !arguments[0].starts_with("-") &&
+                         program.get_subcommands([&](CLI::App* c) { return c->get_name() == arguments[0]; }).empty() &&
+                         arguments[0].find('.') != std::string::npos;
+    if (is_file || (arguments.empty() && has_display())) arguments.insert(arguments.begin(), "edit");
+    std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
+
     try {
-        program.parse(argc, argv);
+        program.parse(arguments);
     } catch (const CLI::ParseError& error) {
         return program.exit(error) == 0 ? exit_ok : exit_usage; // --help and --version come this way too
     }

@@ -47,9 +47,8 @@ std::string Editor::probe() const {
                  {"request", frame ? frame->request : 0},
                  {"seconds", frame ? frame->seconds : 0.0},
                  {"denoised_request", clean ? clean->request : 0},
-                 {"denoised_samples", clean && frame && clean->request == frame->request && clean->divider == 1
-                                          ? clean->image.samples
-                                          : 0},
+                 {"denoised_samples",
+                  clean && frame && clean->request == frame->request && clean->divider == 1 ? clean->image.samples : 0},
                  {"denoised_seconds", clean ? clean->seconds : 0.0},
                  {"hovered", hovered.value}};
     for (const auto& [name, r] : marks_)

@@ -61,7 +61,8 @@ bool Builder::realistic_camera(const Directive& d, RestageCamera& out) {
     }
     const auto lens = reduce(rows);
     if (!lens) {
-        import_.dropped(d.at, "lens " + quote(file), "it holds no rows of radius, thickness, index and aperture that make a lens");
+        import_.dropped(d.at, "lens " + quote(file),
+                        "it holds no rows of radius, thickness, index and aperture that make a lens");
         return false;
     }
     const ParamList none;
