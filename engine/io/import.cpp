@@ -79,4 +79,15 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format};
 }
 
+Result<ImportedObjects> import_into(const scene::Scene& scene, const std::string& path,
+                                    const plugin::Registry& registry, const ImportOptions& options) {
+    RESTAGE_TRY(ImportedScene imported, import_scene(path, registry, options));
+    ImportedObjects result{scene::merge(scene, imported.scene, fs::path(path).stem().string()), {}, imported.importer};
+    if (result.merged.instances.empty()) return fail(path + ": holds no objects");
+    for (ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
+        if (entry.fate != RESTAGE_KEPT || (entry.what != "camera" && entry.what != "environment"))
+            result.report.entries.push_back(std::move(entry));
+    return result;
+}
+
 } // namespace restage::io

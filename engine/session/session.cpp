@@ -103,6 +103,14 @@ Result<Id<Material>> Session::add_material(std::string name, std::string type) {
     return id;
 }
 
+Result<Merged> Session::insert_file(const std::string& path, const io::ImportOptions& options) {
+    RESTAGE_TRY(io::ImportedObjects objects, io::import_into(scene_, path, registry_, options));
+    edit(objects.merged.edit);
+    for (io::ReportEntry& entry : objects.report.entries)
+        report_.entries.push_back(std::move(entry));
+    return std::move(objects.merged);
+}
+
 Result<io::Report> Session::export_to(const std::string& path, const io::ExportOptions& options) const {
     return io::export_scene(scene_, path, registry_, options);
 }

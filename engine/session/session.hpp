@@ -58,6 +58,9 @@ class Session {
     Result<bool> set_param(scene::Id<scene::Material>, std::string_view param, scene::Value,
                            std::string_view gesture = {});
     Result<scene::Id<scene::Material>> add_material(std::string name, std::string type);
+    // The objects of another file become new objects here, as one step of the history; what became of them is added to
+    // the report. For a UI that reads on a worker: io::import_into, then edit() with what it returns.
+    Result<scene::Merged> insert_file(const std::string& path, const io::ImportOptions& = {});
 
     // Writes a copy; the document stays what and where it is.
     Result<io::Report> export_to(const std::string& path, const io::ExportOptions& = {}) const;

@@ -164,6 +164,41 @@ TEST_CASE("broken: images are an error to the reader and a line in the report of
     CHECK(count >= 30);
 }
 
+TEST_CASE("broken: OBJ, STL and glTF models") {
+    const test::Importers importers;
+    std::size_t count = 0;
+    for (const Case& c : cases("models")) {
+        CAPTURE(c.path.filename().string());
+        const test::Watch watch;
+        const auto result = io::import_scene(c.path.string(), importers.registry);
+        ++count;
+        if (c.message.starts_with("report:")) { // the scene opens without it
+            REQUIRE(result);
+            CHECK(drops(*result, c.message.substr(7)));
+        } else {
+            REQUIRE_FALSE(result);
+            CHECK_THAT(result.error().message, ContainsSubstring(c.message));
+            CHECK_THAT(result.error().message, ContainsSubstring("broken/models/"));
+            CHECK_THAT(result.error().message, !ContainsSubstring("a bug, please report it"));
+        }
+        CHECK(watch.seconds() < most_seconds);
+        CHECK(watch.grown() < most_megabytes);
+    }
+    CHECK(count >= 70);
+}
+
+TEST_CASE("broken: PLY files opened by themselves") {
+    const test::Importers importers;
+    for (const Case& c : cases("ply")) {
+        CAPTURE(c.path.filename().string());
+        const auto result = io::import_scene(c.path.string(), importers.registry);
+        REQUIRE_FALSE(result);
+        const bool file = c.message.starts_with("report:");
+        CHECK_THAT(result.error().message, ContainsSubstring(file ? c.message.substr(7) : c.message));
+        CHECK_THAT(result.error().message, ContainsSubstring(c.path.filename().string() + ": "));
+    }
+}
+
 TEST_CASE("broken: what is no scene at all") {
     const test::Importers importers;
     const test::Folder folder;

@@ -168,3 +168,43 @@ TEST_CASE("mutations: images of every format") {
         }
     }
 }
+
+TEST_CASE("mutations: OBJ, MTL, STL and glTF models") {
+    const test::Importers importers;
+    const test::Folder folder;
+    const auto copy_good = [&] {
+        for (const auto& entry : fs::directory_iterator(data_folder / "models"))
+            test::write_bytes(folder / entry.path().filename().string(), test::read_bytes(entry.path()));
+    };
+    copy_good();
+    // victim, and the file to open
+    const std::array<std::array<const char*, 2>, 7> files = {{{"thing.obj", "thing.obj"},
+                                                              {"thing.mtl", "thing.obj"},
+                                                              {"thing.stl", "thing.stl"},
+                                                              {"binary.stl", "binary.stl"},
+                                                              {"thing.gltf", "thing.gltf"},
+                                                              {"thing.bin", "thing.gltf"},
+                                                              {"thing.glb", "thing.glb"}}};
+    std::size_t loaded = 0, refused = 0;
+    for (const auto& [victim, opened] : files) {
+        copy_good();
+        REQUIRE(io::import_scene((folder / opened).string(), importers.registry));
+        const std::string good = test::read_bytes(folder / victim);
+        for (unsigned seed = 0; seed < mutations(150); ++seed) {
+            Random random(seed);
+            test::write_bytes(folder / victim, damage(good, random));
+            CAPTURE(victim, seed);
+            const test::Watch watch;
+            const auto result = io::import_scene((folder / opened).string(), importers.registry);
+            ++(result ? loaded : refused);
+            if (!result) {
+                REQUIRE_FALSE(result.error().message.empty());
+                REQUIRE(result.error().message.find("a bug, please report it") == std::string::npos);
+            }
+            REQUIRE(watch.seconds() < limits.seconds);
+            REQUIRE(watch.grown() < limits.megabytes);
+        }
+    }
+    CHECK(loaded > 50);
+    CHECK(refused > 50);
+}

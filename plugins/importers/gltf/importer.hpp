@@ -46,6 +46,7 @@ struct VertexColor {
 };
 
 struct MadeMaterial { // a material, and what of it the scene says of an instance
+    std::string name;
     RestageHandle material = 0, alpha_texture = 0, interior = 0;
     float alpha = 1;
     bool has_interior = false, two_sided = false, normal_mapped = false;

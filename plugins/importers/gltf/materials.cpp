@@ -39,8 +39,8 @@ UvPlan Importer::uv_plan(int index) {
 void Importer::put_color(Values& values, const char* id, Rgb factor, const TextureUse& use, const MadeMaterial& made) {
     for (double& x : factor)
         x = std::clamp(x, 0.0, 1.0);
-    RestageHandle handle = use ? texture(use, Purpose::srgb, made.uv, id) : 0;
-    handle = add_scaled(out_, std::string(id) + " scaled", handle, false, factor);
+    RestageHandle handle = use ? texture(use, Purpose::srgb, made.uv, made.name) : 0;
+    handle = add_scaled(out_, made.name + " " + id, handle, false, factor);
     if (handle)
         values.texture(id, RESTAGE_COLOR, handle);
     else
@@ -52,8 +52,8 @@ void Importer::put_scalar(Values& values, const char* id, double factor, const T
     static constexpr Purpose purposes[] = {Purpose::red, Purpose::green, Purpose::blue, Purpose::alpha};
     factor = std::clamp(factor, 0.0, 1.0);
     // Times nothing is nothing: no texture is needed, nor its code.
-    RestageHandle handle = use && factor > 0 ? texture(use, purposes[channel], made.uv, id) : 0;
-    handle = add_scaled(out_, std::string(id) + " scaled", handle, true, {factor, factor, factor});
+    RestageHandle handle = use && factor > 0 ? texture(use, purposes[channel], made.uv, made.name) : 0;
+    handle = add_scaled(out_, made.name + " " + id, handle, true, {factor, factor, factor});
     if (handle)
         values.texture(id, RESTAGE_FLOAT, handle);
     else
@@ -105,6 +105,7 @@ MadeMaterial Importer::make_material(int index, const VertexColor& color) {
     tinygltf::Material m = index < 0 ? plain : model_.materials[static_cast<std::size_t>(index)];
     if (m.name.empty()) m.name = "material " + std::to_string(index);
     MadeMaterial made;
+    made.name = m.name;
     made.uv = uv_plan(index);
     made.two_sided = m.doubleSided;
     Values values;

@@ -226,7 +226,7 @@ std::vector<Importer::Piece> Importer::by_emission(MeshBuffer buffer, const Made
     if (!made.emission_texture || (!p && index < 0)) return {piece(buffer, name, made.emission)};
     if (!p) return {piece(buffer, name, {})}; // reported
     bool mirror_u = false, mirror_v = false;
-    const Mapping map = mapping(made.emission_texture, made.uv, mirror_u, mirror_v, name);
+    const Mapping map = mapping(made.emission_texture, made.uv, mirror_u, mirror_v, made.name);
     const auto sample = [&](double u, double v) {
         const double s = u * map.scale_u + map.offset_u, t = 1 - (v * map.scale_v + map.offset_v);
         const auto texel = [](double x, std::uint32_t size) {

@@ -51,8 +51,13 @@ bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*,
 // "parse error at line 3, column 5: ..." of the JSON reader.
 [[noreturn]] void fail(std::string message, bool binary) {
     std::uint32_t line = 0, column = 0;
-    if (const auto place = message.find("at line "); !binary && place != message.npos)
-        if (std::sscanf(message.c_str() + place, "at line %u, column %u", &line, &column) != 2) line = column = 0;
+    int end = 0;
+    if (const auto place = message.find("at line "); !binary && place != message.npos) {
+        if (std::sscanf(message.c_str() + place, "at line %u, column %u: %n", &line, &column, &end) == 2 && end > 0)
+            message.erase(0, place + static_cast<std::size_t>(end));
+        else
+            line = column = 0;
+    }
     while (!message.empty() && std::strchr("\n\r ", message.back()))
         message.pop_back();
     std::replace(message.begin(), message.end(), '\n', ' ');

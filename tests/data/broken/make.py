@@ -2,7 +2,9 @@
 # Writes the broken files beside it and expected.txt, which says of each what its error must contain. Nothing but the
 # Python library; the results are checked in.
 # expected.txt: path, '|', part of the message ("report:" in front: the scene opens, and a dropped thing says so). tests/fuzz/broken_test.cpp says how each folder is used.
+import base64
 import gzip
+import json
 import pathlib
 import struct
 import zlib
@@ -157,5 +159,113 @@ put("scenes/bomb.pbrt.gz", gzip.compress(b"#" * 40_000_000 + b"\n[", 9, mtime=0)
 put("scenes/spheres.pbrt", 'WorldBegin\nShape "loopsubdiv" "integer levels" 30 "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2]\n', "spheres.pbrt:2:")
 put("scenes/brackets.pbrt", "WorldBegin\n" + "[" * 5000 + "\n", "brackets.pbrt:2:")
 put("scenes/long-word.pbrt", "WorldBegin\n" + "A" * 20000 + "\n", "long-word.pbrt:2:")
+
+# --- models: OBJ, STL, glTF; opened by themselves ------------------------------------------------------------------------
+V = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+put("models/empty.obj", "", "no faces")
+put("models/no-faces.obj", V, "no faces")
+put("models/index-over.obj", V + "f 1 2 4\n", "index-over.obj:4:7:")
+put("models/index-zero.obj", V + "f 0 1 2\n", "index-zero.obj:4:3:")
+put("models/index-billion.obj", V + "f 1 2 1000000000\n", "index-billion.obj:4:7:")
+put("models/index-2e40.obj", V + "f 1 2 1099511627776\n", "index-2e40.obj:4:7:")
+put("models/index-back.obj", V + "f -1 -2 -9\n", "index-back.obj:4:9:")
+put("models/index-word.obj", V + "f 1 2 three\n", "index-word.obj:4:7:")
+put("models/nan.obj", "v 0 0 nan\n" + V + "f 1 2 3\n", "nan.obj:1:7:")
+put("models/infinite.obj", "v 0 1e999 0\n" + V + "f 1 2 3\n", "infinite.obj:1:5:")
+put("models/short-vertex.obj", "v 0 0\n" + V + "f 1 2 3\n", "short-vertex.obj:1:")
+put("models/flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no faces")
+put("models/utf16.obj", (V + "f 1 2 3\n").encode("utf-16"), "UTF-16")
+put("models/nul.obj", V.encode() + b"f 1 2\0 3\n", "is zero")
+put("models/itself.obj", "mtllib itself.obj\n" + V + "f 1 2 9\n", "itself.obj:5:7:")
+put("models/polygon.obj", V + "f" + " 1 2 3" * 3000 + " 9\n", "polygon.obj:4:")
+
+FACET = struct.pack("<12f", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0) + b"\0\0"
+put("models/empty.stl", "", "the header ends early")
+put("models/head.stl", b"\0" * 60, "the header ends early")
+put("models/cut.stl", b"\0" * 80 + struct.pack("<I", 2) + FACET + FACET[:30], "2 facets promised, 1 found")
+put("models/count-2e32.stl", b"\0" * 80 + struct.pack("<I", 0xFFFFFFFF) + FACET, "4294967295 facets promised")
+put("models/none.stl", b"\0" * 84, "no faces")
+put("models/nan.stl", b"\0" * 80 + struct.pack("<I", 1) + struct.pack("<12f", 0, 0, 1, 0, 0, 0, 1, float("nan"), 0, 0, 1, 0) + b"\0\0", "byte 108")
+put("models/word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n", "word.stl:4:12:")
+put("models/open.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex", "ends inside a facet")
+put("models/four.stl", "solid a\nfacet normal 0 0 1\nouter loop\n" + "vertex 0 0 0\n" * 4 + "endloop\nendfacet\nendsolid\n", "four.stl:7:1:")
+
+BUFFER = struct.pack("<9f3H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)
+
+
+def gltf(**change):
+    root = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}, {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+        "buffers": [{"byteLength": len(BUFFER), "uri": "data:application/octet-stream;base64," + base64.b64encode(BUFFER).decode()}],
+    }
+    for path, value in change.items():
+        *keys, last = [int(k) if k.isdigit() else k for k in path.split("__")]
+        target = root
+        for key in keys:
+            target = target[key]
+        if isinstance(target, list) and last == len(target):
+            target.append(value)
+        else:
+            target[last] = value
+    return json.dumps(root)
+
+
+def glb(text, version=2, length=None, chunk=None, kind=b"JSON"):
+    data = text.encode() + b" " * (-len(text) % 4)
+    body = struct.pack("<I", len(data) if chunk is None else chunk) + kind + data
+    return b"glTF" + struct.pack("<II", version, 12 + len(body) if length is None else length) + body
+
+
+put("models/syntax.gltf", '{\n "asset": {"version": "2.0"},\n nodes\n}', "syntax.gltf:3:3:")
+put("models/empty.gltf", "", "empty.gltf")
+put("models/array.gltf", "[1, 2, 3]", "array.gltf")
+put("models/version-1.gltf", gltf(asset={"version": "1.0"}), "glTF 1.0")
+put("models/no-scene.gltf", gltf(scenes=[]), "no scene")
+put("models/no-mesh.gltf", gltf(nodes=[{"name": "nothing"}]), "shows nothing")
+put("models/scene-9.gltf", gltf(scene=9), "scene 9")
+put("models/node-9.gltf", gltf(scenes__0__nodes=[9]), "node 9")
+put("models/node-itself.gltf", gltf(nodes__0__children=[0]), "twice")
+put("models/node-circle.gltf", gltf(nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}]), "twice")
+put("models/node-deep.gltf", gltf(nodes=[{"children": [i + 1]} for i in range(600)] + [{"mesh": 0}]), "deep")
+put("models/matrix-nan.gltf", gltf(nodes__0__matrix=[1e999] * 16).replace("Infinity", "1e999"), "")
+put("models/matrix-projective.gltf", gltf(nodes__0__matrix=[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), "not affine")
+put("models/mesh-9.gltf", gltf(nodes__0__mesh=9), "mesh 9")
+put("models/accessor-9.gltf", gltf(meshes__0__primitives__0__attributes={"POSITION": 9}), "accessor 9")
+put("models/count-over.gltf", gltf(accessors__0__count=4), "accessor 0 reads 4 elements")
+put("models/count-2e40.gltf", gltf(accessors__0__count=1 << 40), "accessor 0")
+put("models/count-negative.gltf", gltf(accessors__0__count=-3), "")
+put("models/count-no-view.gltf", gltf(accessors__0={"componentType": 5126, "count": 1 << 40, "type": "VEC3"}), "has no data")
+put("models/offset-over.gltf", gltf(accessors__0__byteOffset=1 << 33), "from byte 8589934592")
+put("models/view-9.gltf", gltf(accessors__0__bufferView=9), "buffer view 9")
+put("models/view-over.gltf", gltf(bufferViews__0__byteLength=4000), "buffer view 0 reaches to byte")
+put("models/view-offset.gltf", gltf(bufferViews__0__byteOffset=(1 << 63) - 1), "buffer view 0 reaches to byte")
+put("models/stride-small.gltf", gltf(bufferViews__0__byteStride=4), "accessor 0")
+put("models/buffer-9.gltf", gltf(bufferViews__0__buffer=9), "buffer 9")
+put("models/buffer-missing.gltf", gltf(buffers__0__uri="not-there.bin"), "not-there.bin")
+put("models/buffer-base64.gltf", gltf(buffers__0__uri="data:application/octet-stream;base64,%%%"), "")
+put("models/index-over.gltf", gltf(accessors__1__count=2, accessors__2={"bufferView": 1, "componentType": 5121, "count": 6, "type": "SCALAR"}, meshes__0__primitives__0__indices=0), "accessor 0")
+put("models/vertex-over.gltf", gltf(accessors__0__count=2), "vertex 2 of 2")
+put("models/type-wrong.gltf", gltf(accessors__0__type="MAT4"), "accessor 0 has the wrong type")
+put("models/component-unknown.gltf", gltf(accessors__0__componentType=5130), "")
+put("models/sparse-over.gltf", gltf(accessors__0__sparse={"count": 1, "indices": {"bufferView": 1, "componentType": 5123, "byteOffset": 4}, "values": {"bufferView": 9}}), "buffer view 9")
+put("models/sparse-index.gltf", gltf(accessors__0__count=2, accessors__0__sparse={"count": 1, "indices": {"bufferView": 1, "componentType": 5123, "byteOffset": 4}, "values": {"bufferView": 0}}), "a sparse index is beyond")
+put("models/skin-joint.gltf", gltf(nodes__0__skin=0, skins=[{"joints": [77]}], meshes__0__primitives__0__attributes={"POSITION": 0, "JOINTS_0": 9, "WEIGHTS_0": 9}), "accessor 9")
+put("models/texture-9.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 9}}}]), "texture 9")
+put("models/material-9.gltf", gltf(meshes__0__primitives__0__material=9), "material 9")
+put("models/image-view.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"bufferView": 1, "mimeType": "image/png"}]), "report:no picture")
+put("models/image-huge.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"uri": "data:image/png;base64," + base64.b64encode(png(16000, 16000, chunk(b"IDAT", b"\x78\x9c"))).decode()}]), "report:cannot be in")
+put("models/draco.gltf", gltf(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression")
+put("models/light-9.gltf", gltf(nodes__0__extensions={"KHR_lights_punctual": {"light": 9}}), "light 9")
+put("models/camera-9.gltf", gltf(nodes__0__camera=9), "camera 9")
+put("models/short.glb", b"glTF\2\0\0\0", "header ends early")
+put("models/version-1.glb", glb("{}", version=1), "GLB version 1")
+put("models/length.glb", glb(gltf(), length=99999), "byte 8")
+put("models/chunk.glb", glb(gltf(), chunk=0xFFFFFF00), "byte 12")
+put("models/kind.glb", glb(gltf(), kind=b"LATN"), "kind.glb")
+put("models/text.glb", glb("{}"), "text.glb")
+put("models/no-magic.glb", b"GLTF" + b"\0" * 60, "no-magic.glb")
 
 (here / "expected.txt").write_text("".join(expected))

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/merge.hpp"
+
+#include "scene/edits.hpp"
+#include "scene/tables.hpp"
+#include "scene/uses.hpp"
+
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+namespace restage::scene {
+
+namespace {
+
+const Camera* active_camera(const Scene& scene) { return scene.cameras.find(scene.active_camera.value); }
+
+// The axis nearest to the camera's up, with its sign.
+glm::dvec3 up_axis(const Camera& camera) {
+    const glm::dvec3 up = glm::dvec3(camera.camera_to_world[1]), size = glm::abs(up);
+    const int axis = size.y >= size.x && size.y >= size.z ? 1 : size.z >= size.x ? 2 : 0;
+    glm::dvec3 result(0);
+    result[axis] = up[axis] < 0 ? -1 : 1;
+    return result;
+}
+
+// The quarter (or half) turn that takes one axis to another.
+glm::dmat3 turn(glm::dvec3 from, glm::dvec3 to) {
+    const glm::dvec3 axis = glm::cross(from, to);
+    if (glm::dot(axis, axis) > 0) { // columns: what becomes of x, y, z; v = (v.from) from + (v.axis) axis + rest
+        const glm::dvec3 other = glm::cross(axis, from); // to, in fact
+        const auto turned = [&](glm::dvec3 v) {
+            return glm::dot(v, from) * to + glm::dot(v, axis) * axis - glm::dot(v, other) * from;
+        };
+        return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
+    }
+    if (glm::dot(from, to) > 0) return glm::dmat3(1);
+    const glm::dvec3 around = from.x != 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0); // upside down
+    return glm::dmat3(2.0 * glm::outerProduct(around, around)) - glm::dmat3(1);
+}
+
+// New ids for the live things of one table, in order, after those that are there.
+template <class T>
+class Ids {
+  public:
+    Ids(const Table<T>& into, const Table<T>& from) {
+        std::uint32_t next = into.next().value;
+        from.each([&](Id<T> id, const T&) { map_[id.value] = {next++}; });
+    }
+    Id<T> operator()(Id<T> old) const {
+        const auto it = map_.find(old.value);
+        return it == map_.end() ? Id<T>{} : it->second;
+    }
+
+  private:
+    std::unordered_map<std::uint32_t, Id<T>> map_;
+};
+
+template <class T>
+std::set<std::string> names_of(const Table<T>& slots) {
+    std::set<std::string> names;
+    slots.each([&](auto, const T& item) { names.insert(item.name); });
+    return names;
+}
+
+} // namespace
+
+std::string free_name(const std::string& name, std::set<std::string>& taken) {
+    std::string result = name;
+    for (unsigned number = 2; !taken.insert(result).second; ++number)
+        result = name + " " + std::to_string(number);
+    return result;
+}
+
+glm::dmat4 frame_change(const Scene& into, const Scene& from) {
+    const Camera *there = active_camera(into), *here = active_camera(from);
+    if (!there || !here) return glm::dmat4(1);
+    const glm::dvec3 up = up_axis(*there);
+    glm::dmat3 change = turn(up_axis(*here), up);
+    const auto mirrored = [](const Camera& c) { return glm::determinant(glm::dmat3(c.camera_to_world)) < 0; };
+    if (mirrored(*there) != mirrored(*here)) { // along the axis that is not up and comes last: z where y is up
+        const int axis = up.z != 0 ? 1 : 2;
+        for (int column = 0; column < 3; ++column)
+            change[column][axis] = -change[column][axis];
+    }
+    return glm::dmat4(change);
+}
+
+Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
+    // What only the environment, the camera or nothing used stays behind.
+    Scene from = whole;
+    from.environment.value.reset();
+    from.settings.value.camera_medium = {};
+    apply(from, remove_unused(from));
+
+    Merged result;
+    result.edit.label = "Insert " + name;
+    const Ids<Mesh> meshes(into.meshes, from.meshes);
+    const Ids<Image> images(into.images, from.images);
+    const Ids<Texture> textures(into.textures, from.textures);
+    const Ids<Material> materials(into.materials, from.materials);
+    const Ids<Medium> media(into.media, from.media);
+    const Ids<Instance> instances(into.instances, from.instances);
+    const Ids<Light> lights(into.lights, from.lights);
+    const glm::dmat4 frame = frame_change(into, from);
+
+    // A group around them all comes first, so its own come after it.
+    const bool several = from.instances.live() + from.lights.live() > 1;
+    std::uint32_t next_group = into.groups.next().value;
+    if (several) result.group = {next_group++};
+    std::unordered_map<std::uint32_t, Id<Group>> groups;
+    from.groups.each([&](Id<Group> id, const Group&) { groups[id.value] = {next_group++}; });
+    const auto group = [&](Id<Group> old) { return old ? groups.at(old.value) : result.group; };
+
+    const auto add = [&]<class T>(const Table<T>& table_into, const Table<T>& table_from, const auto& id_of,
+                                  auto&& adapt) {
+        std::set<std::string> taken = names_of(table_into);
+        table_from.each([&](Id<T> id, const T& item) {
+            T copy = item;
+            copy.name = free_name(copy.name, taken);
+            adapt(copy);
+            result.edit.changes.push_back(Change<T>{id_of(id), std::nullopt, std::move(copy)});
+        });
+    };
+    const auto adapt_params = [&](ParamSet& params) {
+        ParamSet changed;
+        for (const auto& entry : params.entries()) {
+            Value value = entry.value;
+            value.texture = textures(value.texture);
+            value.material = materials(value.material);
+            changed.set(entry.id, std::move(value));
+        }
+        params = std::move(changed);
+    };
+    add(into.meshes, from.meshes, meshes, [](Mesh&) {});
+    add(into.images, from.images, images, [](Image&) {});
+    add(into.textures, from.textures, textures, [&](Texture& t) {
+        t.image = images(t.image);
+        adapt_params(t.params);
+    });
+    add(into.materials, from.materials, materials, [&](Material& m) { adapt_params(m.params); });
+    add(into.media, from.media, media, [](Medium&) {});
+    if (several) {
+        std::set<std::string> taken = names_of(into.groups);
+        result.edit.changes.push_back(Change<Group>{result.group, std::nullopt,
+                                                    Group{.name = free_name(name, taken), .parent = {}, .origin = {}}});
+    }
+    add(
+        into.groups, from.groups, [&](Id<Group> id) { return groups.at(id.value); },
+        [&](Group& g) { g.parent = group(g.parent); });
+    add(into.instances, from.instances, instances, [&](Instance& i) {
+        i.mesh = meshes(i.mesh);
+        i.material = materials(i.material);
+        i.group = group(i.group);
+        i.alpha_texture = textures(i.alpha_texture);
+        if (i.media) i.media = MediumInterface{media(i.media->interior), media(i.media->exterior)};
+        i.object_to_world = frame * i.object_to_world;
+    });
+    add(into.lights, from.lights, lights, [&](Light& l) { l.light_to_world = frame * l.light_to_world; });
+    from.instances.each([&](Id<Instance> id, const Instance&) { result.instances.push_back(instances(id)); });
+    return result;
+}
+
+} // namespace restage::scene

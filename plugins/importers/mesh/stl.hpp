@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// STL: triangles and nothing else. Binary: 80 bytes, a count, 50 bytes a facet. Ascii: solid, facet normal, outer loop,
+// vertex.
+#pragma once
+
+#include "common/mesh.hpp"
+
+#include <string_view>
+
+namespace restage::mesh {
+
+// By the size that its count of facets asks for; text files of that very size do not occur.
+bool is_binary_stl(std::string_view bytes);
+bool is_ascii_stl(std::string_view bytes); // a head will do
+
+// Vertices at the same place are one. Throws ImportError when it is broken.
+importing::MeshBuffer read_stl(std::string_view bytes);
+
+} // namespace restage::mesh
