@@ -11,15 +11,19 @@ uint launch_pixel(FrameData frame) { // of the crop window, row by row
     return (push.y + gl_LaunchIDEXT.y) * frame.crop_width + push.x + gl_LaunchIDEXT.x;
 }
 
+// Cull masks: what light meets, and the borders of media, which it passes. An instance with gaps may be both.
+const uint MASK_SURFACES = 1u;
+const uint MASK_BORDERS = 2u;
+
 // Of traceRayEXT, location 0. 20 bytes.
 struct HitPayload {
     float t; // in: >= 0; out: the hit's distance, or < 0 when the ray left the scene
-    uint instance;
+    uint instance; // in: the mask, for any-hit; out: InstanceData index
     uint prim;
     vec2 bary;
 };
 
-// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 144 bytes.
+// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 148 bytes.
 struct StepPayload {
     PathState path;    // in, out
     uint instance;     // in
@@ -33,6 +37,7 @@ struct StepPayload {
     vec3 shadow_direction;
     float shadow_tmax; // out: > 0 when there is a shadow ray
     vec3 shadow_contribution; // to the path's radiance, if the light is seen
+    uint shadow_medium;
 };
 
 // What the shading of a hit takes as uv: the mesh's, or barycentrics where it has none.
@@ -41,6 +46,20 @@ vec2 hit_uv(InstanceData inst, uint prim, vec2 bary) {
     uvec3 tri = Uvec3Array(inst.indices).at[prim];
     Vec2Array uvs = Vec2Array(inst.uvs);
     return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
+}
+
+// The geometric normal by the rule of path/surface.glsl, not unit.
+vec3 outward_normal(InstanceData inst, uint prim, vec2 bary) {
+    uvec3 tri = Uvec3Array(inst.indices).at[prim];
+    Vec3Array positions = Vec3Array(inst.positions);
+    vec3 p0 = positions.at[tri.x];
+    vec3 n = inst.normal_to_world * cross(positions.at[tri.y] - p0, positions.at[tri.z] - p0);
+    if ((inst.flags & INSTANCE_HAS_NORMALS) != 0u) {
+        Vec3Array normals = Vec3Array(inst.normals);
+        vec3 s = (1.0 - bary.x - bary.y) * normals.at[tri.x] + bary.x * normals.at[tri.y] + bary.y * normals.at[tri.z];
+        if (dot(inst.normal_to_world * s, n) < 0.0) n = -n;
+    }
+    return (inst.flags & INSTANCE_FLIP_NORMAL) != 0u ? -n : n;
 }
 
 #endif

@@ -37,4 +37,5 @@ void main() {
     io.shadow_direction = shadow.direction;
     io.shadow_tmax = shadow.tmax;
     io.shadow_contribution = contribution;
+    if (HAS_BORDERS) io.shadow_medium = shadow.medium;
 }

@@ -39,6 +39,7 @@ void main() {
         shadows.at[i].origin = shadow.origin;
         shadows.at[i].direction = shadow.direction;
         shadows.at[i].contribution = contribution;
+        if (HAS_BORDERS) shadows.at[i].medium = shadow.medium;
     }
     RayArray rays = RayArray(push.rays);
     rays.at[i].tfar = next.tmax;

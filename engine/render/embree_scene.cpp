@@ -7,6 +7,9 @@
 #include <embree4/rtcore.h>
 #endif
 #include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace restage::render {
 
@@ -38,20 +41,30 @@ using Context = RTCRayQueryContext;
 void init_context(Context& c) { rtcInitRayQueryContext(&c); }
 #endif
 
-// Cut-outs: called for candidate hits of meshes that some instance cuts out.
-void alpha_filter(const RTCFilterFunctionNArguments* args) {
+struct QueryContext {
+    Context embree; // first: Embree knows this part
+    bool borders;   // asks for borders of media, not for surfaces
+};
+
+// Cut-outs, and mixes with a share of no surface: called for candidate hits of meshes that some instance uses so.
+void hit_filter(const RTCFilterFunctionNArguments* args) {
     const auto* scene = *static_cast<const GpuScene* const*>(args->geometryUserPtr);
+    const bool borders = reinterpret_cast<const QueryContext*>(args->context)->borders;
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         const unsigned n = args->N;
-        const unsigned instance = args->context->instID[0];
-        if (!(scene->instances()[instance].flags & INSTANCE_HAS_ALPHA)) continue;
-        const float o[3] = {RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
-                            RTCRayN_org_z(args->ray, n, i)};
-        const float d[3] = {RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
-                            RTCRayN_dir_z(args->ray, n, i)};
-        if (!scene->alpha_passes(instance, RTCHitN_primID(args->hit, n, i),
-                                 {RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i)}, o, d))
+        const unsigned instance = args->context->instID[0], prim = RTCHitN_primID(args->hit, n, i);
+        const glm::vec2 bary(RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i));
+        const auto flags = scene->instances()[instance].flags;
+        if (flags & INSTANCE_HAS_ALPHA) {
+            const float o[3] = {RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
+                                RTCRayN_org_z(args->ray, n, i)};
+            const float d[3] = {RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                                RTCRayN_dir_z(args->ray, n, i)};
+            if (!scene->alpha_passes(instance, prim, bary, o, d)) args->valid[i] = 0;
+        }
+        if ((flags & INSTANCE_HAS_GAPS) &&
+            (scene->resolve_material(instance, prim, bary) == MATERIAL_NOTHING) != borders)
             args->valid[i] = 0;
     }
 }
@@ -63,14 +76,17 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads) {
     self->device_ = rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str());
     if (!self->device_)
         return fail(fmt::format("Embree could not be started (error {})", int(rtcGetDeviceError(nullptr))));
-    self->top_ = rtcNewScene(self->device_);
-    rtcSetSceneFlags(self->top_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
-    rtcCommitScene(self->top_);
+    for (Instances* instances : {&self->surfaces_, &self->borders_}) {
+        instances->scene = rtcNewScene(self->device_);
+        rtcSetSceneFlags(instances->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+        rtcCommitScene(instances->scene);
+    }
     return self;
 }
 
 EmbreeScene::~EmbreeScene() {
-    if (top_) rtcReleaseScene(top_);
+    for (Instances* instances : {&surfaces_, &borders_})
+        if (instances->scene) rtcReleaseScene(instances->scene);
     meshes_.clear();
     if (device_) rtcReleaseDevice(device_);
 }
@@ -102,69 +118,105 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
                 fmt::format("Embree could not build a mesh of {} triangles (error {})", g->triangle_count, int(error)));
         meshes_[id.value] = std::move(mesh);
     }
-    const bool shrunk = attached_.size() > scene.instances().size();
-    for (std::size_t i = scene.instances().size(); i < attached_.size(); ++i) // of a scene that was forgotten
-        if (attached_[i]) rtcDetachGeometry(top_, unsigned(i));
-    attached_.resize(scene.instances().size(), 0);
+    update(surfaces_, scene, changes, &GpuScene::traced);
+    update(borders_, scene, changes, &GpuScene::border);
+    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+        return fail(fmt::format("Embree could not build the scene (error {})", int(error)));
+    return {};
+}
+
+void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChanges& changes,
+                         bool (GpuScene::*is_wanted)(std::uint32_t) const) {
+    bool changed = false;
+    for (std::size_t i = scene.instances().size(); i < top.attached.size(); ++i) // of a scene that was forgotten
+        if (top.attached[i]) {
+            rtcDetachGeometry(top.scene, unsigned(i));
+            changed = true;
+        }
+    top.attached.resize(scene.instances().size(), 0);
     for (auto id : changes.instances) {
         const auto i = id.value;
-        const std::uint32_t wanted = scene.traced(i) ? scene.mesh_of(i).value : 0;
+        const std::uint32_t wanted = (scene.*is_wanted)(i) ? scene.mesh_of(i).value : 0;
+        changed |= wanted || top.attached[i];
         const bool same_mesh =
-            wanted && attached_[i] == wanted &&
+            wanted && top.attached[i] == wanted &&
             std::find(changes.meshes.begin(), changes.meshes.end(), scene.mesh_of(i)) == changes.meshes.end();
         RTCGeometry geometry = nullptr;
         if (same_mesh) {
-            geometry = rtcGetGeometry(top_, i);
+            geometry = rtcGetGeometry(top.scene, i);
         } else {
-            if (attached_[i]) rtcDetachGeometry(top_, i);
-            attached_[i] = wanted;
+            if (top.attached[i]) rtcDetachGeometry(top.scene, i);
+            top.attached[i] = wanted;
             if (!wanted) continue;
             geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
             rtcSetGeometryInstancedScene(geometry, meshes_.at(wanted)->scene);
-            rtcAttachGeometryByID(top_, geometry, i);
+            rtcAttachGeometryByID(top.scene, geometry, i);
             rtcReleaseGeometry(geometry);
         }
         const shared::InstanceData& data = scene.instances()[i];
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &data.object_to_world);
         rtcCommitGeometry(geometry);
         Mesh& mesh = *meshes_.at(wanted);
-        if ((data.flags & INSTANCE_HAS_ALPHA) && !mesh.filtered) {
+        if ((data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS)) && !mesh.filtered) {
             mesh.filtered = true;
-            rtcSetGeometryIntersectFilterFunction(mesh.geometry, alpha_filter);
-            rtcSetGeometryOccludedFilterFunction(mesh.geometry, alpha_filter);
+            rtcSetGeometryIntersectFilterFunction(mesh.geometry, hit_filter);
+            rtcSetGeometryOccludedFilterFunction(mesh.geometry, hit_filter);
             rtcCommitGeometry(mesh.geometry);
             rtcCommitScene(mesh.scene);
         }
     }
-    if (shrunk || !changes.instances.empty() || !changes.meshes.empty()) rtcCommitScene(top_);
-    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-        return fail(fmt::format("Embree could not build the scene (error {})", int(error)));
-    return {};
+    if (changed) rtcCommitScene(top.scene);
 }
 
-void EmbreeScene::intersect(shared::RayHit& ray) const {
-    Context context;
-    init_context(context);
+void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray) const {
+    QueryContext context;
+    init_context(context.embree);
+    context.borders = &top == &borders_;
 #if RESTAGE_EMBREE_MAJOR == 3
-    rtcIntersect1(top_, &context, reinterpret_cast<RTCRayHit*>(&ray));
+    rtcIntersect1(top.scene, &context.embree, reinterpret_cast<RTCRayHit*>(&ray));
 #else
     RTCIntersectArguments args;
     rtcInitIntersectArguments(&args);
-    args.context = &context;
-    rtcIntersect1(top_, reinterpret_cast<RTCRayHit*>(&ray), &args);
+    args.context = &context.embree;
+    rtcIntersect1(top.scene, reinterpret_cast<RTCRayHit*>(&ray), &args);
 #endif
 }
 
+void EmbreeScene::intersect(shared::RayHit& ray) const { intersect(surfaces_, ray); }
+
+EmbreeScene::Passed EmbreeScene::pass_borders(const glm::vec3& origin, const glm::vec3& direction, float t_end,
+                                              std::uint32_t medium) const {
+    glm::vec3 depth(0); // optical
+    float t = 0;
+    std::uint32_t step = 4; // in units of the last place: past the border just met
+    alignas(16) shared::RayHit ray{};
+    ray.origin = origin;
+    ray.direction = direction;
+    ray.mask = ~0u;
+    for (;;) {
+        ray.tfar = t_end;
+        ray.geom = ray.inst = NONE;
+        intersect(borders_, ray);
+        depth += scene_->absorption(medium) * (ray.tfar - t);
+        if (ray.inst == NONE) return {glm::exp(-depth), medium};
+        medium = scene_->medium_behind(ray.inst, ray.prim, {ray.u, ray.v}, direction);
+        step = ray.tfar > t ? 4 : 2 * step; // rounding may find the same border again
+        t = std::max(t, ray.tfar);
+        ray.tnear = std::bit_cast<float>(std::bit_cast<std::uint32_t>(t) + step);
+    }
+}
+
 void EmbreeScene::occluded(shared::ShadowRay& shadow) const {
-    Context context;
-    init_context(context);
+    QueryContext context;
+    init_context(context.embree);
+    context.borders = false;
 #if RESTAGE_EMBREE_MAJOR == 3
-    rtcOccluded1(top_, &context, reinterpret_cast<RTCRay*>(&shadow));
+    rtcOccluded1(surfaces_.scene, &context.embree, reinterpret_cast<RTCRay*>(&shadow));
 #else
     RTCOccludedArguments args;
     rtcInitOccludedArguments(&args);
-    args.context = &context;
-    rtcOccluded1(top_, reinterpret_cast<RTCRay*>(&shadow), &args);
+    args.context = &context.embree;
+    rtcOccluded1(surfaces_.scene, reinterpret_cast<RTCRay*>(&shadow), &args);
 #endif
 }
 

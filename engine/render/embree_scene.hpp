@@ -27,14 +27,27 @@ class EmbreeScene {
     void intersect(shared::RayHit& ray) const;
     void occluded(shared::ShadowRay& shadow) const;
 
+    // What is left of light on its way from `origin` over `t_end`, and the medium there: Beer-Lambert between the
+    // borders of media that the ray passes, nearest first; what a border says behind it holds (pbrt 4ed, 11.4).
+    struct Passed {
+        glm::vec3 transmittance;
+        std::uint32_t medium;
+    };
+    Passed pass_borders(const glm::vec3& origin, const glm::vec3& direction, float t_end, std::uint32_t medium) const;
+
   private:
     struct Mesh;
+    struct Instances { // a scene over instances of the meshes
+        RTCSceneTy* scene = nullptr;
+        std::vector<std::uint32_t> attached; // by instance: its mesh, 0 = not attached
+    };
     EmbreeScene() = default;
+    void update(Instances&, const GpuScene&, const SceneChanges&, bool (GpuScene::*wanted)(std::uint32_t) const);
+    void intersect(const Instances&, shared::RayHit&) const;
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
-    RTCSceneTy* top_ = nullptr;
+    Instances surfaces_, borders_; // what light meets; borders of media, which it passes
     std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value
-    std::vector<std::uint32_t> attached_; // by instance: its mesh, 0 = not attached
 };
 
 } // namespace restage::render

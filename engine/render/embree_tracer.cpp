@@ -185,7 +185,7 @@ class EmbreeTracer final : public Tracer {
         auto paths = paths_.span<shared::PathState>();
         auto queue = queue_.span<std::uint32_t>();
         const std::size_t n = active_.size(), chunks = (n + chunk - 1) / chunk;
-        const bool environment = scene.features().environment;
+        const bool environment = scene.features().environment, borders = scene.features().borders;
         counts_.assign(chunks, {});
         std::atomic<std::uint64_t> rays_traced = 0, shadows_traced = 0;
         c_.jobs.parallel_for(chunks, 1, [&](std::size_t begin, std::size_t end, unsigned) {
@@ -196,7 +196,14 @@ class EmbreeTracer final : public Tracer {
                     if (shadows[i].tfar > 0) {
                         ++any;
                         embree_->occluded(shadows[i]);
-                        if (shadows[i].tfar > 0) paths[i].radiance += shadows[i].contribution;
+                        if (shadows[i].tfar > 0) {
+                            glm::vec3 c = shadows[i].contribution;
+                            if (borders) {
+                                const auto& s = shadows[i];
+                                c *= embree_->pass_borders(s.origin, s.direction, s.tfar, s.medium).transmittance;
+                            }
+                            paths[i].radiance += c;
+                        }
                         shadows[i].tfar = -1;
                     }
                     std::uint8_t type = type_none;
@@ -204,14 +211,19 @@ class EmbreeTracer final : public Tracer {
                         ++closest;
                         ray.geom = ray.inst = NONE;
                         embree_->intersect(ray);
+                        if (borders) {
+                            const auto passed =
+                                embree_->pass_borders(ray.origin, ray.direction, ray.tfar, paths[i].medium);
+                            paths[i].throughput *= passed.transmittance;
+                            paths[i].medium = passed.medium;
+                        }
                         if (ray.inst == NONE) {
                             type = environment ? type_escape : type_none;
                         } else if (last_vertex && ends_unlit(scene, paths[i], ray.inst)) {
                             type = type_none;
                         } else {
-                            // varies over the surface and does not depend on the tracer
-                            const glm::vec3 p(ray.u, ray.v, float(ray.prim));
-                            ray.geom = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v}, p);
+                            ray.geom = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
+                            if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter let it stand: cannot be
                             type = std::uint8_t(scene.materials()[ray.geom].type);
                         }
                     }

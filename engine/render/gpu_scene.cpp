@@ -213,8 +213,7 @@ bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary
     return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2]}) < alpha; // pbrt 4ed, 7.1.1
 }
 
-std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary,
-                                         const glm::vec3& p) const {
+std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary) const {
     const auto& instance = instances_[id];
     std::uint32_t m = instance.material;
     for (int depth = 0; depth < 8 && types_[materials_[m].type].mix(); ++depth) {
@@ -223,10 +222,27 @@ std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, g
             amount = evaluate_texture(textures_, cpu_images_, mix_texture_[m],
                                       uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary))
                          .x;
-        const bool second = hash_unit({p.x, p.y, p.z, float(depth)}) < amount;
+        // varies over the surface and does not depend on the tracer
+        const bool second = hash_unit({bary.x, bary.y, float(prim), float(depth)}) < amount;
         m = second ? materials_[m].mix_second : materials_[m].mix_first;
+        if (m == MATERIAL_NOTHING) return m;
     }
     return types_[materials_[m].type].mix() ? 0 : m; // deeper than 8: the placeholder
+}
+
+std::uint32_t GpuScene::medium_behind(std::uint32_t id, std::uint32_t prim, glm::vec2 b,
+                                      const glm::vec3& direction) const {
+    const auto& instance = instances_[id];
+    const auto& mesh = *mesh_data_[mesh_of_[id].value];
+    const auto t = mesh.triangles[prim];
+    const glm::vec3 p0 = mesh.positions[t.x];
+    glm::vec3 n = instance.normal_to_world * glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
+    if (!mesh.normals.empty()) { // the rule of shaders/path/surface.glsl
+        const glm::vec3 s = (1 - b.x - b.y) * mesh.normals[t.x] + b.x * mesh.normals[t.y] + b.y * mesh.normals[t.z];
+        if (glm::dot(instance.normal_to_world * s, n) < 0) n = -n;
+    }
+    if (instance.flags & INSTANCE_FLIP_NORMAL) n = -n;
+    return glm::dot(direction, n) > 0 ? instance.exterior : instance.interior;
 }
 
 std::size_t GpuScene::bytes() const {

@@ -55,14 +55,19 @@ class GpuScene {
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
     // Is this instance something rays can hit?
     bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
+    // Is it, or part of it, a border of media that rays pass?
+    bool border(std::uint32_t instance) const { return border_[instance] != 0; }
     scene::Id<scene::Mesh> mesh_of(std::uint32_t instance) const { return mesh_of_[instance]; }
 
     // What the CPU resolves at a hit (thread-safe).
     bool alpha_passes(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const float* org,
                       const float* dir) const;
-    // The material of a hit, through mixes. p: anything that varies over the surface.
-    std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary,
-                                   const glm::vec3& p) const;
+    // The material of a hit, through mixes; MATERIAL_NOTHING where there is no surface.
+    std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary) const;
+    // The medium that a ray enters as it passes a border.
+    std::uint32_t medium_behind(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary,
+                                const glm::vec3& direction) const;
+    const glm::vec3& absorption(std::uint32_t medium) const { return media_[medium].sigma_a; }
 
     std::size_t bytes() const; // of device memory
     std::size_t uploaded_bytes() const;
@@ -99,7 +104,8 @@ class GpuScene {
     std::vector<MaterialType> types_;
     std::vector<float> mix_amount_; // constants by MaterialData index
     std::vector<std::uint32_t> mix_texture_;
-    std::vector<char> traced_;
+    std::vector<char> has_gaps_; // by MaterialData index: a mix with a share of no surface
+    std::vector<char> traced_, border_;
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
     EnvironmentMap environment_;
 

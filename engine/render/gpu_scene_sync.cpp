@@ -3,6 +3,7 @@
 #include "render/filter_table.hpp"
 #include "render/gpu_scene.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -77,8 +78,8 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             const auto child = [&](const char* param) {
                 const auto* v = m.params.find(param);
                 const auto* m2 = v ? scene.materials.find(v->material) : nullptr;
-                // No surface to let rays pass at part of a surface: a mix of an interface shows the placeholder there.
-                return m2 && !types_[type_index(m2->type)].null_surface() ? v->material.value : 0u;
+                if (m2 && types_[type_index(m2->type)].null_surface()) return MATERIAL_NOTHING;
+                return m2 ? v->material.value : 0u;
             };
             record.mix_first = child("first");
             record.mix_second = child("second");
@@ -103,6 +104,12 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             if ((table.params[i].flags & RESTAGE_PARAM_TEXTURABLE) && m.params.texture(table.params[i].id))
                 type.textured |= std::uint64_t(1) << i;
     });
+    has_gaps_.assign(records.size(), 0);
+    for (int depth = 0; depth < 8; ++depth) // as deep as mixes are resolved
+        for (std::size_t i = 0; i < records.size(); ++i)
+            if (records[i].flags & MATERIAL_MIX)
+                for (const auto child : {records[i].mix_first, records[i].mix_second})
+                    if (child == MATERIAL_NOTHING || has_gaps_[child]) has_gaps_[i] = 1;
     changes.shaders |= old_types.size() != types_.size();
     for (std::size_t i = 0; i < old_types.size() && !changes.shaders; ++i)
         changes.shaders = old_types[i].textured != types_[i].textured || old_types[i].bump != types_[i].bump ||
@@ -120,6 +127,8 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     out.object_to_world = glm::mat4x3(m);
     out.normal_to_world = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(in.object_to_world))));
     out.material = scene.materials.find(in.material) ? in.material.value : 0;
+    if (out.material && types_[materials_[out.material].type].null_surface()) out.material = 0;
+    if (has_gaps_[out.material]) out.flags |= INSTANCE_HAS_GAPS;
     out.light_base = NONE;
     out.object_id = id;
     out.alpha_texture = scene.textures.find(in.alpha_texture) ? in.alpha_texture.value : 0;
@@ -151,6 +160,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
     if (instances_.size() != n) {
         instances_.resize(n, {});
         traced_.resize(n, 0);
+        border_.resize(n, 0);
         mesh_of_.resize(n);
     }
     std::vector<char> replaced(scene.meshes.size() + 1);
@@ -160,17 +170,22 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         const Id<scene::Instance> id{i};
         const auto* in = scene.instances.find(id);
         const auto* material = in ? scene.materials.find(in->material) : nullptr;
-        // `interface`: rays pass through, unless it shines
-        const bool nothing = material && types_[materials_[in->material.value].type].null_surface();
-        const bool traced = in && !in->hidden && mesh(in->mesh) && (!nothing || in->emission);
+        // `interface`: rays pass, unless it shines; what it may be is a border of media
+        const std::uint32_t m = material ? in->material.value : 0;
+        const bool nothing = types_[materials_[m].type].null_surface(), gaps = has_gaps_[m] != 0;
+        const bool there = in && !in->hidden && mesh(in->mesh);
+        const bool traced = there && (!nothing || in->emission);
+        const bool border = there && (gaps || !traced) && in->media && in->media->interior != in->media->exterior;
         const bool changed = i >= old || scene.instances.version(id) > seen_.instances || traced != (traced_[i] != 0) ||
+                             border != (border_[i] != 0) || instances_[i].material != (nothing ? 0 : m) ||
+                             gaps != ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0) ||
                              (in && replaced[in->mesh.value]);
         if (!changed) continue;
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
-        if (nothing) record.material = 0;
         instances_.set(i, record);
         traced_[i] = traced;
+        border_[i] = border;
         mesh_of_[i] = in ? in->mesh : Id<scene::Mesh>{};
         changes.instances.push_back(id);
     }
@@ -306,6 +321,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     f.lens = d.camera.lens_radius > 0;
     f.media = scene.media.live() > 0;
     f.filter_table = d.filter_.kind == FILTER_TABLE;
+    f.borders = std::ranges::find(border_, 1) != border_.end();
     changes.shaders |= f != features_ || first_;
     features_ = f;
     return {};

@@ -24,6 +24,7 @@ constexpr double submit_seconds = 0.02; // aimed at; the window stays alive
 constexpr std::uint32_t least_side = 8; // of a rectangle, in pixels: coherent rays
 
 constexpr std::uint32_t group_opaque = 0, group_cut_out = 1;
+constexpr unsigned mask_surfaces = 1, mask_borders = 2; // of shaders/trace_common.glsl
 
 // Callables of a pipeline for so many types: room for more that come to the scene while it still renders.
 std::size_t callable_slots(std::size_t types) { return (types / 32 + 1) * 32; }
@@ -132,14 +133,15 @@ class VulkanTracer final : public Tracer {
 
     gpu::TlasInstance tlas_instance(const GpuScene& scene, std::uint32_t i) const {
         gpu::TlasInstance out;
-        if (!scene.traced(i)) return out; // nothing is there
+        if (!scene.traced(i) && !scene.border(i)) return out; // nothing is there
         const shared::InstanceData& data = scene.instances()[i];
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column)
                 out.transform[std::size_t(row * 4 + column)] = data.object_to_world[column][row];
         out.blas = blas_.at(scene.mesh_of(i).value).address();
         out.custom_index = i;
-        const bool cut_out = data.flags & INSTANCE_HAS_ALPHA;
+        out.mask = std::uint8_t((scene.traced(i) ? mask_surfaces : 0) | (scene.border(i) ? mask_borders : 0));
+        const bool cut_out = data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS);
         out.hit_group = cut_out ? group_cut_out : group_opaque;
         out.force_any_hit = cut_out;
         return out;
@@ -183,7 +185,7 @@ class VulkanTracer final : public Tracer {
                 r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));
             } else if (plain || c_.stand_ins) {
                 add_stand_in();
-            } else { // never called (mixes are resolved before, interfaces are not hit), but keeps its index
+            } else { // never called (mixes are resolved before, interfaces are passed), but keeps its index
                 r.callables.push_back(r.callables.at(placeholder));
                 r.callable_constants.push_back(r.callable_constants.at(placeholder));
             }

@@ -34,5 +34,6 @@ layout(constant_id = 5) const bool HAS_GUIDES = true;
 layout(constant_id = 6) const int STRATEGY = 0;        // 0 MIS, 1 light sampling only, 2 BSDF sampling only
 layout(constant_id = 7) const bool HAS_TANGENTS = true; // anisotropic materials or bump: dp/du is needed
 layout(constant_id = 8) const bool HAS_FILTER_TABLE = true;
+layout(constant_id = 10) const bool HAS_BORDERS = false; // media end at surfaces that rays pass; the tracer absorbs
 
 #endif

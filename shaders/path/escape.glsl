@@ -12,8 +12,9 @@ vec3 clamp_contribution(SceneData scene, vec3 c, uint depth) {
     return limit > 0.0 && m > limit ? c * (limit / m) : c;
 }
 
-vec3 absorb(SceneData scene, uint medium, float distance_) { // Beer-Lambert
-    return HAS_MEDIA && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
+// Beer-Lambert along a ray in one medium. Where rays cross borders of media on their way, the tracer has done it.
+vec3 absorb(SceneData scene, uint medium, float distance_) {
+    return HAS_MEDIA && !HAS_BORDERS && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
 }
 
 // Radiance of the environment for a path that left the scene.

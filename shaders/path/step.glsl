@@ -18,6 +18,7 @@ struct StepRay {
     vec3 origin;
     vec3 direction;
     float tmax; // < 0: there is none
+    uint medium; // at the origin; of shadow rays
 };
 
 bool finite(vec3 c) { return !(any(isnan(c)) || any(isinf(c))); }
@@ -84,6 +85,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                 if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
                     medium = dot(light.wi, s.ng) > 0.0 ? inst.exterior : inst.interior;
                 if (HAS_MEDIA) c *= absorb(scene, medium, light.dist);
+                shadow.medium = medium;
                 shadow_contribution = clamp_contribution(scene, c, depth);
                 shadow.origin = offset_origin(s.p, s.ng, s.offset, light.wi);
                 shadow.direction = light.wi;

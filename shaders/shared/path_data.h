@@ -42,7 +42,7 @@ struct ShadowRay { // 64 bytes
     uint id;
     uint flags;
     vec3 contribution; // added to the path's radiance when the light is seen
-    uint pad0;
+    uint medium; // at its origin; only where HAS_BORDERS
 };
 
 struct PathState { // 48 bytes

@@ -15,6 +15,8 @@ RESTAGE_UINT(INSTANCE_HAS_NORMALS, 8u);
 RESTAGE_UINT(INSTANCE_HAS_UVS, 16u);
 RESTAGE_UINT(INSTANCE_HAS_ALPHA, 32u);
 RESTAGE_UINT(INSTANCE_HAS_MEDIA, 64u);
+RESTAGE_UINT(INSTANCE_HAS_GAPS, 128u); // its material is a mix with a share of no surface: rays pass there
+RESTAGE_UINT(MATERIAL_NOTHING, 0xfffffffeu); // in place of a MaterialData index: no surface, rays pass
 RESTAGE_UINT(MATERIAL_MIX, 1u);
 RESTAGE_UINT(OP_CONSTANT, 0u);
 RESTAGE_UINT(OP_IMAGE, 1u);
@@ -66,7 +68,8 @@ struct MaterialData { // 32 bytes
     uint bump;           // texture or 0
     uint normal_map;     // texture or 0
     uint id;             // Id<Material>
-    uint mix_first, mix_second; // MaterialData indices when the type is a mix; its first parameter is `amount`
+    uint mix_first,
+        mix_second; // MaterialData indices or MATERIAL_NOTHING when the type is a mix; its first parameter is `amount`
     uint flags;
 };
 
@@ -76,8 +79,8 @@ struct TextureOp { // 48 bytes
     uint image;
     uint wrap;
     uint invert; // OP_IMAGE: 1 - texel before `value` multiplies
-    vec4 uv;     // scale.xy, offset.xy
-    vec4 value;  // OP_CONSTANT: rgb; OP_IMAGE: factor
+    vec4 uv; // scale.xy, offset.xy
+    vec4 value; // OP_CONSTANT: rgb; OP_IMAGE: factor
 };
 struct TextureProgram { // index = texture; 0 is none
     uint first, count;
@@ -102,7 +105,7 @@ struct LightData { // 64 bytes
 };
 
 struct AliasEntry { // Vose 1991
-    float q;        // keep when u < q
+    float q; // keep when u < q
     uint alias;
     float pmf;
 };
@@ -113,7 +116,7 @@ struct EnvironmentData {
     vec3 scale;
     uint mapping;
     address texels; // vec4[]
-    address alias;  // AliasEntry[], one a texel; 0 for a constant
+    address alias; // AliasEntry[], one a texel; 0 for a constant
     uint width, height;
     uint light; // its index in the lights, or NONE
     uint pad0;
@@ -129,9 +132,9 @@ struct CameraData {
 struct FilterData {
     vec2 radius;
     uint kind;
-    uint table_size;    // entries an axis
-    address table;      // float cdf_x[n+1], cdf_y[n+1], sign_x[n], sign_y[n] of |f|
-    vec2 weight;        // integral of |f| / integral of f, an axis
+    uint table_size; // entries an axis
+    address table; // float cdf_x[n+1], cdf_y[n+1], sign_x[n], sign_y[n] of |f|
+    vec2 weight; // integral of |f| / integral of f, an axis
 };
 
 struct MediumData {
@@ -148,7 +151,7 @@ struct SceneData {
     uint russian_roulette;
     uint camera_medium;
     float clamp_direct, clamp_indirect; // 0 = off
-    float ray_epsilon;                  // 0 = error bounds
+    float ray_epsilon; // 0 = error bounds
     uint pad0;
 };
 

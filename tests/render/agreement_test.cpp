@@ -188,7 +188,8 @@ TEST_CASE("tracers agree: mixes and cut-outs") {
     b.instance(ball, mix(gold, inner, textured(scene::Value::number(0), amounts)), at(-3.2, 0, 0.9, 0.9));
     b.instance(ball, mix(inner, {}, scene::Value::number(0.5f)),
                at(-1, 0.6, 0.9, 0.9)); // a missing child: the placeholder
-    b.instance(ball, mix(b.material("interface"), gold, scene::Value::number(0.5f)), at(-3, 2.6, 0.9, 0.9)); // likewise
+    b.instance(ball, mix(b.material("interface"), gold, scene::Value::number(0.5f)),
+               at(-3, 2.6, 0.9, 0.9)); // full of holes
     edit_instance(b, b.instance(panel, b.diffuse(0.3f, 0.7f, 0.3f), at(1.2, -0.6, 0)),
                   [&](auto& i) { i.alpha_texture = scaled; });
     edit_instance(b, b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, -0.3, 0)),
@@ -238,7 +239,7 @@ TEST_CASE("tracers agree: lamps without surface, lens, crop window, tabulated fi
     check_agreement(b.scene);
 }
 
-TEST_CASE("tracers agree: glass with an absorbing medium, and a rim of rough glass") {
+TEST_CASE("tracers agree: glass with an absorbing medium, a rim of rough glass, a cloud without surface") {
     SceneBuilder b;
     b.set_film(64, 36);
     b.set_camera({0, -11, 4.5}, {0, 0.2, 0.7}, {0, 0, 1}, 30);
@@ -253,6 +254,7 @@ TEST_CASE("tracers agree: glass with an absorbing medium, and a rim of rough gla
     const auto fill = [&](auto& i) { i.media = scene::MediumInterface{.interior = tea}; };
     edit_instance(b, b.instance(ball, b.material("dielectric"), at(-1.5, 0, 1.2, 1.2)), fill);
     edit_instance(b, b.instance(ball, b.material("dielectric", rough), at(1.5, 0, 1.2, 1.2)), fill);
+    edit_instance(b, b.instance(ball, b.material("interface"), at(0, -2, 1, 1.5)), fill);
     area_light(b, glm::vec3(6));
     b.environment(glm::vec3(0.3f));
     check_agreement(b.scene);
