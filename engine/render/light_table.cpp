@@ -34,6 +34,39 @@ glm::dvec3 outward_normal(const scene::Instance& instance, const scene::MeshData
     return instance.reverse_orientation ? -n : n;
 }
 
+namespace {
+
+// What shaders/lib/light.glsl (light_offset) needs to end shadow rays before a triangle of a light: `offset`, the part
+// that does not depend on the ray, and `condition`. Error analysis as in shaders/lib/ray_offset.glsl.
+struct Rounding {
+    double offset, condition;
+};
+Rounding light_rounding(const glm::dmat4& object_to_render, const scene::MeshData& mesh, const glm::uvec3& t) {
+    constexpr double eps = 0x1p-24;
+    const auto absolute = [](glm::dmat3 m) {
+        for (int i = 0; i < 3; ++i)
+            m[i] = glm::abs(m[i]);
+        return m;
+    };
+    const glm::dmat3 m(object_to_render);
+    const glm::dvec3 v0(mesh.positions[t.x]), v1(mesh.positions[t.y]), v2(mesh.positions[t.z]);
+    const glm::dvec3 b = m * (v1 - v0), c = m * (v2 - v0), n = glm::abs(glm::normalize(glm::cross(b, c)));
+    const glm::dmat3 scale = absolute(m), inverse = absolute(glm::inverse(m));
+    const glm::dvec3 spread = n * scale * inverse; // an error of the origin in object space, along n
+    const glm::dvec3 move = glm::abs(glm::dvec3(object_to_render[3])),
+                     corner = glm::abs(v0) + glm::abs(v1) + glm::abs(v2);
+    const glm::dvec3 edges = glm::abs(b) + glm::abs(c);
+    // A long thin triangle knows its own normal badly.
+    const double thin =
+        glm::length(b) * glm::length(c) / glm::length(glm::cross(b, c)) * (glm::length(b) + glm::length(c));
+    const glm::dvec3 point = glm::abs(glm::dvec3(object_to_render * glm::dvec4(v0, 1))) + edges;
+    return {
+        eps * (glm::dot(n, point + 5.0 * edges) + glm::dot(n * scale, corner) + 6 * glm::dot(spread, move) + 4 * thin),
+        std::max({spread.x, spread.y, spread.z, 1.0})};
+}
+
+} // namespace
+
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
                             double radius) {
     LightTable table;
@@ -45,16 +78,21 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         const auto& mesh = *scene.meshes[instance.mesh].data;
         table.light_base[id.value] = std::uint32_t(table.lights.size());
         const double exitance = pi * luminance(instance.emission->radiance) * (instance.emission->two_sided ? 2 : 1);
+        glm::dmat4 place = instance.object_to_world;
+        place[3] -= glm::dvec4(origin, 0);
         for (const auto& t : mesh.triangles) {
-            const auto world = [&](std::uint32_t i) {
-                return glm::dvec3(instance.object_to_world * glm::dvec4(mesh.positions[i], 1)) - origin;
-            };
+            const auto world = [&](std::uint32_t i) { return glm::dvec3(place * glm::dvec4(mesh.positions[i], 1)); };
             const glm::dvec3 p0 = world(t.x);
             glm::dvec3 b = world(t.y) - p0, c = world(t.z) - p0;
             if (glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0) std::swap(b, c);
             const double area = 0.5 * glm::length(glm::cross(b, c));
             LightData light{};
-            light.kind = LIGHT_TRIANGLE | (instance.emission->two_sided ? LIGHT_TWO_SIDED : 0);
+            const Rounding rounding = light_rounding(place, mesh, t);
+            const auto condition =
+                std::isfinite(rounding.condition) ? std::min(rounding.condition * 16, 65535.0) : 16.0;
+            light.kind = LIGHT_TRIANGLE | (instance.emission->two_sided ? LIGHT_TWO_SIDED : 0) |
+                         std::uint32_t(std::ceil(condition)) << 16;
+            light.offset = std::isfinite(rounding.offset) ? float(rounding.offset) : 0.f;
             light.a = p0;
             light.b = b;
             light.c = c;

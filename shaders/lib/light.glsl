@@ -3,11 +3,13 @@
 #ifndef RESTAGE_LIB_LIGHT
 #define RESTAGE_LIB_LIGHT
 #include "lib/bsdf.glsl"
+#include "lib/ray_offset.glsl"
 #include "lib/scene.glsl"
 
 struct LightSample {
     vec3 wi;       // unit, towards the light
     float dist;    // to it; 1e30 = infinitely far
+    vec3 end;      // where a shadow ray ends that is sure not to meet the light itself; unless infinitely far
     vec3 radiance; // arriving, unoccluded; of delta lights divided by nothing but distance
     float pdf;     // solid angle, times the probability of choosing this light; 0 = no sample
     bool delta;    // point, spot, distant: cannot be hit, no MIS
@@ -79,7 +81,7 @@ vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
     return env.scale * Vec4Array(env.texels).at[i].xyz;
 }
 LightSample environment_sample(EnvironmentData env, vec2 u, float u_keep) {
-    LightSample s = LightSample(vec3(0, 0, 1), 1e30, env.scale, 0.25 * INV_PI, false);
+    LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), env.scale, 0.25 * INV_PI, false);
     if (env.mapping == ENV_CONSTANT) {
         float z = 1.0 - 2.0 * u.x;
         float r = sqrt(max(0.0, 1.0 - z * z));
@@ -109,8 +111,18 @@ float triangle_density(float area, float dist, float cos_light) {
     return cos_light <= 0.0 ? 0.0 : dist * dist / (cos_light * area);
 }
 
+// Distance along a triangle's normal that keeps the end of a shadow ray off it: bounds the rounding of the point on the
+// light, and of the intersector, that sees the ray from p in the light's object space (as ray_offset.glsl).
+// condition = |n| |m| |inverse m|, of the object-to-world m: 1 to 3 unless it shears.
+float light_offset(LightData light, vec3 p, float dist) {
+    float condition = float(light.kind >> 16) * (1.0 / 16.0);
+    // Origin to object space: 6 roundings of |p|. Direction, its normalisation and length, the two products whose
+    // quotient is the hit's distance: 15 of the distance. All as they are seen along the normal.
+    return light.offset + EPS * condition * (6.0 * (abs(p.x) + abs(p.y) + abs(p.z)) + 15.0 * dist);
+}
+
 LightSample light_sample(SceneData scene, vec3 p, float u_pick, float u_keep, vec2 u) {
-    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), 0.0, false);
+    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false);
     uint index = alias_pick(scene.light_alias, scene.light_count, u_pick, u_keep);
     LightData light = LightArray(scene.lights).at[index];
     uint kind = light.kind & 255u;
@@ -119,7 +131,7 @@ LightSample light_sample(SceneData scene, vec3 p, float u_pick, float u_keep, ve
         s.pdf *= light.pmf;
         return s;
     }
-    if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, light.value, light.pmf, true);
+    if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, vec3(0), light.value, light.pmf, true);
     vec3 q = light.a;
     if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
         float x = u.x, y = u.y;
@@ -136,12 +148,14 @@ LightSample light_sample(SceneData scene, vec3 p, float u_pick, float u_keep, ve
     float d2 = dot(d, d);
     if (d2 <= 0.0) return s;
     s.dist = sqrt(d2);
+    s.end = q;
     s.wi = d / s.dist;
     if (kind == LIGHT_TRIANGLE) {
         vec3 n = normalize(cross(light.b, light.c)); // the emitting side, set when the light table is built
         float c = -dot(n, s.wi);
         if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
         if (c <= 0.0) return s;
+        s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
         s.radiance = light.value;
         s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
     } else {

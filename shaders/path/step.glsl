@@ -89,8 +89,16 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                 shadow_contribution = clamp_contribution(scene, c, depth);
                 shadow.origin = offset_origin(s.p, s.ng, s.offset, light.wi);
                 shadow.direction = light.wi;
-                // The last 1e-4 of the way belongs to the light itself (pbrt's ShadowEpsilon), relative to the distance.
-                shadow.tmax = light.dist < 1e30 ? light.dist * (1.0 - 1e-4) : 1e30;
+                shadow.tmax = 1e30;
+                if (light.dist < 1e30) { // from where it begins to where it ends: both are off their surfaces
+                    vec3 d = light.end - shadow.origin;
+                    shadow.tmax = length(d);
+                    shadow.direction = d / shadow.tmax;
+                    if (!(dot(d, light.wi) > 0.0)) { // closer than floats can tell: nothing is between
+                        path.radiance += shadow_contribution;
+                        shadow.tmax = -1.0;
+                    }
+                }
             }
         }
     }

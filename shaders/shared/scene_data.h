@@ -95,13 +95,13 @@ struct ImageData { // 24 bytes
 
 struct LightData { // 64 bytes
     vec3 a;
-    uint kind; // LIGHT_* | two-sided << 8
+    uint kind; // LIGHT_* | two-sided << 8 | condition << 16 (of a triangle's place, in sixteenths; see light_offset)
     vec3 b;
     float pmf; // of being chosen
     vec3 c;
     float area;
     vec3 value; // radiance, intensity or irradiance
-    uint pad0;
+    float offset; // of a triangle: that part of light_offset which does not depend on the ray
 };
 
 struct AliasEntry { // Vose 1991

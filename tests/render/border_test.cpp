@@ -20,8 +20,7 @@ scene::Id<scene::Medium> medium(SceneBuilder& b, const glm::vec3& sigma_a) {
 // A slab [-2,2]^2 x [-half, half] about `at`, filled.
 scene::Id<scene::Instance> slab(SceneBuilder& b, scene::Id<scene::Material> material, double half,
                                 scene::MediumInterface media, glm::dvec3 at = {0, 0, 0}, double width = 2) {
-    const auto id =
-        b.instance(cube(b), material, glm::scale(placed(at), glm::dvec3(width, width, half)));
+    const auto id = b.instance(cube(b), material, glm::scale(placed(at), glm::dvec3(width, width, half)));
     edit_instance(b, id, [&](auto& i) { i.media = media; });
     return id;
 }
@@ -65,7 +64,8 @@ TEST_CASE("borders: camera rays through ink, nested and from within") {
     check(scene_of([](SceneBuilder& b) { // a ball: 2 across
               const auto ball = b.instance(b.sphere(64, 128), b.material("interface"),
                                            glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(1, 2, 0)));
-              edit_instance(b, ball, [&](auto& i) { i.media = scene::MediumInterface{.interior = medium(b, ink_sigma)}; });
+              edit_instance(b, ball,
+                            [&](auto& i) { i.media = scene::MediumInterface{.interior = medium(b, ink_sigma)}; });
           }),
           1.9996 * ink); // a polyhedron's inside
     check(scene_of([](SceneBuilder& b) { // tea in ink, a gap, tea again
@@ -160,8 +160,8 @@ TEST_CASE("borders: of clear media change no sample, and surfaces that border no
                    scene::Emission{glm::vec3(3)});
         const auto clear = medium(b, glm::vec3(0)), thin = medium(b, glm::vec3(0));
         for (int i = 0; i < shells; ++i)
-            slab(b, b.material("interface"), 0.7 + 0.1 * i,
-                 {.interior = clear, .exterior = shells == 1 ? clear : thin}, {0, 0, 0.9}, 2 + 0.1 * i);
+            slab(b, b.material("interface"), 0.7 + 0.1 * i, {.interior = clear, .exterior = shells == 1 ? clear : thin},
+                 {0, 0, 0.9}, 2 + 0.1 * i);
         renderer->forget_scene();
         renderer->reset_stats();
         images.push_back(render_image(*renderer, b.scene, 16));
@@ -218,5 +218,6 @@ TEST_CASE("borders: a mix with a share of no surface lets that share pass") {
                mix(b, b.material("interface"), b.diffuse(0.5f, 0.5f, 0.5f), 0.3f));
     renderer->forget_scene();
     const double d2 = 16 + 0.31 * 0.31 + 0.22 * 0.22;
-    check_color(render_image(*renderer, b.scene, 256), glm::dvec3(0.7 * 0.5 / pi * 20 * 4 / (d2 * std::sqrt(d2))), 0.02);
+    check_color(render_image(*renderer, b.scene, 256), glm::dvec3(0.7 * 0.5 / pi * 20 * 4 / (d2 * std::sqrt(d2))),
+                0.02);
 }
