@@ -4,6 +4,7 @@
 #define RESTAGE_LIB_LIGHT
 #include "lib/bsdf.glsl"
 #include "lib/ray_offset.glsl"
+#include "lib/sampler.glsl"
 #include "lib/scene.glsl"
 
 struct LightSample {
@@ -15,10 +16,17 @@ struct LightSample {
     bool delta;    // point, spot, distant: cannot be hit, no MIS
 };
 
-// u chooses the entry, u_keep between it and its alias. Two numbers, because what one float has left after choosing among
-// a hundred thousand is too coarse for the second choice, and the frequencies would not be the pmf.
-uint alias_pick(address table, uint count, float u, inout float u_keep) {
-    uint i = min(uint(u * float(count)), count - 1u);
+uint scaled_index(uint bits, uint count) { // 32 random bits to [0, count)
+    uint high, low;
+    umulExtended(bits, count, high, low);
+    return high;
+}
+
+// `bits` choose the entry, u_keep between it and its alias. Two numbers, because what one has left after choosing among
+// a hundred thousand is too coarse for the second choice, and the frequencies would not be the pmf. All 32 bits, because
+// a float's 24 never reach some texels of a sky of 8192 x 4096.
+uint alias_pick(address table, uint count, uint bits, inout float u_keep) {
+    uint i = scaled_index(bits, count);
     AliasEntry e = AliasArray(table).at[i];
     // u_keep is stretched back to [0,1) within what was chosen
     bool keep = u_keep < e.q;
@@ -80,8 +88,9 @@ vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
     pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, length(local.xy));
     return env.scale * Vec4Array(env.texels).at[i].xyz;
 }
-LightSample environment_sample(EnvironmentData env, vec2 u, float u_keep) {
+LightSample environment_sample(EnvironmentData env, uvec2 bits, float u_keep) {
     LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), env.scale, 0.25 * INV_PI, false);
+    vec2 u = vec2(to_unit(bits.x), to_unit(bits.y));
     if (env.mapping == ENV_CONSTANT) {
         float z = 1.0 - 2.0 * u.x;
         float r = sqrt(max(0.0, 1.0 - z * z));
@@ -89,7 +98,7 @@ LightSample environment_sample(EnvironmentData env, vec2 u, float u_keep) {
         return s;
     }
     uint n = env.width * env.height;
-    uint i = alias_pick(env.alias, n, u.x, u_keep);
+    uint i = alias_pick(env.alias, n, bits.x, u_keep);
     vec2 uv = (vec2(i % env.width, i / env.width) + vec2(u_keep, u.y)) / vec2(env.width, env.height);
     vec3 local;
     float sin_theta = 1.0;
@@ -121,20 +130,20 @@ float light_offset(LightData light, vec3 p, float dist) {
     return light.offset + EPS * condition * (6.0 * (abs(p.x) + abs(p.y) + abs(p.z)) + 15.0 * dist);
 }
 
-LightSample light_sample(SceneData scene, vec3 p, float u_pick, float u_keep, vec2 u) {
+LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2 bits) {
     LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false);
-    uint index = alias_pick(scene.light_alias, scene.light_count, u_pick, u_keep);
+    uint index = alias_pick(scene.light_alias, scene.light_count, pick, u_keep);
     LightData light = LightArray(scene.lights).at[index];
     uint kind = light.kind & 255u;
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
-        s = environment_sample(scene.environment, u, u_keep);
+        s = environment_sample(scene.environment, bits, u_keep);
         s.pdf *= light.pmf;
         return s;
     }
     if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, vec3(0), light.value, light.pmf, true);
     vec3 q = light.a;
     if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
-        float x = u.x, y = u.y;
+        float x = to_unit(bits.x), y = to_unit(bits.y);
         if (y > x) {
             x *= 0.5;
             y -= x;

@@ -27,13 +27,17 @@ uint sobol1_reversed(uint x) {
 
 float to_unit(uint x) { return float(x >> 8) * (1.0 / 16777216.0); } // [0, 1)
 
-// The pair number `pair` of sample `index` in a pixel with this seed.
-vec2 sample_pair(uint seed, uint index, uint pair) {
+// The pair number `pair` of sample `index` in a pixel with this seed, as 32 bits each.
+uvec2 sample_bits(uint seed, uint index, uint pair) {
     uint s = pcg_hash(seed ^ (pair * 0x9e3779b9u));
     index = bitfieldReverse(laine_karras(bitfieldReverse(index), s));
     uint x = bitfieldReverse(laine_karras(index, pcg_hash(s ^ 0x68bc21ebu)));
     uint y = bitfieldReverse(laine_karras(sobol1_reversed(index), pcg_hash(s ^ 0x02e5be93u)));
-    return vec2(to_unit(x), to_unit(y));
+    return uvec2(x, y);
+}
+vec2 sample_pair(uint seed, uint index, uint pair) {
+    uvec2 bits = sample_bits(seed, index, pair);
+    return vec2(to_unit(bits.x), to_unit(bits.y));
 }
 
 uint pixel_seed(uint pixel, uint seed) { return pcg_hash(pixel ^ pcg_hash(seed ^ 0xb5297a4du)); }

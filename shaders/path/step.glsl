@@ -64,14 +64,14 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
     if (depth >= scene.max_depth) return finite(path.radiance);
     Rng rng = Rng(pcg_hash(path.seed ^ pcg_hash(path.sample_index * 64u + depth)));
-    vec2 u_pick = sample_pair(path.seed, path.sample_index, pair_light_pick(depth));
+    uvec2 pick = sample_bits(path.seed, path.sample_index, pair_light_pick(depth));
     vec2 u_lobe = sample_pair(path.seed, path.sample_index, pair_lobe(depth));
     bool ok = true;
 
     // Next-event estimation
     if (scene.light_count > 0u) {
-        LightSample light = light_sample(scene, s.p, u_pick.x, u_lobe.y,
-                                         sample_pair(path.seed, path.sample_index, pair_light(depth)));
+        LightSample light = light_sample(scene, s.p, pick.x, u_lobe.y,
+                                         sample_bits(path.seed, path.sample_index, pair_light(depth)));
         if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
@@ -127,7 +127,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     if (scene.russian_roulette != 0u && depth > 0u) {
         float survive = max_component(abs(path.throughput)) * path.eta_scale; // signed by some pixel filters
         if (survive < 1.0) {
-            if (u_pick.y >= survive) return true;
+            if (to_unit(pick.y) >= survive) return true;
             path.throughput /= survive;
         }
     }

@@ -161,7 +161,7 @@ TEST_CASE("alias table: the shader draws by the pmf from many entries too") {
         "#include \"lib/light.glsl\"\n#include \"lib/sampler.glsl\"\nstruct Drawn { uint index; float left; };", "uint",
         "Drawn",
         "result.left = sample_pair(9u, x, pair_lobe(0u)).y;"
-        "result.index = alias_pick(root, 131072u, sample_pair(9u, x, pair_light_pick(0u)).x, result.left);",
+        "result.index = alias_pick(root, 131072u, sample_bits(9u, x, pair_light_pick(0u)).x, result.left);",
         indices, buffer->address());
     double dim = 0, left = 0;
     std::size_t wrong = 0;
