@@ -165,6 +165,11 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     for (const auto& [type, count] : renderer.stats().not_finite)
         context.log.warning(
             fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
+    if (renderer.stats().dropped > 0)
+        context.log.warning(
+            fmt::format("{} samples summed to more light than the film can hold, or to no number, and were "
+                        "left out: look at the lights and the environment",
+                        renderer.stats().dropped));
     if (interrupted()) context.log.warning(fmt::format("stopped after {} samples a pixel", renderer.samples()));
     return {};
 }

@@ -12,7 +12,10 @@ void main() {
     uint pixel = frame.first_pixel + p;
     PathArray paths = PathArray(frame.paths);
     FilmPixel f = FilmArray(frame.film).at[pixel];
-    for (uint s = 0u; s < frame.samples; ++s) film_add(f, paths.at[s * frame.pixel_count + p].radiance);
+    uint dropped = 0u;
+    for (uint s = 0u; s < frame.samples; ++s)
+        if (!film_add(f, paths.at[s * frame.pixel_count + p].radiance)) ++dropped;
+    if (dropped > 0u) atomicAdd(CounterArray(frame.counters).at[COUNTER_FILM], dropped);
     FilmArray(frame.film).at[pixel] = f;
     if (HAS_GUIDES) {
         GuidePixel g = GuidePixelArray(frame.film_guides).at[pixel];

@@ -32,7 +32,10 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, RestageMappin
             const float* v = &image->values[i * image->channels];
             glm::vec3 c = image->channels >= 3 ? glm::vec3(v[0], v[1], v[2]) : glm::vec3(v[0]);
             for (int k = 0; k < 3; ++k)
-                c[k] = std::isfinite(c[k]) ? std::max(c[k], 0.f) : 0.f;
+                if (!(std::isfinite(c[k]) && c[k] >= 0)) {
+                    c[k] = 0;
+                    ++map.mended;
+                }
             map.texels[i] = glm::vec4(c, 0);
             weights[i] = row * (0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
             sum += row * glm::dvec3(c);

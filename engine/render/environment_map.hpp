@@ -14,6 +14,7 @@ struct EnvironmentMap {
     std::vector<glm::vec4> texels;         // rgb, row 0 on top; empty for a constant
     std::vector<shared::AliasEntry> alias; // weight: luminance * solid angle of the texel
     glm::vec3 mean{0};                     // over the sphere, without scale
+    std::size_t mended = 0;                // values of the image that were negative or not finite, and are 0 here
 };
 
 // An image without light, or none, gives an empty map with mean 1 (constant) or 0 (black image).

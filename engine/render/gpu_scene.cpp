@@ -116,12 +116,25 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
     return {};
 }
 
-Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out) {
-    const scene::PixelData& pixels = *image.data;
-    const std::size_t n = std::size_t(pixels.width) * pixels.height;
+Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out, SceneChanges& changes) {
+    out.clean = image.data;
     float largest = 0;
-    for (float v : pixels.values)
-        largest = std::max(largest, std::abs(v));
+    std::size_t bad = 0;
+    for (float v : image.data->values)
+        if (std::isfinite(v))
+            largest = std::max(largest, std::abs(v));
+        else
+            ++bad;
+    if (bad > 0) { // a filter would spread them over their neighbours, and clamps of materials hide them
+        auto mended = std::make_shared<scene::PixelData>(*image.data);
+        for (float& v : mended->values)
+            if (!std::isfinite(v)) v = 0;
+        out.clean = mended;
+        changes.warnings.push_back(fmt::format("image \"{}\": {} of {} values are not finite numbers; taken as 0",
+                                               image.name, bad, image.data->values.size()));
+    }
+    const scene::PixelData& pixels = *out.clean;
+    const std::size_t n = std::size_t(pixels.width) * pixels.height;
     const bool half = largest < 65504.f; // the largest half
     RESTAGE_TRY(out.buffer, device_->create_buffer(n * (half ? 8 : 16), gpu::BufferKind::host, image.name.c_str()));
     std::vector<std::byte> staging;
@@ -149,7 +162,7 @@ Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out) {
     return {};
 }
 
-Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges&) {
+Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges& changes) {
     pixels_.resize(scene.images.size() + 1);
     cpu_images_.resize(pixels_.size());
     std::vector<char> used(pixels_.size());
@@ -165,8 +178,8 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges&) {
             continue;
         }
         if (pixels_[i].data == image->data) continue;
-        RESTAGE_CHECK(upload_image(*image, pixels_[i]));
-        cpu_images_[i].pixels = pixels_[i].data.get();
+        RESTAGE_CHECK(upload_image(*image, pixels_[i], changes));
+        cpu_images_[i].pixels = pixels_[i].clean.get();
         const std::size_t n = std::size_t(image->data->width) * image->data->height;
         images_.set(i, {pixels_[i].buffer.address(), image->data->width, image->data->height,
                         pixels_[i].buffer.size() == n * 8 ? TEXEL_HALF4 : TEXEL_FLOAT4, 0});

@@ -34,6 +34,7 @@ struct SceneChanges {
     std::vector<scene::Id<scene::Mesh>> meshes;         // new or replaced
     std::vector<scene::Id<scene::Instance>> instances;  // moved, added, removed, shown, hidden; or of a replaced mesh
     bool film = false;     // size or crop
+    std::vector<std::string> warnings; // of what had to be mended: texels that are no numbers
 };
 
 class GpuScene {
@@ -76,7 +77,8 @@ class GpuScene {
     struct Pixels {
         gpu::Buffer buffer;
         scene::Version version = 0;
-        std::shared_ptr<const scene::PixelData> data;
+        std::shared_ptr<const scene::PixelData> data;  // of the scene
+        std::shared_ptr<const scene::PixelData> clean; // the same, or a copy with black where it is not finite
     };
     Result<void> sync_meshes(const scene::Scene&, SceneChanges&);
     Result<void> sync_textures(const scene::Scene&, SceneChanges&);
@@ -84,7 +86,7 @@ class GpuScene {
     Result<void> sync_instances(const scene::Scene&, SceneChanges&);
     Result<void> sync_lights(const scene::Scene&, SceneChanges&);
     Result<void> sync_root(const scene::Scene&, SceneChanges&);
-    Result<void> upload_image(const scene::Image&, Pixels&);
+    Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
     shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
     glm::vec2 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;

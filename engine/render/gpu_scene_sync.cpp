@@ -3,6 +3,7 @@
 #include "render/filter_table.hpp"
 #include "render/gpu_scene.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -192,11 +193,15 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
     return instances_.flush(*device_);
 }
 
-Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges&) {
+Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
     const auto& env = scene.environment.value;
     if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
         const auto* image = env ? scene.images.find(env->image) : nullptr;
         environment_ = make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : RESTAGE_EQUIRECT);
+        if (environment_.mended > 0)
+            changes.warnings.push_back(
+                fmt::format("environment \"{}\": {} values of its image are negative or not finite; taken as 0",
+                            env->name, environment_.mended));
         env_texels_.assign(environment_.texels);
         env_alias_.assign(environment_.alias);
         RESTAGE_CHECK(env_texels_.flush(*device_));

@@ -65,6 +65,8 @@ void Renderer::forget_scene() {
 
 Result<void> Renderer::sync(const scene::Scene& scene) {
     RESTAGE_TRY(const SceneChanges changes, gpu_scene_->sync(scene));
+    for (const auto& warning : changes.warnings)
+        log_->warning(warning);
     RESTAGE_CHECK(tracer_->update(*gpu_scene_, changes));
     if (changes.film || !film_) {
         // The crop window in pixels; pbrt 4ed, 5.4.2, in floats as there: 0.2f of 30 is 6

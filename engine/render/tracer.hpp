@@ -38,6 +38,7 @@ struct TraceStats {
     std::uint64_t rays = 0, shadow_rays = 0, paths = 0;
     double seconds = 0, seconds_shading = 0, seconds_tracing = 0; // wall
     std::map<std::string, std::uint64_t> not_finite;              // samples dropped, by material type
+    std::uint64_t dropped = 0; // samples the film did not take: not finite, or too large to square. Lights or the sky
     std::size_t shader_bytes = 0; // SPIR-V of all kernels in use
 };
 

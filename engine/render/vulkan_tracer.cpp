@@ -107,6 +107,7 @@ class VulkanTracer final : public Tracer {
         auto counts = counters_.span<std::uint32_t>();
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
             if (counts[i]) stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
+        if (counts[COUNTER_FILM]) stats_.dropped += std::exchange(counts[COUNTER_FILM], 0);
         return {};
     }
 

@@ -14,12 +14,18 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer CounterArray
 
 const float INFINITE = 1e30;
 
-void film_add(inout FilmPixel f, vec3 c) {
-    if (any(isnan(c)) || any(isinf(c))) return; // counted where it arose; nothing unnatural reaches the film
+// What is larger would make the sums of squares overflow. A radiance of 1e16 is no light, but a broken file.
+const float FILM_LARGEST = 1e16;
+
+// A sample that is not finite, or too large, counts as black, and false says so: nothing unnatural reaches the film.
+bool film_add(inout FilmPixel f, vec3 c) {
+    bool fits = all(lessThanEqual(abs(c), vec3(FILM_LARGEST)));
+    if (!fits) c = vec3(0);
     f.sum += c;
     f.sum_sq += c * c;
     f.sum_sq_luminance += sqr(luminance(c));
     f.count += 1.0;
+    return fits;
 }
 
 void guide_add(inout GuidePixel g, GuideSample a) {

@@ -120,9 +120,10 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     }
     if (HAS_TANGENTS) { // pbrt 4ed, 6.5.3: solve for dp/du, dp/dv
         mat3 lin = mat3(inst.object_to_world[0], inst.object_to_world[1], inst.object_to_world[2]);
-        float det = duv1.x * duv2.y - duv1.y * duv2.x;
+        vec2 products = vec2(duv1.x * duv2.y, duv1.y * duv2.x);
+        float det = products.x - products.y;
         vec3 dpdu, dpdv;
-        if (abs(det) > 1e-12) {
+        if (abs(det) > 1e-6 * (abs(products.x) + abs(products.y))) { // more than the rounding of its terms
             dpdu = lin * ((duv2.y * e1 - duv1.y * e2) / det);
             dpdv = lin * ((duv1.x * e2 - duv2.x * e1) / det);
         } else {

@@ -50,7 +50,8 @@ TEST_CASE("no lamp shades itself, however grazing and far") {
         glm::dvec3 baked{0}; // where the mesh's own coordinates are
     };
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), 1.1, glm::dvec3(1, 2, -0.5));
-    for (const Case& c : {Case{"plain"}, {"stretched", glm::scale(turned, glm::dvec3(1, 1e-3, 100))},
+    for (const Case& c : {Case{"plain"},
+                          {"stretched", glm::scale(turned, glm::dvec3(1, 1e-3, 100))},
                           {"baked at 1000", turned, {1000, -1000, 500}}})
         for (const double distance : {0.3, 3.0, 30.0, 300.0}) {
             SceneBuilder b;
