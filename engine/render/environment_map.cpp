@@ -45,6 +45,8 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, RestageMappin
     map.mean = glm::vec3(sum / total);
     map.alias = make_alias_table(weights);
     if (map.alias.empty()) map.texels.clear();
+    for (std::size_t i = 0; i < map.texels.size(); ++i)
+        map.texels[i].w = map.alias[i].pmf * float(n);
     return map;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as texels with an alias table over the power of each, and its mean over the sphere.
+// The environment as texels with an alias table over the power of each, and its mean over the sphere. Shaders
+// interpolate between texels, the density of light sampling along with the radiance (shaders/lib/light.glsl).
 #pragma once
 
 #include "scene/scene.hpp"
@@ -11,7 +12,7 @@ namespace restage::render {
 
 struct EnvironmentMap {
     std::uint32_t width = 0, height = 0;
-    std::vector<glm::vec4> texels;         // rgb, row 0 on top; empty for a constant
+    std::vector<glm::vec4> texels;         // rgb and pmf * number of texels, row 0 on top; empty for a constant
     std::vector<shared::AliasEntry> alias; // weight: luminance * solid angle of the texel
     glm::vec3 mean{0};                     // over the sphere, without scale
     std::size_t mended = 0;                // values of the image that were negative or not finite, and are 0 here

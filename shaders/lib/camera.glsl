@@ -3,11 +3,8 @@
 #ifndef RESTAGE_LIB_CAMERA
 #define RESTAGE_LIB_CAMERA
 #include "lib/bsdf.glsl"
+#include "lib/sampling.glsl"
 #include "lib/scene.glsl"
-
-float sample_tent(float u, float r) { // density (r - |x|) / r^2
-    return u < 0.5 ? r * (sqrt(2.0 * u) - 1.0) : r * (1.0 - sqrt(max(0.0, 2.0 - 2.0 * u)));
-}
 
 // One axis of a tabulated |f|: offset in [-radius, radius], and the sign of f there.
 float sample_table(FilterData f, uint axis, float u, out float sign_) {

@@ -5,6 +5,7 @@
 #include "lib/bsdf.glsl"
 #include "lib/ray_offset.glsl"
 #include "lib/sampler.glsl"
+#include "lib/sampling.glsl"
 #include "lib/scene.glsl"
 
 struct LightSample {
@@ -61,21 +62,51 @@ vec2 direction_to_octahedral(vec3 w) {
     return 0.5 * (vec2(w.x < 0.0 ? -u : u, w.y < 0.0 ? -v : v) + 1.0);
 }
 
-// ---- environment: radiance is constant over a texel, so that its importance sampling is exact ---------------------
+// ---- environment: bilinear between the texels' centres, and so is its density: a texel's tent is chosen by the alias
+// table, a point under the tent drawn. The sum of the tents is the interpolated table, so sampling follows the radiance.
 vec2 environment_uv(EnvironmentData env, vec3 w) { // w in the environment's frame
     if (env.mapping == ENV_OCTAHEDRAL) return direction_to_octahedral(w);
     float phi = atan(w.y, w.x);
     return vec2((phi < 0.0 ? phi + TWO_PI : phi) * (0.5 * INV_PI), atan(length(w.xy), w.z) * INV_PI); // acos is coarse at the poles
 }
-uint environment_texel(EnvironmentData env, vec2 uv) {
-    uvec2 p = min(uvec2(uv * vec2(env.width, env.height)), uvec2(env.width - 1u, env.height - 1u));
-    return p.y * env.width + p.x;
+// The texel at integer coordinates up to one outside of the image: an equirectangular map goes round in u and ends at
+// the poles, an octahedral one folds over each edge onto itself (pbrt 4ed, fig. 3.22).
+uint environment_texel(EnvironmentData env, ivec2 p) {
+    ivec2 size = ivec2(env.width, env.height);
+    if (env.mapping == ENV_OCTAHEDRAL) {
+        if (p.x < 0 || p.x >= size.x) p = ivec2(p.x < 0 ? -1 - p.x : 2 * size.x - 1 - p.x, size.y - 1 - p.y);
+        if (p.y < 0 || p.y >= size.y) p = ivec2(size.x - 1 - p.x, p.y < 0 ? -1 - p.y : 2 * size.y - 1 - p.y);
+    } else {
+        p = ivec2((p.x + size.x) % size.x, clamp(p.y, 0, size.y - 1));
+    }
+    return uint(p.y) * env.width + uint(p.x);
 }
-// Solid-angle density of the texel's pmf.
-float environment_density(EnvironmentData env, float pmf, float sin_theta) {
-    float n = float(env.width) * float(env.height);
-    if (env.mapping == ENV_OCTAHEDRAL) return pmf * n / (4.0 * PI);
-    return sin_theta <= 0.0 ? 0.0 : pmf * n / (2.0 * PI * PI * sin_theta);
+// The same for a point of the unit square's plane.
+vec2 environment_wrap(EnvironmentData env, vec2 uv) {
+    if (env.mapping == ENV_OCTAHEDRAL) {
+        if (uv.x < 0.0 || uv.x > 1.0) uv = vec2(uv.x < 0.0 ? -uv.x : 2.0 - uv.x, 1.0 - uv.y);
+        if (uv.y < 0.0 || uv.y > 1.0) uv = vec2(1.0 - uv.x, uv.y < 0.0 ? -uv.y : 2.0 - uv.y);
+        return uv;
+    }
+    return vec2(fract(uv.x), uv.y < 0.0 ? -uv.y : uv.y > 1.0 ? 2.0 - uv.y : uv.y);
+}
+// rgb: radiance, without scale. a: density over the unit square.
+vec4 environment_lookup(EnvironmentData env, vec2 uv) {
+    vec2 x = uv * vec2(env.width, env.height) - 0.5;
+    vec2 base = floor(x);
+    vec2 d = x - base;
+    vec4 sum = vec4(0);
+    for (int k = 0; k < 4; ++k) {
+        ivec2 o = ivec2(k & 1, k >> 1);
+        vec2 w = mix(1.0 - d, d, vec2(o));
+        sum += w.x * w.y * Vec4Array(env.texels).at[environment_texel(env, ivec2(base) + o)];
+    }
+    return sum;
+}
+// Solid-angle density from that over the unit square.
+float environment_density(EnvironmentData env, float density, float sin_theta) {
+    if (env.mapping == ENV_OCTAHEDRAL) return density / (4.0 * PI);
+    return sin_theta <= 0.0 ? 0.0 : density / (2.0 * PI * PI * sin_theta);
 }
 // Radiance from direction w (world), and the density with which light sampling finds it (without the light's pmf).
 vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
@@ -84,9 +115,9 @@ vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
         return env.scale;
     }
     vec3 local = env.env_from_world * w;
-    uint i = environment_texel(env, environment_uv(env, local));
-    pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, length(local.xy));
-    return env.scale * Vec4Array(env.texels).at[i].xyz;
+    vec4 le = environment_lookup(env, environment_uv(env, local));
+    pdf = environment_density(env, le.w, length(local.xy));
+    return env.scale * le.xyz;
 }
 LightSample environment_sample(EnvironmentData env, uvec2 bits, float u_keep) {
     LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), env.scale, 0.25 * INV_PI, false);
@@ -99,7 +130,8 @@ LightSample environment_sample(EnvironmentData env, uvec2 bits, float u_keep) {
     }
     uint n = env.width * env.height;
     uint i = alias_pick(env.alias, n, bits.x, u_keep);
-    vec2 uv = (vec2(i % env.width, i / env.width) + vec2(u_keep, u.y)) / vec2(env.width, env.height);
+    vec2 uv = vec2(i % env.width, i / env.width) + 0.5 + vec2(sample_tent(u_keep, 1.0), sample_tent(u.y, 1.0));
+    uv = environment_wrap(env, uv / vec2(env.width, env.height));
     vec3 local;
     float sin_theta = 1.0;
     if (env.mapping == ENV_OCTAHEDRAL) {
@@ -110,8 +142,9 @@ LightSample environment_sample(EnvironmentData env, uvec2 bits, float u_keep) {
         local = vec3(sin_theta * cos(phi), sin_theta * sin(phi), cos(theta));
     }
     s.wi = env.world_from_env * local;
-    s.radiance = env.scale * Vec4Array(env.texels).at[i].xyz;
-    s.pdf = environment_density(env, AliasArray(env.alias).at[i].pmf, sin_theta);
+    vec4 le = environment_lookup(env, uv);
+    s.radiance = env.scale * le.xyz;
+    s.pdf = environment_density(env, le.w, sin_theta);
     return s;
 }
 

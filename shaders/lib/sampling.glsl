@@ -32,4 +32,8 @@ float power_heuristic(float a, float b) {
     return 1.0 / (1.0 + r * r);
 }
 
+float sample_tent(float u, float r) { // density (r - |x|) / r^2
+    return u < 0.5 ? r * (sqrt(2.0 * u) - 1.0) : r * (1.0 - sqrt(max(0.0, 2.0 - 2.0 * u)));
+}
+
 #endif

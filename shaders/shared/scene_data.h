@@ -115,7 +115,7 @@ struct EnvironmentData {
     mat3 world_from_env;
     vec3 scale;
     uint mapping;
-    address texels; // vec4[]
+    address texels; // vec4[]: rgb, and the pmf of the alias table times the number of texels
     address alias; // AliasEntry[], one a texel; 0 for a constant
     uint width, height;
     uint light; // its index in the lights, or NONE
