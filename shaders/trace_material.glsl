@@ -15,7 +15,7 @@ void main() {
     vec3 contribution;
     GuideSample guide;
     PathState path = io.path;
-    bool first = (path.flags & PATH_DEPTH_MASK) == 0u;
+    bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
     bool ok = path_step(scene, inst, material, io.prim, io.bary, io.t, io.direction, path, shadow, contribution, next, guide);
     if (!ok) {
         path.radiance = vec3(0);
@@ -23,10 +23,11 @@ void main() {
         next.tmax = -1.0;
         atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }
-    if (HAS_GUIDES && first) { // here, so that albedo and normal need not travel
+    if (HAS_GUIDES && guided) { // here, so that albedo and normal need not travel
         uint pixel = launch_pixel(frame);
         GuidePixel g = GuidePixelArray(frame.film_guides).at[pixel];
-        guide_add(g, guide);
+        if (first) guide_add(g, guide);
+        else guide_add_behind(g, guide);
         GuidePixelArray(frame.film_guides).at[pixel] = g;
     }
     io.path = path;

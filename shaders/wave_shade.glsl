@@ -15,7 +15,7 @@ void main() {
     StepRay shadow, next;
     vec3 contribution;
     GuideSample guide;
-    bool first = (path.flags & PATH_DEPTH_MASK) == 0u;
+    bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
     bool ok = path_step(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar, ray.direction, path, shadow,
                         contribution, next, guide);
     if (!ok) {
@@ -31,6 +31,9 @@ void main() {
         guides.at[i].depth = guide.depth;
         guides.at[i].instance_id = guide.instance_id;
         guides.at[i].material_id = guide.material_id;
+    } else if (HAS_GUIDES && guided) {
+        GuideArray(push.guides).at[i].albedo = guide.albedo;
+        GuideArray(push.guides).at[i].normal = guide.normal;
     }
     // Only what changes is written, the rest stays as the tracer and wave_generate set it.
     ShadowArray shadows = ShadowArray(push.shadows);

@@ -171,10 +171,11 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
-    // A path's last vertex only emits.
+    // A path's last vertex only emits, or guides the denoiser.
     static bool ends_unlit(const GpuScene& scene, const shared::PathState& path, std::uint32_t instance) {
         const std::uint32_t depth = path.flags & PATH_DEPTH_MASK;
-        return depth > 0 && depth >= scene.data().max_depth && !(scene.instances()[instance].flags & INSTANCE_EMITS);
+        return depth > 0 && depth >= scene.data().max_depth && !(path.flags & PATH_GUIDED) &&
+               !(scene.instances()[instance].flags & INSTANCE_EMITS);
     }
 
     // Shadow rays of the last vertex, then the next hits, for the active paths in natural order. Afterwards `queue_`

@@ -18,7 +18,8 @@ struct FilmImage {
     std::vector<glm::vec3> std_error; // of the mean, a channel; samples taken as independent, so an upper bound for
                                       // stratified ones. 0 with less than 2 samples
     std::vector<float> luminance_variance; // of the mean
-    std::vector<glm::vec3> albedo; // [0,1]
+    // Of the first hit that is no mirror or smooth glass, for the denoiser.
+    std::vector<glm::vec3> albedo; // [0,1], times what the mirrors and glasses let through
     std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)
     std::vector<float> depth; // mean distance of the first hit; 0 = nothing
     std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = nothing

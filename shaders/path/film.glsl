@@ -38,5 +38,10 @@ void guide_add(inout GuidePixel g, GuideSample a) {
     g.depth += a.depth;
     g.count += 1.0;
 }
+// Behind mirrors and glass: of a sample that guide_add has counted.
+void guide_add_behind(inout GuidePixel g, GuideSample a) {
+    g.albedo += a.albedo;
+    g.normal += a.normal;
+}
 
 #endif

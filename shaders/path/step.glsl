@@ -55,8 +55,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
 
     Material m = material_fetch(scene, material_data.params, s.uv);
     vec3 wo = to_local(s, wo_world);
-    if (HAS_GUIDES && depth == 0u) {
-        guide.albedo = clamp(material_albedo(m, wo), vec3(0), vec3(1));
+    if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) {
+        vec3 seen = depth == 0u ? vec3(1) : abs(path.throughput) / (scene.filter_.weight.x * scene.filter_.weight.y);
+        guide.albedo = clamp(seen * material_albedo(m, wo), vec3(0), vec3(1));
         guide.normal = s.ns;
         guide.depth = t;
         guide.instance_id = inst.object_id;
@@ -121,15 +122,20 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     path.eta_scale *= b.eta * b.eta;
     if (HAS_MEDIA && !same_side && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
         path.medium = dot(wi_world, s.ng) > 0.0 ? inst.exterior : inst.interior;
-    path.flags = (depth + 1u) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR : 0u);
+    path.flags = (depth + 1u) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u);
 
     // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2
-    if (scene.russian_roulette != 0u && depth > 0u) {
+    // ... and not while what guides the denoiser is still ahead
+    if (scene.russian_roulette != 0u && depth > 0u && !(HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u)) {
         float survive = max_component(abs(path.throughput)) * path.eta_scale; // signed by some pixel filters
         if (survive < 1.0) {
             if (to_unit(pick.y) >= survive) return true;
             path.throughput /= survive;
         }
+    }
+    if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) { // looked through, as Open Image Denoise advises
+        guide.albedo = vec3(0);
+        guide.normal = vec3(0);
     }
     next.origin = offset_origin(s.p, s.ng, s.offset, wi_world);
     next.direction = normalize(wi_world);

@@ -7,6 +7,7 @@
 
 RESTAGE_CONSTANTS_BEGIN
 RESTAGE_UINT(PATH_SPECULAR, 0x10000u); // the last bounce was a delta lobe (or the camera)
+RESTAGE_UINT(PATH_GUIDED, 0x20000u); // what guides the denoiser is still ahead: only delta bounces so far
 RESTAGE_UINT(PATH_DEPTH_MASK, 0xffffu);
 RESTAGE_UINT(COUNTER_MAX_TYPES, 64u);
 RESTAGE_UINT(COUNTER_RAYS, 64u);
@@ -57,7 +58,7 @@ struct PathState { // 48 bytes
     uint sample_index;
 };
 
-struct GuideSample { // 44 bytes, of the first hit
+struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the first that is no mirror or smooth glass
     vec3 albedo;
     vec3 normal; // world space, shading
     float depth; // distance along the ray; 0 = nothing hit

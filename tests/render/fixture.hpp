@@ -45,6 +45,7 @@ inline render::FilmImage render_image(render::Renderer& renderer, const scene::S
     if (auto ok = renderer.sync(scene); !ok) FAIL(ok.error().message);
     if (auto ok = renderer.trace(samples); !ok) FAIL(ok.error().message);
     CHECK(renderer.stats().not_finite.empty());
+    CHECK(renderer.stats().dropped == 0);
     return renderer.image();
 }
 

@@ -85,7 +85,32 @@ TEST_CASE("what a material gives that is not finite is counted under its name") 
     }
 }
 
-TEST_CASE("a texture with NaN in it spoils no picture") {
+TEST_CASE("a sky too bright for the film is left out, counted, and spoils no error estimate") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const auto renderer = make_renderer(tracer);
+    for (const float bright : {1e15f, 1e20f, 1e38f}) { // a square of 1e20 overflows
+        SceneBuilder b;
+        b.set_film(16, 16);
+        b.set_camera({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 100);
+        b.instance(b.quad({-4, -4, 0}, {0, -4, 0}, {0, 4, 0}, {-4, 4, 0}), b.diffuse(0, 0, 0)); // half of it
+        b.environment(glm::vec3(bright));
+        renderer->forget_scene();
+        renderer->reset_stats();
+        REQUIRE(renderer->sync(b.scene));
+        REQUIRE(renderer->trace(4));
+        const auto image = renderer->image();
+        INFO(tracer << ", radiance " << bright);
+        CHECK(all_finite(image));
+        CHECK(image.samples == 4); // a dropped sample counts as black
+        if (bright < 1e16f)
+            CHECK(renderer->stats().dropped == 0);
+        else
+            CHECK(renderer->stats().dropped > 4 * 16 * 7); // half of them, or a little more
+        CHECK((mean_luminance(image).value > 0) == (bright < 1e16f));
+    }
+}
+
+TEST_CASE("a texture with NaN in it spoils no picture, and the log names it") {
     const std::string tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;
     b.set_film(16, 16);
@@ -101,9 +126,23 @@ TEST_CASE("a texture with NaN in it spoils no picture") {
     value.texture = texture;
     p.set("reflectance", value);
     b.instance(b.quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}), b.material("diffuse", p));
-    b.environment(glm::vec3(1));
-    const auto renderer = make_renderer(tracer);
+    b.scene.environment = {scene::Environment{.name = "sky", .image = b.image(2, 1, 1, {1, -NAN})}, ++b.scene.clock};
+    render::RendererOptions options;
+    options.tracer = tracer;
+    options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+    std::vector<std::string> warnings;
+    Log log([&](LogLevel level, std::string_view line) {
+        if (level == LogLevel::warning) warnings.emplace_back(line);
+    });
+    auto created = render::Renderer::create(options, plugins().lookup(), log);
+    REQUIRE(created);
+    const auto& renderer = *created;
     REQUIRE(renderer->sync(b.scene));
+    REQUIRE(renderer->sync(b.scene));
+    CHECK(warnings == std::vector<std::string>{
+                                                // once each
+                          "image \"image\": 3 of 6 values are not finite numbers; taken as 0",
+                          "environment \"sky\": 3 values of its image are negative or not finite; taken as 0"});
     REQUIRE(renderer->trace(4));
     CHECK(all_finite(renderer->image()));
     CHECK(mean_luminance(renderer->image()).value > 0.1); // the other half of it is there

@@ -176,6 +176,19 @@ TEST_CASE("alias table: the shader draws by the pmf from many entries too") {
     CHECK(std::abs(left - 0.5) < 4 * 0.29 / std::sqrt(double(draws))); // still uniform
 }
 
+TEST_CASE("alias table: each of 33 million texels can be reached") {
+    constexpr std::uint32_t count = 8192 * 4096; // twice what the 24 bits of a float tell apart
+    std::vector<std::uint32_t> bits;
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        bits.push_back((7919u * i % count) * 128u + i % 128); // 2^32 / count = 128 numbers lead to each
+    const auto index = lab().run<std::uint32_t, std::uint32_t>("#include \"lib/light.glsl\"", "uint", "uint",
+                                                               "result = scaled_index(x, 33554432u);", bits);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < bits.size(); ++i)
+        wrong += index[i] != bits[i] / 128;
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("light table: chosen by power, and the densities sum to one") {
     SceneBuilder b;
     const auto one = b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
