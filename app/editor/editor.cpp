@@ -167,11 +167,33 @@ void Editor::refresh_picture() {
         shown.active_camera = scene().active_camera;
         shown.film = scene().film;
     }
-    live_->show(std::move(shown), {.size = wanted.size,
-                                   .document = document_ * 2 + (wanted.original ? 1 : 0),
-                                   .samples = wanted.samples,
-                                   .seconds = wanted.seconds,
-                                   .error = wanted.error});
+    const std::uint64_t request = live_->show(std::move(shown), {.size = wanted.size,
+                                                                 .document = document_ * 2 + (wanted.original ? 1 : 0),
+                                                                 .samples = wanted.samples,
+                                                                 .seconds = wanted.seconds,
+                                                                 .error = wanted.error});
+    latency_.asked[request] = ImGui::GetTime();
+}
+
+void Editor::presented(double frame_seconds) {
+    const auto keep = [](std::deque<double>& values, double ms) {
+        values.push_back(ms);
+        if (values.size() > 512) values.pop_front();
+    };
+    keep(latency_.frames, frame_seconds * 1000);
+    const std::uint64_t shown = viewport.shown_request();
+    for (auto it = latency_.asked.begin(); it != latency_.asked.end() && it->first <= shown;) {
+        // ImGui::GetTime() is that of the frame's begin.
+        if (it->first == shown) {
+            latency_.shown_asked = it->second;
+            keep(latency_.pixels, (ImGui::GetTime() + frame_seconds - it->second) * 1000);
+        }
+        it = latency_.asked.erase(it);
+    }
+    if (shown > latency_.clean_request && viewport.shows_clean()) {
+        latency_.clean_request = shown;
+        latency_.clean_seconds = ImGui::GetTime() + frame_seconds - latency_.shown_asked;
+    }
 }
 
 // --- panels

@@ -61,6 +61,8 @@ class Editor {
     // Builds one frame of the UI, then does what it asked for. `keys`: pressed since the last one, by a window that
     // knows better than Dear ImGui (see Window::take_keys); null = Dear ImGui's own.
     void frame(const std::vector<ImGuiKeyChord>* keys = nullptr);
+    // The window shows what the last frame() drew; it began so long ago [s]. For the latencies of `make bench`.
+    void presented(double frame_seconds);
     bool quit_confirmed() const { return quit_; }
     void request_quit(); // asks about unsaved changes first
     // What the window's title says.
@@ -170,6 +172,15 @@ class Editor {
         double seconds = 0, error = 0;
         bool operator==(const Shown&) const = default;
     } asked_;
+    struct Latency { // the latest of each [ms]
+        std::map<std::uint64_t, double> asked; // request of the live picture: when it was asked for
+        std::deque<double> pixels; // from the begin of the frame that asked, to the picture of it on the screen
+        std::deque<double> frames; // of the window
+        double shown_asked = 0; // when what is shown was asked for [s]
+        std::uint64_t clean_request =
+            0; // the latest of which a denoised picture, at half resolution or finer, was shown,
+        double clean_seconds = 0; // and how long after it was asked for
+    } latency_;
     std::map<std::string, ImVec4> marks_; // min.x min.y max.x max.y of the last frame
 };
 

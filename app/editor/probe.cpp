@@ -49,8 +49,11 @@ std::string Editor::probe() const {
                  {"denoised_request", clean ? clean->request : 0},
                  {"denoised_samples",
                   clean && frame && clean->request == frame->request && clean->divider == 1 ? clean->image.samples : 0},
+                 {"first_clean_request", latency_.clean_request},
+                 {"first_clean_seconds", latency_.clean_seconds},
                  {"denoised_seconds", clean ? clean->seconds : 0.0},
                  {"hovered", hovered.value}};
+    j["latency"] = {{"pixels", latency_.pixels}, {"frames", latency_.frames}};
     for (const auto& [name, r] : marks_)
         j["marks"][name] = {r.x, r.y, r.z, r.w};
     for (const auto& line : notices.lines())

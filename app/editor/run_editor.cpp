@@ -5,6 +5,7 @@
 #include "editor.hpp"
 #include "window.hpp"
 
+#include <chrono>
 #include <cstdio>
 
 namespace restage::editor {
@@ -49,10 +50,12 @@ Result<int> run_editor(const RunOptions& options) {
         glm::vec2 where(0);
         for (const auto& path : window->take_dropped(where))
             editor.open(path);
+        const auto begin = std::chrono::steady_clock::now();
         if (!window->begin_frame()) continue;
         const auto keys = window->take_keys();
         editor.frame(&keys);
         RESTAGE_CHECK(window->end_frame());
+        editor.presented(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         if (editor.title() != title) window->set_title(title = editor.title());
         if (!options.probe.empty())
             if (std::string now = editor.probe(); now != probe) {

@@ -27,6 +27,8 @@ class Viewport {
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object seen there in the shown picture; none outside.
     InstanceId instance_at(const Editor& editor, ImVec2 screen) const;
+    std::uint64_t shown_request() const { return drawn_ ? drawn_->request : 0; } // of LiveView::show
+    bool shows_clean() const { return drawn_ && drawn_->denoised && drawn_->divider <= 2; }
     bool navigating() const { return navigation_ != Navigation::none; }
 
   private:

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 
+import editor
 import machine
 import report
 
@@ -108,7 +109,12 @@ def error(bench):
             for name in (SCENES[-1:] if bench.quick else SCENES)}
 
 
-ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "error": error, "standard": standard}
+def editor_latency(bench):
+    scenes = folder_of("RESTAGE_SCENES")
+    return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
+
+
+ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
 
 
 def main():

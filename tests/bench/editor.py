@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The editor's latencies, with real mouse and key events under Xvfb: from input to changed pixels, and the window's frames."""
+import pathlib
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/ui"))
+
+from desk import Desk, Editor  # noqa: E402
+
+
+def percentile(values, p):
+    values = sorted(values)
+    return values[min(len(values) - 1, int(p / 100 * len(values)))] if values else None
+
+
+def during(editor, act):
+    """Latencies of what `act` asks for [ms], and how long a denoised picture took afterwards [s]. Only the newest 512 are kept."""
+    editor.wait(lambda s: s["view"]["current"] and s["view"]["divider"] == 1, "rest", 120)
+    before = len(editor.state()["latency"]["pixels"])
+    act()
+    time.sleep(0.5)
+    state = editor.wait(lambda s: s["view"]["current"] and s["view"]["denoised_request"] == s["view"]["request"], "a denoised picture", 120)
+    pixels = state["latency"]["pixels"][before:]
+    clean = editor.wait(lambda s: s["view"]["first_clean_request"] == s["view"]["request"], "a usable denoised picture", 120)
+    return {"pixels_ms": pixels, "median_ms": percentile(pixels, 50), "p95_ms": percentile(pixels, 95),
+            "denoised_s": clean["view"]["first_clean_seconds"]}
+
+
+def measure(binary, scene, picture_of_object):
+    """`picture_of_object`: where in the picture (u, v) something can be picked."""
+    with tempfile.TemporaryDirectory() as folder:
+        desk = Desk(pathlib.Path(folder) / "desk")
+        started = time.monotonic()
+        editor = Editor(desk, binary, scene, config=f"{folder}/config", probe=f"{folder}/probe.json")
+        try:
+            editor.wait(lambda s: s["view"]["request"] > 0, "a first picture", 180)
+            first = time.monotonic() - started
+            editor.wait(lambda s: s["view"]["divider"] == 1 and s["view"]["denoised_samples"] > 0, "a denoised one", 180)
+            whole = time.monotonic() - started
+            rows = {"orbit": during(editor, lambda: editor.drag(("picture", 0.4, 0.3), ("picture", 0.6, 0.35), keys=["alt"], steps=40))}
+            editor.click(("picture", *picture_of_object))
+            editor.wait(lambda s: s["selection"], "a selection", 20)
+            x, y = editor.point("gizmo.x")
+            rows["gizmo drag"] = during(editor, lambda: editor.drag((x, y), (x + 60, y), steps=40))
+            frames = editor.state()["latency"]["frames"]
+            return {"first_image_s": first, "whole_denoised_s": whole, "rows": rows,
+                    "ui_frame_ms": {"median": percentile(frames, 50), "p99": percentile(frames, 99), "frames": len(frames)}}
+        finally:
+            editor.close()
+            desk.close()
