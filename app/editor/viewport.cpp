@@ -43,24 +43,17 @@ void Viewport::draw(Editor& e) {
         draw->AddText({corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2},
                       ImGui::GetColorU32(colors::dim), text);
     }
-    // ImGuizmo takes no click where an item is hovered: its handles come first, and the picture is no item under them.
     bool gizmo = false;
     if (e.view.show_overlays && picture_.ready()) {
         if (outline_.ready()) draw->AddImage(outline_.ref(), corner, end);
         gizmo = draw_gizmo(e, corner, size);
         draw_overlays(e);
     }
+    // No button: ImGuizmo takes no click while an item is hovered, or was a frame ago.
     ImGui::SetCursorScreenPos(corner);
-    if (gizmo) {
-        ImGui::Dummy(size);
-    } else {
-        ImGui::SetNextItemAllowOverlap();
-        ImGui::InvisibleButton(
-            "##picture", size,
-            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-    }
+    ImGui::Dummy(size);
     e.mark("picture");
-    const bool over = ImGui::IsItemHovered();
+    const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, end) && !ImGui::IsAnyItemHovered();
     navigate(e, over);
     stick(e, over);
     if (!sticking_) pick(e, over, gizmo);
@@ -310,7 +303,14 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
         const session::ViewRay ray = session::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
         const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction,
                                                [&](InstanceId hit) { return e.locked.contains(hit.value); });
-        if (!hits.empty()) id = hits[behind_ % hits.size()].instance;
+        // Each thing that can be picked once, however many parts of it the ray meets.
+        std::vector<InstanceId> targets;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> seen; // group, or object where there is none
+        for (const session::RayHit& hit : hits) {
+            const GroupId group = e.selection.click_group(e.scene(), hit.instance);
+            if (seen.insert({group.value, group ? 0 : hit.instance.value}).second) targets.push_back(hit.instance);
+        }
+        if (!targets.empty()) id = targets[behind_ % targets.size()];
     }
     if (!id) {
         if (mode == Selection::Mode::replace) e.selection.clear();

@@ -42,7 +42,7 @@ def test_a_chair_is_picked_moved_copied_and_deleted_and_all_is_undone_and_redone
     before = editor.picture()
     editor.click(CHAIR)
     state = editor.wait(lambda s: s["selection"], "a selection")
-    assert names(state) == ["chair-cushion", "chair-frame"], "a click picks the whole group"
+    assert names(state) == ["Chair cushion", "Chair frame"], "a click picks the whole group"
     start = np.array(state["selection"][0]["position"])
 
     # its handles: along x only
@@ -58,7 +58,7 @@ def test_a_chair_is_picked_moved_copied_and_deleted_and_all_is_undone_and_redone
     editor.key("ctrl+d")
     state = editor.wait(lambda s: s["history"]["position"] == 2, "a copy")
     assert state["counts"]["instances"] == 121
-    assert names(state) == ["chair-cushion 4", "chair-frame 4"]
+    assert names(state) == ["Chair cushion 4", "Chair frame 4"]
     editor.key("Delete")
     state = editor.wait(lambda s: s["history"]["position"] == 3, "the deletion")
     assert state["counts"]["instances"] == 119 and not state["selection"]
@@ -129,7 +129,7 @@ def test_a_box_picks_all_that_is_seen_in_it(editor):
 def test_what_is_shown_restarts_nothing(editor):
     request = editor.state()["view"]["request"]
     editor.key("n")            # denoising off
-    editor.key("shift+o")      # overlays off
+    editor.key("v")            # overlays off
     editor.click(CHAIR)
     editor.wait(lambda s: s["selection"], "a selection")
     assert editor.state()["view"]["request"] == request
