@@ -217,6 +217,9 @@ constexpr auto actions = std::to_array<Action>({
      [](const Editor& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
      [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const Editor& e) { return e.view.show_panels; }},
+    {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0,
+     "Every shortcut, and how to get around", nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
+     [](const Editor& e) { return e.panel_open("Help"); }},
 });
 
 } // namespace

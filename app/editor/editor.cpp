@@ -2,6 +2,7 @@
 #include "editor.hpp"
 
 #include "panels/panels.hpp"
+#include "panels/state.hpp"
 #include "session/navigation.hpp"
 #include "theme.hpp"
 
@@ -18,6 +19,7 @@ Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
       session_(registry),
       live_(std::make_unique<session::LiveView>(registry, log, options_.renderer, options_.wake)),
       opening_(registry, options_.wake) {
+    panel_state = std::make_unique<PanelState>(options_.wake);
     for (const Panel& panel : all_panels())
         panels_open_[panel.title] = panel.open;
 }
@@ -98,6 +100,8 @@ void Editor::request_quit() {
 void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     marks_.clear();
     follow_opening();
+    panel_state->loads.poll();
+    follow_convergence(*this);
     run_shortcuts(*this, keys);
     draw_panels();
     draw_modals();
@@ -122,6 +126,8 @@ void Editor::follow_opening() {
     original_ = scene();
     selection = {};
     locked.clear();
+    pick_tool.reset();
+    panel_state->forget_document();
     up_ = session::guess_up(camera());
     const auto approximated = session_.report().count(RESTAGE_APPROXIMATED),
                dropped = session_.report().count(RESTAGE_DROPPED);
@@ -224,10 +230,13 @@ void Editor::draw_menu() {
         if (shown) menu_item(*this, id);
     }
     if (shown) ImGui::EndMenu();
-    if (ImGui::BeginMenu("Panels")) {
+    const bool panels = ImGui::BeginMenu("Panels");
+    mark("menu.panels");
+    if (panels) {
         for (const Panel& panel : all_panels()) {
             ImGui::MenuItem(panel.title, nullptr, &panels_open_[panel.title]);
             ImGui::SetItemTooltip("%s", panel.tooltip);
+            mark(std::string("panels.") + panel.title);
         }
         ImGui::EndMenu();
     }
@@ -259,11 +268,13 @@ void first_layout(ImGuiID space, ImVec2 size) {
     const ImGuiID left = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, 0.19f, nullptr, &center);
     const ImGuiID right = ImGui::DockBuilderSplitNode(center, ImGuiDir_Right, 0.30f, nullptr, &center);
     const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, 0.24f, nullptr, &center);
-    for (const Panel& panel : all_panels())
+    for (const Panel& panel : all_panels()) {
+        if (panel.dock == Dock::floating) continue;
         ImGui::DockBuilderDockWindow(panel.title, panel.dock == Dock::left     ? left
                                                   : panel.dock == Dock::right  ? right
                                                   : panel.dock == Dock::bottom ? bottom
                                                                                : center);
+    }
     if (ImGuiDockNode* node = ImGui::DockBuilderGetNode(center)) node->LocalFlags |= ImGuiDockNodeFlags_AutoHideTabBar;
     ImGui::DockBuilderFinish(space);
 }
@@ -291,6 +302,13 @@ void Editor::draw_panels() {
         bool& open = panels_open_[panel.title];
         if (!open) continue;
         const bool picture = panel.draw == draw_viewport;
+        if (panel.dock == Dock::floating) {
+            const float scale = ImGui::GetStyle().FontScaleMain;
+            ImGui::SetNextWindowSize(
+                {std::min(900 * scale, main->WorkSize.x * 0.9f), std::min(620 * scale, main->WorkSize.y * 0.9f)},
+                ImGuiCond_FirstUseEver);
+            ImGui::SetNextWindowPos(main->GetCenter(), ImGuiCond_FirstUseEver, {0.5f, 0.5f});
+        }
         if (picture) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
         const bool visible =
             ImGui::Begin(panel.title, picture ? nullptr : &open,
@@ -299,6 +317,11 @@ void Editor::draw_panels() {
         if (visible) panel.draw(*this);
         ImGui::End();
     }
+}
+
+void Editor::configure_renderer(const render::RendererOptions& renderer) {
+    options_.renderer = renderer;
+    live_->configure(renderer);
 }
 
 void Editor::show_modal(std::string title, std::function<bool(Editor&)> body) {
@@ -325,9 +348,9 @@ void Editor::draw_modals() {
 
 void Editor::mark(const std::string& name) {
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-    marks_[name] = {a.x, a.y, b.x, b.y};
+    marks_[name] = {{a.x, a.y, b.x, b.y}, ImGui::GetItemID()};
 }
 
-void Editor::mark(const std::string& name, ImVec2 point) { marks_[name] = {point.x, point.y, point.x, point.y}; }
+void Editor::mark(const std::string& name, ImVec2 point) { marks_[name] = {{point.x, point.y, point.x, point.y}}; }
 
 } // namespace restage::editor

@@ -26,6 +26,8 @@
 
 namespace restage::editor {
 
+class Editor;
+
 struct EditorOptions {
     render::RendererOptions renderer;
     std::function<void()> wake; // [any] asks for another frame
@@ -49,6 +51,14 @@ struct ViewSettings {
     float fly_speed = 1; // times the scene's size a few seconds
     std::uint32_t samples = 0; // where the live picture stops; 0 = the scene's number
     double seconds = 0, error = 0;
+};
+
+struct PanelState; // panels/state.hpp
+
+// What the next click in the picture is for, instead of selecting. Esc gives it up.
+struct PickTool {
+    std::string hint; // "Click the object whose material to take"
+    std::function<void(Editor&, InstanceId, ImVec2 screen)> done;
 };
 
 class Editor {
@@ -114,6 +124,8 @@ class Editor {
     GizmoDrag gizmo_drag;
     Viewport viewport;
     std::optional<scene::Id<scene::Material>> material_clipboard;
+    std::optional<PickTool> pick_tool;
+    std::unique_ptr<PanelState> panel_state; // what panels remember: searches, open folds
 
     // --- panels
     // --------------------------------------------------------------------------------------------------------
@@ -123,9 +135,21 @@ class Editor {
     // A modal that shows until its function returns false.
     void show_modal(std::string title, std::function<bool(Editor&)> body);
 
+    const EditorOptions& options() const { return options_; }
+    void configure_renderer(const render::RendererOptions& renderer); // another device, tracer, number of threads
+    const std::optional<scene::Scene>& original() const { return original_; } // as opened
+
     // Names the last item for tests that drive the program from outside: see probe().
     void mark(const std::string& name);
     void mark(const std::string& name, ImVec2 point);
+    struct Mark {
+        ImVec4 rect; // min.x min.y max.x max.y
+        ImGuiID item = 0;
+    };
+    const Mark* find_mark(std::string_view name) const {
+        const auto found = marks_.find(name);
+        return found == marks_.end() ? nullptr : &found->second;
+    }
     // State and marks as JSON, for tests.
     std::string probe() const;
 
@@ -181,7 +205,7 @@ class Editor {
             0; // the latest of which a denoised picture, at half resolution or finer, was shown,
         double clean_seconds = 0; // and how long after it was asked for
     } latency_;
-    std::map<std::string, ImVec4> marks_; // min.x min.y max.x max.y of the last frame
+    std::map<std::string, Mark, std::less<>> marks_; // of the last frame
 };
 
 } // namespace restage::editor

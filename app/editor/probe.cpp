@@ -54,8 +54,8 @@ std::string Editor::probe() const {
                  {"denoised_seconds", clean ? clean->seconds : 0.0},
                  {"hovered", hovered.value}};
     j["latency"] = {{"pixels", latency_.pixels}, {"frames", latency_.frames}};
-    for (const auto& [name, r] : marks_)
-        j["marks"][name] = {r.x, r.y, r.z, r.w};
+    for (const auto& [name, mark] : marks_)
+        j["marks"][name] = {mark.rect.x, mark.rect.y, mark.rect.z, mark.rect.w};
     for (const auto& line : notices.lines())
         j["log"].push_back(line.text);
     return j.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -59,6 +59,7 @@ void apply_theme(float scale, const std::filesystem::path& fonts) {
     c[ImGuiCol_ScrollbarGrab] = grey(0.32f);
     c[ImGuiCol_ScrollbarGrabHovered] = grey(0.40f);
     c[ImGuiCol_ScrollbarGrabActive] = grey(0.48f);
+    c[ImGuiCol_CheckboxSelectedBg] = grey(0.22f);
     c[ImGuiCol_CheckMark] = colors::accent;
     c[ImGuiCol_SliderGrab] = grey(0.58f);
     c[ImGuiCol_SliderGrabActive] = colors::accent;

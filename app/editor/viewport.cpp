@@ -3,6 +3,7 @@
 
 #include "editor.hpp"
 #include "panels/panels.hpp"
+#include "pick_tool.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 #include "theme.hpp"
@@ -53,6 +54,7 @@ void Viewport::draw(Editor& e) {
     ImGui::SetCursorScreenPos(corner);
     ImGui::Dummy(size);
     e.mark("picture");
+    accept_asset(e);
     const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, end) && !ImGui::IsAnyItemHovered();
     navigate(e, over);
     stick(e, over);
@@ -227,6 +229,7 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
     const bool free = over && !gizmo && navigation_ == Navigation::none;
+    if (run_pick_tool(e, over && navigation_ == Navigation::none)) return;
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {

@@ -1,108 +1,179 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets.hpp"
 
-#include "editor.hpp"
 #include "theme.hpp"
 
-#include <fmt/format.h>
-#include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <string_view>
+#include <vector>
 
 namespace restage::editor {
 
-namespace {
-
-// The largest value a slider can usefully span; beyond it a drag is better.
-constexpr float slider_span = 20;
-
-bool number(const RestageParam& line, const char* label, float& v) {
-    const std::string format = *line.unit ? fmt::format("%.4g {}", line.unit) : "%.4g";
-    if (line.max - line.min <= slider_span)
-        return ImGui::SliderFloat(label, &v, line.min, line.max, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
-    return ImGui::DragFloat(label, &v, std::max(1e-4f, std::abs(v) * 0.01f), line.min, line.max, format.c_str(),
-                            ImGuiSliderFlags_AlwaysClamp);
+void form_row(const char* label, const char* tooltip, float right) {
+    const float left = ImGui::GetCursorPosX(), all = ImGui::GetContentRegionAvail().x;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float column = std::floor(std::min(all * 0.38f, 150 * ImGui::GetStyle().FontScaleMain));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool cut = ImGui::CalcTextSize(label).x > column - gap;
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushClipRect(at, {at.x + column - gap, at.y + ImGui::GetFrameHeight()}, true);
+    ImGui::TextUnformatted(label);
+    ImGui::PopClipRect();
+    if (cut && tooltip && *tooltip)
+        ImGui::SetItemTooltip("%s\n%s", label, tooltip);
+    else if (cut)
+        ImGui::SetItemTooltip("%s", label);
+    else if (tooltip && *tooltip)
+        ImGui::SetItemTooltip("%s", tooltip);
+    ImGui::SameLine(left + column);
+    ImGui::SetNextItemWidth(std::max(40.f, all - column - (right > 0 ? right + gap : 0)));
 }
 
-} // namespace
+bool section_header(const char* label, bool open_at_first) {
+    ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_TableHeaderBg));
+    ImGui::PushStyleColor(ImGuiCol_HeaderActive, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgActive));
+    const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    ImGui::PopStyleColor(2);
+    return open;
+}
 
-std::optional<scene::Value> param_widget(Editor& e, const RestageParam& line, const scene::Value& value,
-                                         const std::string& mark) {
-    scene::Value v = value;
-    bool changed = false;
-    ImGui::PushID(line.id);
-    if (const scene::Texture* texture = e.scene().textures.find(value.texture)) {
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextColored(colors::hover, "%s", texture->name.c_str());
-        ImGui::SameLine();
-        if (ImGui::SmallButton("Remove")) {
-            v.texture = {};
-            changed = true;
-        }
-        ImGui::SameLine();
-        ImGui::TextUnformatted(line.label);
-    } else {
-        switch (static_cast<RestageType>(line.type)) {
-            case RESTAGE_FLOAT:
-                changed = number(line, line.label, v.v[0]);
-                break;
-            case RESTAGE_COLOR:
-                changed = ImGui::ColorEdit3(line.label, v.v.data(),
-                                            ImGuiColorEditFlags_Float | (line.max > 1 ? ImGuiColorEditFlags_HDR : 0));
-                break;
-            case RESTAGE_INT: {
-                int i = int(v.v[0]);
-                changed =
-                    ImGui::SliderInt(line.label, &i, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
-                v.v[0] = float(i);
-                break;
-            }
-            case RESTAGE_BOOL: {
-                bool on = v.v[0] != 0;
-                changed = ImGui::Checkbox(line.label, &on);
-                v.v[0] = on ? 1.f : 0.f;
-                break;
-            }
-            case RESTAGE_ENUM:
-                if (ImGui::BeginCombo(line.label, v.text.c_str())) {
-                    std::string_view rest = line.choices;
-                    while (!rest.empty()) {
-                        const std::string choice(rest.substr(0, rest.find('|')));
-                        rest.remove_prefix(std::min(rest.size(), choice.size() + 1));
-                        if (ImGui::Selectable(choice.c_str(), choice == v.text)) {
-                            v.text = choice;
-                            changed = true;
-                        }
-                    }
-                    ImGui::EndCombo();
-                }
-                break;
-            case RESTAGE_TEXT:
-                changed = ImGui::InputText(line.label, &v.text);
-                break;
-            case RESTAGE_MATERIAL: {
-                const scene::Material* current = e.scene().materials.find(v.material);
-                if (ImGui::BeginCombo(line.label, current ? current->name.c_str() : "none")) {
-                    e.scene().materials.each([&](scene::Id<scene::Material> id, const scene::Material& m) {
-                        if (ImGui::Selectable(fmt::format("{}##{}", m.name, id.value).c_str(), id == v.material)) {
-                            v.material = id;
-                            changed = true;
-                        }
-                    });
-                    ImGui::EndCombo();
-                }
-                break;
-            }
-            case RESTAGE_TEXTURE:
-                ImGui::LabelText(line.label, "none");
-                break;
-        }
+void tip(const char* text) {
+    if (text && *text && ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled)) {
+        if (!ImGui::BeginTooltip()) return;
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+        ImGui::TextUnformatted(text);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
     }
-    e.mark(mark);
-    if (line.tooltip && *line.tooltip) ImGui::SetItemTooltip("%s", line.tooltip);
-    ImGui::PopID();
-    return changed ? std::optional(v) : std::nullopt;
 }
+
+void empty_note(const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
+}
+
+void warning_note(const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::warning);
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
+}
+
+void draw_icon(ImDrawList* draw, Icon icon, ImVec2 corner, float size, ImU32 color) {
+    const ImVec2 c(corner.x + size / 2, corner.y + size / 2);
+    const float r = size * 0.32f, line = std::max(1.f, size / 14);
+    switch (icon) {
+        case Icon::eye:
+        case Icon::eye_closed: {
+            const ImVec2 a(c.x - r * 1.25f, c.y), b(c.x + r * 1.25f, c.y);
+            draw->AddBezierQuadratic(a, {c.x, c.y + r * 1.5f}, b, color, line);
+            if (icon == Icon::eye) {
+                draw->AddBezierQuadratic(a, {c.x, c.y - r * 1.5f}, b, color, line);
+                draw->AddCircleFilled(c, r * 0.42f, color);
+            }
+            break;
+        }
+        case Icon::lock:
+        case Icon::lock_open: {
+            draw->AddRectFilled({c.x - r * 0.85f, c.y - r * 0.1f}, {c.x + r * 0.85f, c.y + r * 1.1f}, color, line);
+            const float shift = icon == Icon::lock_open ? r * 0.9f : 0;
+            draw->PathArcTo({c.x + shift, c.y - r * 0.1f}, r * 0.55f, 3.14159f, 2 * 3.14159f);
+            draw->PathStroke(color, line);
+            break;
+        }
+        case Icon::texture:
+            draw->AddRect({c.x - r, c.y - r}, {c.x + r, c.y + r}, color, line, line);
+            draw->AddRectFilled({c.x - r, c.y - r}, c, color);
+            draw->AddRectFilled(c, {c.x + r, c.y + r}, color);
+            break;
+        case Icon::light:
+        case Icon::sky:
+            draw->AddCircleFilled(c, r * 0.5f, color);
+            for (int i = 0; i < 8; ++i) {
+                const float a = float(i) * 0.785398f, x = std::cos(a), y = std::sin(a);
+                draw->AddLine({c.x + x * r * 0.8f, c.y + y * r * 0.8f}, {c.x + x * r * 1.25f, c.y + y * r * 1.25f},
+                              color, line);
+            }
+            break;
+        case Icon::camera:
+            draw->AddRect({c.x - r * 1.1f, c.y - r * 0.7f}, {c.x + r * 0.5f, c.y + r * 0.7f}, color, line, line);
+            draw->AddTriangleFilled({c.x + r * 0.5f, c.y}, {c.x + r * 1.25f, c.y - r * 0.6f},
+                                    {c.x + r * 1.25f, c.y + r * 0.6f}, color);
+            break;
+        case Icon::cross:
+            draw->AddLine({c.x - r * 0.7f, c.y - r * 0.7f}, {c.x + r * 0.7f, c.y + r * 0.7f}, color, line);
+            draw->AddLine({c.x + r * 0.7f, c.y - r * 0.7f}, {c.x - r * 0.7f, c.y + r * 0.7f}, color, line);
+            break;
+    }
+}
+
+bool icon_button(const char* id, Icon icon, bool on, const char* tooltip) {
+    const float size = ImGui::GetFrameHeight();
+    const bool pressed = ImGui::InvisibleButton(id, {size, size});
+    const bool hovered = ImGui::IsItemHovered();
+    const ImU32 color = ImGui::GetColorU32(hovered ? colors::hover
+                                           : on    ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
+                                                   : ImVec4(0.4f, 0.4f, 0.42f, 1));
+    draw_icon(ImGui::GetWindowDrawList(), icon, ImGui::GetItemRectMin(), size, color);
+    tip(tooltip);
+    return pressed;
+}
+
+bool contains_word(std::string_view text, std::string_view word) {
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) {
+               return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+           }) != text.end();
+}
+
+bool flow_button(const char* label, bool first) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::CalcTextSize(label, nullptr, true).x + 2 * style.FramePadding.x;
+    if (!first) {
+        ImGui::SameLine();
+        if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    }
+    return ImGui::Button(label);
+}
+
+void searched_list(std::string& search, std::size_t count, const std::function<std::string_view(std::size_t)>& name,
+                   const std::function<void(std::size_t)>& row) {
+    if (ImGui::IsWindowAppearing()) {
+        search.clear();
+        ImGui::SetKeyboardFocusHere();
+    }
+    if (count > 8 || !search.empty()) {
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        ImGui::InputTextWithHint("##search", "Search", &search);
+    }
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < count; ++i)
+        if (contains_word(name(i), search)) found.push_back(i);
+    if (found.empty()) ImGui::TextDisabled("Nothing is called that.");
+    const float height = ImGui::GetTextLineHeightWithSpacing();
+    if (!ImGui::BeginChild("list", {std::max(ImGui::GetContentRegionAvail().x, 220 * ImGui::GetStyle().FontScaleMain),
+                                    height * float(std::clamp<std::size_t>(found.size(), 1, 12)) + 4})) {
+        ImGui::EndChild();
+        return;
+    }
+    ImGuiListClipper clipper;
+    clipper.Begin(int(found.size()));
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            ImGui::PushID(int(found[std::size_t(i)]));
+            row(found[std::size_t(i)]);
+            ImGui::PopID();
+        }
+    ImGui::EndChild();
+}
+
+bool name_field(const char* id, std::string& name) {
+    const std::string before = name;
+    ImGui::InputText(id, &name, ImGuiInputTextFlags_AutoSelectAll);
+    return ImGui::IsItemDeactivatedAfterEdit() && !name.empty() && name != before;
+}
+
+float drag_speed(float value, float least) { return std::max(least, std::abs(value) * 0.01f); }
 
 } // namespace restage::editor

@@ -1,19 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// Widgets made from tables: one for each type of parameter a plugin can declare.
+// Widgets that panels share: rows of a form, icons, lists with a search field. What a plugin's table declares has its
+// widgets in param_widget.hpp.
 #pragma once
 
-#include "scene/params.hpp"
-
-#include <optional>
+#include <imgui.h>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace restage::editor {
 
-class Editor;
+// A row of a form: the label in the left column with its tooltip; the next item fills the rest of the line but `right`
+// pixels. Labels that do not fit are cut and shown in full by the tooltip.
+void form_row(const char* label, const char* tooltip = nullptr, float right = 0);
+// The header of a section that can be folded away, in a neutral colour: orange is for what is selected.
+bool section_header(const char* label, bool open_at_first = false);
+// The tooltip of the last item, also of a disabled one.
+void tip(const char* text);
+// What a panel says when it has nothing to show: wrapped, dim.
+void empty_note(const char* text);
+// Wrapped text with the colour of a warning.
+void warning_note(const char* text);
 
-// The widget of a parameter: label, range, unit and tooltip are the table's. The new value, when the user changed it.
-// `mark` names it for tests.
-std::optional<scene::Value> param_widget(Editor& editor, const RestageParam& line, const scene::Value& value,
-                                         const std::string& mark);
+enum class Icon { eye, eye_closed, lock, lock_open, texture, light, camera, sky, cross };
+// A square button as high as a line; `on` = bright, else dim.
+bool icon_button(const char* id, Icon icon, bool on, const char* tooltip);
+void draw_icon(ImDrawList* draw, Icon icon, ImVec2 corner, float size, ImU32 color);
+
+// Whether `word` is in `text`, whatever the case. "" is in everything.
+bool contains_word(std::string_view text, std::string_view word);
+// Buttons after each other, going to the next line where the window ends.
+bool flow_button(const char* label, bool first = false);
+
+// A field for a list that is long: draws "search" and calls row(i) for the names that match, virtualised. Between
+// BeginCombo/BeginPopup and their end. `search` is the caller's, and emptied when the list appears.
+void searched_list(std::string& search, std::size_t count, const std::function<std::string_view(std::size_t)>& name,
+                   const std::function<void(std::size_t)>& row);
+
+// A name that can be typed over. True once a new one is given, not while it is typed.
+bool name_field(const char* id, std::string& name);
+
+// How fast a drag changes a value of this magnitude.
+float drag_speed(float value, float least = 1e-4f);
 
 } // namespace restage::editor

@@ -209,7 +209,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     init.Device = device.handle();
     init.QueueFamily = device.queue_family();
     init.Queue = device.queue();
-    init.DescriptorPoolSize = 64; // textures: fonts, pictures
+    init.DescriptorPoolSize = 1024; // textures: fonts, pictures, thumbnails
     init.MinImageCount = 2;
     init.ImageCount = std::max(2u, impl->swap.ImageCount);
     init.PipelineCache = device.pipeline_cache();

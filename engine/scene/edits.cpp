@@ -47,7 +47,8 @@ Result<Edit> modify_each(const Scene& scene, std::span<const Id<Instance>> ids, 
     return edit;
 }
 
-// "chair" -> "chair 2", "chair 2" -> "chair 3", past every name that is taken.
+} // namespace
+
 std::string next_name(std::string name, std::set<std::string>& taken) {
     std::size_t digits = name.size();
     while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1])))
@@ -63,8 +64,6 @@ std::string next_name(std::string name, std::set<std::string>& taken) {
     while (!taken.insert(result).second);
     return result;
 }
-
-} // namespace
 
 template <class T>
 Result<Edit> remove(const Scene& scene, Id<T> id) {

@@ -7,6 +7,7 @@
 #include "scene/edit.hpp"
 #include "scene/tables.hpp"
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ Result<Edit> modify(const Scene& scene, Id<T> id, std::string label, F&& f) {
     edit.changes.push_back(Change<T>{id, *before, std::move(after)});
     return edit;
 }
+
+// "chair" -> "chair 2", "chair 2" -> "chair 3", past every name that is taken; it is taken then.
+std::string next_name(std::string name, std::set<std::string>& taken);
 
 template <class T>
 Result<Edit> rename(const Scene& scene, Id<T> id, std::string name) {
@@ -75,6 +79,26 @@ Result<Edit> set_param(const Scene&, Id<Material>, std::string_view param, Value
 Result<Edit> set_param(const Scene&, Id<Texture>, std::string_view param, Value);
 Result<Edit> reset_param(const Scene&, Id<Material>, std::string_view param); // back to the table's default
 Result<Edit> set_material_type(const Scene&, Id<Material>, std::string type); // values of other ids stay
+
+// --- edits_material.cpp ---------------------------------------------------------------------------------------------
+
+using ParamTable = std::span<const RestageParam>;
+// Changes the type and keeps what both have in common: a value of the same id goes on where the new table can hold it
+// (clamped to its range), else its default holds. The main colour (the first COLOR of range 0..1) and roughness go on
+// under the new type's names.
+Result<Edit> switch_material_type(const Scene&, Id<Material>, std::string type, ParamTable before, ParamTable after);
+
+struct MadeUnique {
+    Edit edit;
+    Id<Material> material; // the copy
+};
+// A copy of the material that only these instances have; others keep theirs. An error when none of them has it.
+Result<MadeUnique> make_unique(const Scene&, std::span<const Id<Instance>>, Id<Material>);
+
+// An `imagemap` of this image stands for the parameter. An image of the same file and encoding that the scene has is
+// shared, and so is a texture that shows it as it is. `scalar`: of one channel.
+Result<Edit> set_image_texture(const Scene&, Id<Material>, std::string_view param, RestageType type, bool scalar,
+                               Image);
 
 Result<Edit> set_light(const Scene&, Id<Light>, Light, std::string label = "Change light");
 Result<Edit> set_camera(const Scene&, Id<Camera>, Camera, std::string label = "Move camera");

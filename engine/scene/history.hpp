@@ -5,6 +5,7 @@
 
 #include "scene/edit.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,13 +29,14 @@ class History {
     std::string_view redo_label() const { return position_ < size() ? std::string_view(label(position_)) : ""; }
 
     void mark_clean(); // the scene as it is now is what the file holds
+    std::optional<std::size_t> clean_position() const { return clean_; } // of the saved state, while it can be reached
     bool clean() const { return clean_ && *clean_ == position_; }
 
   private:
     std::vector<Edit> edits_;
     std::size_t position_ = 0;
     std::optional<std::size_t> clean_ = 0; // position of the saved state; none = it cannot be reached any more
-    std::string gesture_;                  // key of the running gesture; its entry is edits_[position_ - 1]
+    std::string gesture_; // key of the running gesture; its entry is edits_[position_ - 1]
 };
 
 } // namespace restage::scene

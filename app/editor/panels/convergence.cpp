@@ -1,45 +1,80 @@
 // SPDX-License-Identifier: Apache-2.0
-// Convergence: the estimated relative error of the live picture against time, as it falls.
+// Convergence: the estimated relative error of the live picture against time or samples, as it falls; the picture
+// before it for comparison, and the error at which rendering stops.
 #include "panels.hpp"
+
+#include "state.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
 
 #include <imgui.h>
 #include <implot.h>
 
 namespace restage::editor {
 
-namespace {
-
-struct Curve {
-    std::uint64_t request = 0;
-    std::vector<double> seconds, samples, error;
-};
-
-} // namespace
+void follow_convergence(Editor& e) {
+    ConvergenceState& state = e.panel_state->convergence;
+    const auto frame = e.live().frame();
+    if (!frame || frame->divider != 1 || frame->relative_error >= 1e29) return;
+    if (frame->request != state.current.request) {
+        // Pictures that were left after a moment, while something moved, are no comparison.
+        if (state.current.error.size() > 2) state.previous = std::move(state.current);
+        state.current = {.request = frame->request};
+    }
+    Curve& curve = state.current;
+    const double samples = frame->image.samples;
+    if (!curve.samples.empty() && samples <= curve.samples.back()) return;
+    curve.seconds.push_back(frame->seconds);
+    curve.samples.push_back(samples);
+    curve.error.push_back(frame->relative_error * 100);
+}
 
 void draw_convergence(Editor& e) {
-    static Curve curve; // of the one live picture there is
-    static bool against_samples = false;
-    if (const auto frame = e.live().frame(); frame && frame->divider == 1 && frame->relative_error < 1e29) {
-        if (frame->request != curve.request) curve = {.request = frame->request};
-        const double samples = frame->image.samples;
-        if (curve.samples.empty() || samples > curve.samples.back()) {
-            curve.seconds.push_back(frame->seconds);
-            curve.samples.push_back(samples);
-            curve.error.push_back(frame->relative_error);
-        }
+    ConvergenceState& state = e.panel_state->convergence;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Against");
+    ImGui::SameLine();
+    if (ImGui::RadioButton("time", !state.against_samples)) state.against_samples = false;
+    e.mark("convergence.time");
+    ImGui::SameLine();
+    if (ImGui::RadioButton("samples", state.against_samples)) state.against_samples = true;
+    e.mark("convergence.samples");
+    const Curve& now = state.current;
+    if (!now.error.empty()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%.2f %% after %.0f samples, %.1f s", now.error.back(), now.samples.back(),
+                            now.seconds.back());
     }
-    ImGui::Checkbox("Against samples", &against_samples);
-    if (curve.error.empty()) {
-        ImGui::TextDisabled("Two samples a pixel are needed to estimate an error.");
+    if (now.error.empty() && state.previous.error.empty()) {
+        empty_note("The error is estimated from two samples a pixel on.");
         return;
     }
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    ImPlotStyle& style = ImPlot::GetStyle();
+    style.PlotPadding = {8 * scale, 6 * scale};
+    style.LabelPadding = {4 * scale, 3 * scale};
     if (!ImPlot::BeginPlot("##error", {-1, -1}, ImPlotFlags_NoMouseText)) return;
-    ImPlot::SetupAxes(against_samples ? "samples a pixel" : "seconds", "relative error", ImPlotAxisFlags_AutoFit,
+    ImPlot::SetupAxes(state.against_samples ? "samples a pixel" : "seconds", "error [%]", ImPlotAxisFlags_AutoFit,
                       ImPlotAxisFlags_AutoFit);
     ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
     ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
-    const auto& x = against_samples ? curve.samples : curve.seconds;
-    ImPlot::PlotLine("estimated", x.data(), curve.error.data(), int(x.size()));
+    ImPlot::SetupLegend(ImPlotLocation_NorthEast);
+    const auto line = [&](const char* name, const Curve& curve, const ImVec4& color) {
+        if (curve.error.empty()) return;
+        const auto& x = state.against_samples ? curve.samples : curve.seconds;
+        ImPlotSpec spec;
+        spec.LineColor = color;
+        spec.LineWeight = 1.5f * scale;
+        ImPlot::PlotLine(name, x.data(), curve.error.data(), int(x.size()), spec);
+    };
+    line("the picture before", state.previous, colors::dim);
+    line("this picture", now, colors::accent);
+    if (const double target = e.view.error * 100; target > 0) {
+        ImPlotSpec spec;
+        spec.LineColor = colors::good;
+        spec.Flags = ImPlotInfLinesFlags_Horizontal;
+        ImPlot::PlotInfLines("target", &target, 1, spec);
+    }
     ImPlot::EndPlot();
 }
 

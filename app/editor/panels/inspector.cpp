@@ -1,89 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inspector: what is selected. Its place, its material (type and every parameter of the plugin's table), its light.
-#include "panels.hpp"
+// Inspector: what is selected. Its name and place, its material (type and every parameter of the plugin's table), its
+// light.
+#include "inspector.hpp"
 
+#include "panels.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <misc/cpp/imgui_stdlib.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace restage::editor {
 
 namespace {
 
-void transform_section(Editor& e, InstanceId id) {
-    if (!ImGui::CollapsingHeader("Place", ImGuiTreeNodeFlags_DefaultOpen)) return;
+// Flags of the objects that are selected: a click gives all of them the active one's new value.
+void object_section(Editor& e, InstanceId id) {
+    if (!section_header("Object")) {
+        e.mark("inspector.object");
+        return;
+    }
+    e.mark("inspector.object");
     const scene::Instance& instance = e.scene().instances[id];
-    glm::vec3 position(glm::dvec3(instance.object_to_world[3]));
-    if (ImGui::DragFloat3("Position", &position.x, 0.01f, 0, 0, "%.3f")) {
-        glm::dmat4 m = instance.object_to_world;
-        m[3] = glm::dvec4(glm::dvec3(position), 1);
-        e.edit([id, m](const scene::Scene& s) { return scene::set_transform(s, id, m); }, "inspector.position");
+    const auto ids = e.selection.instances();
+    form_row("Hidden", "Neither seen nor casting light or shadow");
+    if (bool hidden = instance.hidden; ImGui::Checkbox("##hidden", &hidden))
+        e.edit([ids, hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
+    e.mark("inspector.hidden");
+    form_row("Locked", "Clicks in the picture go through it");
+    if (bool locked = e.locked.contains(id.value); ImGui::Checkbox("##locked", &locked))
+        e.later([&e, ids, locked] {
+            for (const InstanceId one : ids)
+                if (locked)
+                    e.locked.insert(one.value);
+                else
+                    e.locked.erase(one.value);
+        });
+    e.mark("inspector.locked");
+    form_row("Flip normals", "Reverse orientation: the other side is the front, for what emits or has a medium inside");
+    if (bool flipped = instance.reverse_orientation; ImGui::Checkbox("##flip", &flipped))
+        e.edit([id, flipped](const scene::Scene& s) {
+            return scene::modify(s, id, "Flip normals", [&](scene::Instance& i) { i.reverse_orientation = flipped; });
+        });
+    e.mark("inspector.flip");
+    form_row("Opacity", "Share of the surface that is there (pbrt's alpha); 1 = all of it");
+    if (const scene::Texture* cutout = e.scene().textures.find(instance.alpha_texture)) {
+        if (ImGui::Button(("Cut out by " + cutout->name + "###cutout").c_str(), {ImGui::CalcItemWidth(), 0}))
+            e.edit([id](const scene::Scene& s) {
+                return scene::modify(s, id, "Remove cut-out", [&](scene::Instance& i) { i.alpha_texture = {}; });
+            });
+        tip("A texture cuts holes into it. Click to remove that");
+    } else if (float alpha = instance.alpha;
+               ImGui::SliderFloat("##alpha", &alpha, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp)) {
+        e.edit(
+            [id, alpha](const scene::Scene& s) {
+                return scene::modify(s, id, "Opacity", [&](scene::Instance& i) { i.alpha = alpha; });
+            },
+            "inspector.alpha");
     }
-    e.mark("inspector.position");
-    const scene::Bounds bounds = scene::world_bounds(e.scene(), id);
-    if (!bounds.empty()) {
-        const glm::dvec3 size = bounds.size();
-        ImGui::TextDisabled("%.3g x %.3g x %.3g units", size.x, size.y, size.z);
-    }
-}
-
-void material_section(Editor& e, scene::Id<scene::Material> id) {
-    const scene::Material* material = e.scene().materials.find(id);
-    if (!material) {
-        ImGui::TextDisabled("No material");
-        return;
-    }
-    if (!ImGui::CollapsingHeader("Material", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    std::size_t users = 0;
-    e.scene().instances.each([&](InstanceId, const scene::Instance& i) { users += i.material == id; });
-    ImGui::Text("%s", material->name.c_str());
-    ImGui::TextDisabled("shared by %zu object%s", users, users == 1 ? "" : "s");
-    const auto* plugin = e.registry().find_material(material->type);
-    if (ImGui::BeginCombo("Type", plugin ? plugin->table->label : material->type.c_str())) {
-        for (const auto& choice : e.registry().materials()) {
-            if (ImGui::Selectable(choice.table->label, material->type == choice.table->type))
-                e.edit([id, type = std::string(choice.table->type)](const scene::Scene& s) {
-                    return scene::set_material_type(s, id, type);
-                });
-            ImGui::SetItemTooltip("%s", choice.table->tooltip);
-            e.mark(std::string("material.type.") + choice.table->type);
-        }
-        ImGui::EndCombo();
-    }
-    e.mark("material.type");
-    if (!plugin) {
-        ImGui::TextColored(colors::warning, "No plugin provides this type; it shades as a placeholder and is kept.");
-        return;
-    }
-    for (std::uint32_t i = 0; i < plugin->table->param_count; ++i) {
-        const RestageParam& line = plugin->table->params[i];
-        const scene::Value* set = material->params.find(line.id);
-        const scene::Value value = set ? *set : scene::default_value(line);
-        if (auto changed = param_widget(e, line, value, std::string("material.") + line.id))
-            e.edit([id, param = std::string(line.id),
-                    v = *changed](const scene::Scene& s) { return scene::set_param(s, id, param, v); },
-                   fmt::format("material.{}.{}", id.value, line.id));
+    e.mark("inspector.alpha");
+    if (const scene::Mesh* mesh = e.scene().meshes.find(instance.mesh); mesh && mesh->data) {
+        form_row("Mesh", mesh->source_file.c_str());
+        ImGui::TextDisabled("%zu triangles", mesh->data->triangles.size());
     }
 }
 
 } // namespace
 
 void draw_inspector(Editor& e) {
-    const InstanceId id = e.selection.active();
-    if (!id) {
-        ImGui::TextDisabled("Click an object to see what it is.");
+    if (e.selection.light()) {
+        light_section(e, e.selection.light());
         return;
     }
-    const scene::Instance& instance = e.scene().instances[id];
-    ImGui::Text("%s", instance.name.c_str());
-    if (e.selection.instances().size() > 1)
-        ImGui::TextDisabled("and %zu more; values are of this one", e.selection.instances().size() - 1);
-    transform_section(e, id);
-    material_section(e, instance.material);
+    const InstanceId id = e.selection.active();
+    const scene::Instance* instance = e.scene().instances.find(id);
+    if (!instance) {
+        empty_note(e.scene().instances.live()
+                       ? "Click an object in the picture or in the outliner to see and change what it is."
+                       : "Open a scene first.");
+        return;
+    }
+    std::string name = instance->name;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });
+    tip("The object's name");
+    e.mark("inspector.name");
+    const std::size_t count = e.selection.instances().size();
+    if (count > 1) ImGui::TextDisabled("and %zu more. Values are of this one; place and flags are of all.", count - 1);
+    place_section(e);
+    material_section(e, instance->material);
+    emission_section(e, id);
+    object_section(e, id);
 }
 
 } // namespace restage::editor

@@ -1,46 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outliner: groups, objects and lights by name; search, select, rename, hide.
+// Outliner: groups, objects, lights and cameras by name; search, select, rename, hide, lock, arrange in groups. Only
+// the rows that are seen are drawn: outliner_rows.cpp makes the list of all of them when the scene or a filter changes.
+#include "outliner.hpp"
+
 #include "panels.hpp"
-
 #include "theme.hpp"
+#include "widgets.hpp"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
-#include <cctype>
 
 namespace restage::editor {
 
 namespace {
 
-bool contains_word(const std::string& text, const std::string& word) {
-    return std::search(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) {
-               return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-           }) != text.end();
-}
-
-struct Rows { // children of each group, made anew when the scene has changed
-    scene::Version version = ~std::uint64_t(0);
-    std::map<std::uint32_t, std::vector<GroupId>> groups;
-    std::map<std::uint32_t, std::vector<InstanceId>> instances;
-
-    void update(const scene::Scene& s) {
-        if (version == s.clock) return;
-        version = s.clock;
-        groups.clear();
-        instances.clear();
-        s.groups.each([&](GroupId id, const scene::Group& g) { groups[g.parent.value].push_back(id); });
-        s.instances.each([&](InstanceId id, const scene::Instance& i) { instances[i.group.value].push_back(id); });
-    }
-};
-
-struct State {
-    Rows rows;
-    std::string search;
-    InstanceId renaming;
-    std::string new_name;
-    bool focus_name = false;
-};
+using Row = OutlinerState::Row;
 
 void click(Editor& e, std::span<const InstanceId> ids) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -49,131 +25,334 @@ void click(Editor& e, std::span<const InstanceId> ids) {
                                        : Selection::Mode::replace);
 }
 
-void instance_row(Editor& e, State& state, InstanceId id) {
+void start_renaming(OutlinerState& state, const Row& row, const std::string& name) {
+    state.renaming = row;
+    state.new_name = name;
+    state.focus_name = true;
+}
+
+template <class T>
+void rename_field(Editor& e, OutlinerState& state, scene::Id<T> id) {
+    if (std::exchange(state.focus_name, false)) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-3 * ImGui::GetFrameHeight());
+    ImGui::InputText("##rename", &state.new_name, ImGuiInputTextFlags_AutoSelectAll);
+    e.mark("outliner.rename");
+    if (!ImGui::IsItemDeactivated()) return;
+    if (ImGui::IsItemDeactivatedAfterEdit() && !state.new_name.empty())
+        e.edit([id, name = state.new_name](const scene::Scene& s) { return scene::rename(s, id, name); });
+    state.renaming = {};
+}
+
+// True while this row's name is typed.
+bool renaming(const OutlinerState& state, const Row& row) {
+    return state.renaming.id == row.id && state.renaming.kind == row.kind;
+}
+
+void ask_hidden(Editor& e, std::vector<InstanceId> ids, bool hidden) {
+    e.edit([ids = std::move(ids), hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
+}
+
+// At the right end of the row: locked, visible.
+struct RightIcons {
+    bool lock = false, eye = false; // pressed
+};
+RightIcons right_icons(Editor& e, bool locked, bool visible, const std::string& name) {
+    RightIcons pressed;
+    const float size = ImGui::GetFrameHeight();
+    const ImVec2 top = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+    ImGui::SameLine();
+    ImGui::SetCursorScreenPos({end.x - 2 * size - ImGui::GetStyle().ItemSpacing.x, top.y});
+    // Open locks and open eyes everywhere would drown those that are not: they come with the mouse.
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const bool near = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && mouse.y >= top.y &&
+                      mouse.y < top.y + size;
+    if (!locked && !near) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0);
+    pressed.lock = icon_button(
+        "lock", locked ? Icon::lock : Icon::lock_open, locked,
+        locked ? "Locked: clicks in the picture go through it" : "Lock: clicks in the picture go through it");
+    if (!locked && !near) ImGui::PopStyleVar();
+    e.mark("outliner.lock." + name);
+    ImGui::SameLine(0, 0);
+    pressed.eye = icon_button("eye", visible ? Icon::eye : Icon::eye_closed, visible, visible ? "Hide it" : "Show it");
+    e.mark("outliner.eye." + name);
+    return pressed;
+}
+
+void instance_menu(Editor& e, OutlinerState& state, const Row& row) {
+    const InstanceId id{row.id};
     const scene::Instance& instance = e.scene().instances[id];
-    ImGui::PushID(int(id.value));
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    if (state.renaming == id) {
-        if (state.focus_name) ImGui::SetKeyboardFocusHere();
-        state.focus_name = false;
-        ImGui::SetNextItemWidth(-1);
-        const bool done = ImGui::InputText("##name", &state.new_name,
-                                           ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-        if (done && !state.new_name.empty())
-            e.edit([id, name = state.new_name](const scene::Scene& s) { return scene::rename(s, id, name); });
-        if (done || ImGui::IsItemDeactivated()) state.renaming = {};
-    } else {
-        if (instance.hidden) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    if (!e.selection.contains(id)) {
         const InstanceId ids[] = {id};
-        if (ImGui::Selectable(instance.name.c_str(), e.selection.contains(id),
-                              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowOverlap |
-                                  ImGuiSelectableFlags_AllowDoubleClick)) {
-            click(e, ids);
-            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-                state.renaming = id;
-                state.new_name = instance.name;
-                state.focus_name = true;
-            }
-        }
-        if (ImGui::IsItemHovered()) e.hovered = id;
-        if (instance.hidden) ImGui::PopStyleColor();
-        e.mark("outliner." + instance.name);
-        if (ImGui::BeginPopupContextItem("row")) {
-            if (!e.selection.contains(id)) e.selection.set(ids);
-            if (ImGui::MenuItem("Rename", "double click")) {
-                state.renaming = id;
-                state.new_name = instance.name;
-                state.focus_name = true;
-            }
-            menu_item(e, "edit.duplicate");
-            menu_item(e, "edit.delete");
-            menu_item(e, "select.hide");
-            menu_item(e, "view.frame_selected");
-            if (ImGui::MenuItem("Select all with this material")) {
-                std::vector<InstanceId> same;
-                e.scene().instances.each([&](InstanceId other, const scene::Instance& i) {
-                    if (i.material == instance.material) same.push_back(other);
-                });
-                e.selection.set(same);
-            }
-            ImGui::EndPopup();
-        }
+        e.selection.set(ids);
     }
-    ImGui::TableNextColumn();
-    if (ImGui::SmallButton(instance.hidden ? "show" : "hide"))
-        e.edit([id, hide = !instance.hidden](const scene::Scene& s) {
-            const InstanceId ids[] = {id};
-            return scene::set_hidden(s, ids, hide);
+    if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, instance.name);
+    for (const char* action : {"edit.duplicate", "edit.delete", "select.hide", "select.isolate", "view.frame_selected"})
+        menu_item(e, action);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Group what is selected")) group_selected(e);
+    if (ImGui::MenuItem("Take out of the group", nullptr, false, bool(instance.group))) move_to_group(e, {});
+    ImGui::Separator();
+    if (ImGui::MenuItem("Select all with this material")) {
+        std::vector<InstanceId> same;
+        e.scene().instances.each([&](InstanceId other, const scene::Instance& i) {
+            if (i.material == instance.material) same.push_back(other);
         });
+        e.selection.set(same);
+    }
+    if (ImGui::MenuItem("List only what uses this material", nullptr, false, bool(instance.material)))
+        state.material = instance.material;
+    e.mark("outliner.menu.material");
+}
+
+void drop_target(Editor& e, GroupId group) {
+    if (!ImGui::BeginDragDropTarget()) return;
+    if (ImGui::AcceptDragDropPayload("restage.objects")) move_to_group(e, group);
+    ImGui::EndDragDropTarget();
+}
+
+void instance_row(Editor& e, OutlinerState& state, const Row& row) {
+    const InstanceId id{row.id};
+    const scene::Instance* instance = e.scene().instances.find(id);
+    if (!instance) return;
+    if (renaming(state, row)) {
+        rename_field(e, state, id);
+        return;
+    }
+    const InstanceId ids[] = {id};
+    if (instance->hidden) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    if (ImGui::Selectable(instance->name.c_str(), e.selection.contains(id),
+                          ImGuiSelectableFlags_AllowOverlap | ImGuiSelectableFlags_AllowDoubleClick,
+                          {0, ImGui::GetFrameHeight()})) {
+        click(e, ids);
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, instance->name);
+    }
+    if (instance->hidden) ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) e.hovered = id;
+    e.mark("outliner." + instance->name);
+    if (ImGui::BeginDragDropSource()) {
+        if (!e.selection.contains(id)) e.selection.set(ids);
+        ImGui::SetDragDropPayload("restage.objects", "", 1);
+        ImGui::Text("%zu object%s into a group", e.selection.instances().size(),
+                    e.selection.instances().size() == 1 ? "" : "s");
+        ImGui::EndDragDropSource();
+    }
+    if (instance->group) drop_target(e, instance->group);
+    if (ImGui::BeginPopupContextItem("row")) {
+        instance_menu(e, state, row);
+        ImGui::EndPopup();
+    }
+    const bool locked = e.locked.contains(id.value);
+    const RightIcons pressed = right_icons(e, locked, !instance->hidden, instance->name);
+    if (pressed.lock)
+        e.later([&e, id, locked] { locked ? void(e.locked.erase(id.value)) : void(e.locked.insert(id.value)); });
+    if (pressed.eye) ask_hidden(e, {id}, !instance->hidden);
+}
+
+void group_row(Editor& e, OutlinerState& state, const Row& row) {
+    const GroupId id{row.id};
+    const scene::Group* group = e.scene().groups.find(id);
+    if (!group || row.id >= state.members.size()) return;
+    if (renaming(state, row)) {
+        rename_field(e, state, id);
+        return;
+    }
+    const bool open = state.open.contains(row.id) || !state.search.empty();
+    const float side = ImGui::GetFrameHeight(), r = side * 0.2f;
+    const ImVec2 at = ImGui::GetCursorScreenPos(), c(at.x + side / 2, at.y + side / 2);
+    const bool pressed_arrow = ImGui::InvisibleButton("open", {side, side});
+    const ImU32 color =
+        ImGui::GetColorU32(ImGui::IsItemHovered() ? colors::hover : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    if (open)
+        ImGui::GetWindowDrawList()->AddTriangleFilled({c.x - r, c.y - r * 0.6f}, {c.x + r, c.y - r * 0.6f},
+                                                      {c.x, c.y + r * 0.8f}, color);
+    else
+        ImGui::GetWindowDrawList()->AddTriangleFilled({c.x - r * 0.6f, c.y - r}, {c.x + r * 0.8f, c.y},
+                                                      {c.x - r * 0.6f, c.y + r}, color);
+    if (pressed_arrow) {
+        if (open)
+            state.open.erase(row.id);
+        else
+            state.open.insert(row.id);
+    }
+    e.mark("outliner.open." + group->name);
+    ImGui::SameLine(0, 0);
+    const bool hidden = state.members[row.id] > 0 && state.hidden[row.id] == state.members[row.id];
+    const bool selected =
+        e.selection.active() && is_within(e.scene(), e.scene().instances[e.selection.active()].group, id);
+    if (hidden) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    if (ImGui::Selectable(group->name.c_str(), selected,
+                          ImGuiSelectableFlags_AllowOverlap | ImGuiSelectableFlags_AllowDoubleClick,
+                          {0, ImGui::GetFrameHeight()})) {
+        click(e, instances_in(e.scene(), id));
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, group->name);
+    }
+    if (hidden) ImGui::PopStyleColor();
+    e.mark("outliner.group." + group->name);
+    tip(fmt::format("{} objects. Click: select all of them; double click: rename", state.members[row.id]).c_str());
+    drop_target(e, id);
+    if (ImGui::BeginPopupContextItem("group")) {
+        if (ImGui::MenuItem("Select")) e.selection.set(instances_in(e.scene(), id));
+        if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, group->name);
+        if (ImGui::MenuItem("Enter")) e.selection.enter(id);
+        tip("Clicks in the picture select single objects of it; Esc leaves");
+        if (ImGui::MenuItem("Ungroup")) ungroup(e, id);
+        ImGui::EndPopup();
+    }
+    const auto all_locked = [&](const std::vector<InstanceId>& ids) {
+        return !ids.empty() &&
+               std::all_of(ids.begin(), ids.end(), [&](InstanceId one) { return e.locked.contains(one.value); });
+    };
+    // Looking at every object for every row would be slow, and is not needed while nothing is locked.
+    const auto few = !e.locked.empty() && state.members[row.id] <= 64 ? instances_in(e.scene(), id)
+                                                                      : std::vector<InstanceId>();
+    const RightIcons pressed = right_icons(e, all_locked(few), !hidden, "group." + group->name);
+    if (pressed.lock)
+        e.later([&e, id, all_locked] {
+            const auto ids = instances_in(e.scene(), id);
+            const bool unlock = all_locked(ids);
+            for (const InstanceId one : ids)
+                if (unlock)
+                    e.locked.erase(one.value);
+                else
+                    e.locked.insert(one.value);
+        });
+    if (pressed.eye) ask_hidden(e, instances_in(e.scene(), id), !hidden);
+}
+
+void light_row(Editor& e, OutlinerState& state, const Row& row) {
+    const scene::Id<scene::Light> id{row.id};
+    const scene::Light* light = e.scene().lights.find(id);
+    if (!light) return;
+    if (renaming(state, row)) {
+        rename_field(e, state, id);
+        return;
+    }
+    if (ImGui::Selectable(light->name.c_str(), e.selection.light() == id, ImGuiSelectableFlags_AllowDoubleClick,
+                          {0, ImGui::GetFrameHeight()})) {
+        e.selection.set_light(id);
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, light->name);
+    }
+    e.mark("outliner.light." + light->name);
+}
+
+void camera_row(Editor& e, OutlinerState& state, const Row& row) {
+    const scene::Id<scene::Camera> id{row.id};
+    const scene::Camera* camera = e.scene().cameras.find(id);
+    if (!camera) return;
+    if (renaming(state, row)) {
+        rename_field(e, state, id);
+        return;
+    }
+    if (ImGui::Selectable(camera->name.c_str(), id == e.camera_id(), ImGuiSelectableFlags_AllowDoubleClick,
+                          {0, ImGui::GetFrameHeight()}) &&
+        ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        e.edit([id](const scene::Scene& s) { return scene::set_active_camera(s, id); });
+    tip("Double click: look through it");
+    e.mark("outliner.camera." + camera->name);
+    if (ImGui::BeginPopupContextItem("camera")) {
+        if (ImGui::MenuItem("Look through it"))
+            e.edit([id](const scene::Scene& s) { return scene::set_active_camera(s, id); });
+        if (ImGui::MenuItem("Rename")) start_renaming(state, row, camera->name);
+        ImGui::EndPopup();
+    }
+}
+
+void draw_row(Editor& e, OutlinerState& state, const Row& row) {
+    ImGui::PushID(int(row.kind));
+    ImGui::PushID(int(row.id));
+    const float indent = float(row.depth) * ImGui::GetStyle().IndentSpacing;
+    if (row.kind != Row::Kind::group && row.kind != Row::Kind::header) // names of objects stand under names of groups
+        ImGui::Indent(indent + (row.kind == Row::Kind::instance ? ImGui::GetFrameHeight() * 0.6f : 0.01f));
+    else if (indent > 0)
+        ImGui::Indent(indent);
+    const float start = ImGui::GetCursorPosY();
+    switch (row.kind) {
+        case Row::Kind::header:
+            ImGui::AlignTextToFramePadding();
+            ImGui::TextDisabled("%s", row.id == 1 ? "Lights" : "Cameras");
+            break;
+        case Row::Kind::group:
+            group_row(e, state, row);
+            break;
+        case Row::Kind::instance:
+            instance_row(e, state, row);
+            break;
+        case Row::Kind::light:
+            light_row(e, state, row);
+            break;
+        case Row::Kind::camera:
+            camera_row(e, state, row);
+            break;
+    }
+    if (row.kind != Row::Kind::group && row.kind != Row::Kind::header)
+        ImGui::Unindent(indent + (row.kind == Row::Kind::instance ? ImGui::GetFrameHeight() * 0.6f : 0.01f));
+    else if (indent > 0)
+        ImGui::Unindent(indent);
+    ImGui::SetCursorPosY(start + ImGui::GetFrameHeight()); // rows are equally high, whatever is in them
+    ImGui::Dummy({0, 0});
+    ImGui::PopID();
     ImGui::PopID();
 }
 
-// True when something of the group is in the search.
-void group_rows(Editor& e, State& state, GroupId group) {
-    const auto groups = state.rows.groups.find(group.value);
-    if (groups != state.rows.groups.end())
-        for (const GroupId child : groups->second) {
-            ImGui::PushID(int(child.value) + 1'000'000);
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            const bool open =
-                ImGui::TreeNodeEx("##group", ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth, "%s",
-                                  e.scene().groups[child].name.c_str());
-            if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) click(e, instances_in(e.scene(), child));
-            e.mark("outliner.group." + e.scene().groups[child].name);
-            ImGui::TableNextColumn();
-            if (open) {
-                group_rows(e, state, child);
-                ImGui::TreePop();
-            }
-            ImGui::PopID();
+// Up and down go through the objects as they are listed.
+void arrow_keys(Editor& e, const OutlinerState& state) {
+    if (!ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) || ImGui::GetIO().WantTextInput) return;
+    const int step = int(ImGui::IsKeyPressed(ImGuiKey_DownArrow)) - int(ImGui::IsKeyPressed(ImGuiKey_UpArrow));
+    if (step == 0) return;
+    const int now = find_row(state, e.selection.active());
+    for (int i = now + step; i >= 0 && i < int(state.rows.size()); i += step)
+        if (const Row& row = state.rows[std::size_t(i)]; row.kind == Row::Kind::instance) {
+            const InstanceId ids[] = {{row.id}};
+            e.selection.set(ids);
+            return;
         }
-    const auto instances = state.rows.instances.find(group.value);
-    if (instances == state.rows.instances.end()) return;
-    ImGuiListClipper clipper;
-    clipper.Begin(int(instances->second.size()));
-    while (clipper.Step())
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            if (e.scene().instances.find(instances->second[std::size_t(i)]))
-                instance_row(e, state, instances->second[std::size_t(i)]);
 }
 
 } // namespace
 
 void draw_outliner(Editor& e) {
-    static State state; // of the one outliner there is
+    OutlinerState& state = e.panel_state->outliner;
     if (e.scene().instances.live() == 0) {
-        ImGui::TextDisabled("Nothing is open yet.");
+        empty_note("Nothing is open yet. Open a scene, or drop a file onto the window.");
         return;
     }
-    state.rows.update(e.scene());
-    ImGui::SetNextItemWidth(-1);
+    ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##search", "Search objects", &state.search);
     e.mark("outliner.search");
-    if (!ImGui::BeginTable("rows", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("eye", ImGuiTableColumnFlags_WidthFixed);
-    if (state.search.empty()) {
-        group_rows(e, state, {});
+    if (const scene::Material* material = e.scene().materials.find(state.material)) {
+        if (ImGui::Button(fmt::format("Uses {}   x###filter", material->name).c_str(), {-FLT_MIN, 0}))
+            state.material = {};
+        tip("Only what uses this material is listed. Click to list everything");
+        e.mark("outliner.filter");
     } else {
-        e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
-            const scene::Material* material = e.scene().materials.find(instance.material);
-            if (contains_word(instance.name, state.search) || (material && contains_word(material->name, state.search)))
-                instance_row(e, state, id);
-        });
+        state.material = {};
     }
-    e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
-        if (!state.search.empty() && !contains_word(light.name, state.search)) return;
-        ImGui::PushID(int(id.value) + 2'000'000);
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        if (ImGui::Selectable(("Light: " + light.name).c_str(), e.selection.light() == id,
-                              ImGuiSelectableFlags_SpanAllColumns))
-            e.selection.set_light(id);
-        ImGui::PopID();
-    });
-    ImGui::EndTable();
+    update_rows(e, state);
+
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ImGui::GetStyle().ItemSpacing.x, 0));
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0, 0.5f));
+    if (ImGui::BeginChild("rows", {0, 0}, 0, ImGuiWindowFlags_NoNavInputs)) {
+        arrow_keys(e, state);
+        const float height = ImGui::GetFrameHeight();
+        if (e.selection.active() != state.last_active) { // picked elsewhere: show where it is
+            state.last_active = e.selection.active();
+            const int row = find_row(state, state.last_active);
+            const float y = float(row) * height;
+            if (row >= 0 && (y < ImGui::GetScrollY() || y + height > ImGui::GetScrollY() + ImGui::GetWindowHeight()))
+                ImGui::SetScrollY(std::max(0.f, y - ImGui::GetWindowHeight() / 2));
+        }
+        if (ImGui::IsWindowFocused() && ImGui::IsKeyPressed(ImGuiKey_F2) && e.selection.active())
+            start_renaming(state, {Row::Kind::instance, e.selection.active().value, 0},
+                           e.scene().instances[e.selection.active()].name);
+        if (state.rows.empty()) empty_note("Nothing is called that.");
+        ImGuiListClipper clipper;
+        clipper.Begin(int(state.rows.size()), height);
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+                draw_row(e, state, state.rows[std::size_t(i)]);
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleVar(2);
 }
 
 } // namespace restage::editor

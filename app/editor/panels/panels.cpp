@@ -16,7 +16,9 @@ constexpr auto panels = std::to_array<Panel>({
     {"Import report", draw_import_report, Dock::bottom, true, "What was kept, approximated or dropped when opening"},
     {"Convergence", draw_convergence, Dock::bottom, true, "Estimated error against time and samples"},
     {"Plugins", draw_plugins, Dock::bottom, false, "What is loaded, from where, and why not"},
+    {"Assets", draw_assets, Dock::bottom, true, "Scenes, skies, textures and meshes to bring in"},
     {"Log", draw_log, Dock::bottom, true, "What happened"},
+    {"Help", draw_help, Dock::floating, false, "Every shortcut, and how to get around"},
 });
 
 } // namespace

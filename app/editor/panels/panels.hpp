@@ -18,14 +18,22 @@ void draw_convergence(Editor& editor);
 void draw_plugins(Editor& editor);
 void draw_log(Editor& editor);
 void draw_history(Editor& editor);
+void draw_assets(Editor& editor);
+void draw_help(Editor& editor);
 
-enum class Dock { center, left, right, bottom };
+// The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
+// a scene.
+void accept_asset(Editor& editor);
+// Notes the error of the live picture, whether the panel is seen or not; once a frame.
+void follow_convergence(Editor& editor);
+
+enum class Dock { center, left, right, bottom, floating };
 
 struct Panel {
     const char* title; // also its name in the layout file
     void (*draw)(Editor&); // between Begin and End
-    Dock dock;         // where it is at first
-    bool open;         // at first
+    Dock dock; // where it is at first
+    bool open; // at first
     const char* tooltip;
 };
 std::span<const Panel> all_panels();

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Assets: scenes, skies, textures and meshes that are at hand, from assets.json in the configuration's folder and
+// beside the program, and from folders:
+//   { "folders": ["/data/textures"], "scenes": ["room.pbrt"], "skies": ["noon.exr"], "textures": [], "meshes":
+//   ["cup.ply"] }
+// Paths are relative to the file. What is in a folder has its kind from its name: HDR images are skies.
+#pragma once
+
+#include "base/result.hpp"
+#include "texture.hpp"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace restage::editor {
+
+enum class AssetKind { scene, sky, texture, mesh };
+
+struct Asset {
+    AssetKind kind = AssetKind::texture;
+    std::string path, name;
+};
+
+// By the extension; false = none of ours.
+bool kind_of_file(const std::filesystem::path& file, AssetKind& kind);
+// What the file lists, in its order; folders are searched three levels deep. Files that are not there are left out.
+Result<std::vector<Asset>> read_assets(const std::filesystem::path& config,
+                                       std::vector<std::string>* folders = nullptr);
+std::vector<Asset> assets_in(const std::filesystem::path& folder);
+// Adds a folder to the file, which is made when there is none.
+Result<void> add_asset_folder(const std::filesystem::path& config, const std::filesystem::path& folder);
+
+struct AssetsState { // of the panel
+    bool loaded = false;
+    std::vector<Asset> entries;
+    std::vector<std::string> folders;
+    int kind = 0; // shown: 0 = all, else AssetKind + 1
+    std::string search, folder;
+    struct Thumbnail {
+        bool asked = false, failed = false;
+        std::unique_ptr<Texture> texture;
+        ImVec2 size{0, 0};
+    };
+    std::map<std::string, Thumbnail> thumbnails;
+
+    std::vector<std::string> files_of(AssetKind wanted) const {
+        std::vector<std::string> found;
+        for (const Asset& asset : entries)
+            if (asset.kind == wanted) found.push_back(asset.path);
+        return found;
+    }
+};
+
+} // namespace restage::editor

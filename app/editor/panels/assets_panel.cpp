@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// Assets: things at hand to bring into the scene: drag them into the picture, or double click.
+#include "panels.hpp"
+
+#include "base/file.hpp"
+#include "inspector.hpp"
+#include "io/image_file.hpp"
+#include "scene_panel.hpp"
+#include "state.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
+#include <cmath>
+
+namespace restage::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uint32_t thumbnail_pixels = 128;
+constexpr std::size_t most_thumbnails = 800; // the window has descriptors for 1024 textures
+constexpr const char* kind_names[] = {"All", "Scenes", "Skies", "Textures", "Meshes"};
+
+fs::path own_config(const Editor& e) {
+    return e.options().config_dir.empty() ? fs::path() : e.options().config_dir / "assets.json";
+}
+
+void load(Editor& e, AssetsState& state) {
+    state.loaded = true;
+    state.entries.clear();
+    state.folders.clear();
+    std::vector<fs::path> configs;
+    if (const fs::path own = own_config(e); !own.empty()) configs.push_back(own);
+    if (const auto bin = executable_dir())
+        for (const char* beside : {"share/restage/assets.json", "share/restage/scenes/assets.json"})
+            configs.push_back(bin->parent_path() / beside);
+    for (const fs::path& config : configs) {
+        auto read = read_assets(config, &state.folders);
+        if (!read)
+            e.notices.add(LogLevel::error, read.error().message);
+        else
+            for (Asset& asset : *read)
+                if (std::none_of(state.entries.begin(), state.entries.end(),
+                                 [&](const Asset& a) { return a.path == asset.path; }))
+                    state.entries.push_back(std::move(asset));
+    }
+}
+
+void ask_thumbnail(Editor& e, AssetsState::Thumbnail& thumbnail, const Asset& asset) {
+    thumbnail.asked = true;
+    const bool hdr = asset.kind == AssetKind::sky;
+    e.panel_state->loads.start(
+        {.path = asset.path,
+         .encoding = hdr ? RESTAGE_LINEAR : RESTAGE_SRGB,
+         .thumbnail = thumbnail_pixels,
+         .done = [&e, path = asset.path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+             AssetsState::Thumbnail& to = e.panel_state->assets.thumbnails[path];
+             if (!pixels) {
+                 to.failed = true;
+                 return;
+             }
+             const scene::PixelData& image = **pixels;
+             std::vector<std::uint32_t> rgba(std::size_t(image.width) * image.height);
+             for (std::size_t i = 0; i < rgba.size(); ++i) {
+                 std::uint32_t seen[3];
+                 for (std::size_t c = 0; c < 3; ++c)
+                     seen[c] = std::uint32_t(std::lround(
+                         255 * io::linear_to_srgb(std::clamp(
+                                   image.values[i * image.channels + (image.channels >= 3 ? c : 0)], 0.f, 1.f))));
+                 rgba[i] = seen[0] | seen[1] << 8 | seen[2] << 16 | 0xff000000u;
+             }
+             to.texture = std::make_unique<Texture>();
+             to.texture->set(image.width, image.height, rgba);
+             to.size = {float(image.width), float(image.height)};
+         }});
+}
+
+void apply(Editor& e, const Asset& asset) {
+    switch (asset.kind) {
+        case AssetKind::scene:
+            e.open(asset.path);
+            break;
+        case AssetKind::mesh:
+            e.insert(asset.path);
+            break;
+        case AssetKind::sky:
+            use_as_sky(e, asset.path);
+            break;
+        case AssetKind::texture:
+            if (e.selection.instances().empty())
+                e.notices.add(LogLevel::info, "Select an object first, or drag the image onto one");
+            else
+                texture_for_selected(e, asset.path);
+            break;
+    }
+}
+
+void cell(Editor& e, AssetsState& state, const Asset& asset, float side) {
+    ImGui::PushID(asset.path.c_str());
+    ImGui::BeginGroup();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("asset", {side, side + ImGui::GetTextLineHeight() + 4});
+    const bool visible = ImGui::IsItemVisible(), hovered = ImGui::IsItemHovered();
+    e.mark("asset." + asset.name);
+    if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) apply(e, asset);
+    if (ImGui::BeginDragDropSource()) {
+        ImGui::SetDragDropPayload("restage.path", asset.path.c_str(), asset.path.size() + 1);
+        ImGui::TextUnformatted(asset.name.c_str());
+        ImGui::EndDragDropSource();
+    }
+    static constexpr const char* uses[] = {"Double click: open it. Drag into the picture",
+                                           "Double click: becomes the sky",
+                                           "Double click: onto what is selected. Drag onto an object",
+                                           "Double click: add it to the scene. Drag to where it shall stand"};
+    tip(fmt::format("{}\n{}", asset.path, uses[int(asset.kind)]).c_str());
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(at, {at.x + side, at.y + side},
+                        ImGui::GetColorU32(hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), 4);
+    auto& thumbnail = state.thumbnails[asset.path];
+    const bool image = asset.kind == AssetKind::sky || asset.kind == AssetKind::texture;
+    if (image && visible && !thumbnail.asked && state.thumbnails.size() < most_thumbnails)
+        ask_thumbnail(e, thumbnail, asset);
+    if (thumbnail.texture && thumbnail.texture->ready()) {
+        const float fit = std::min(side / thumbnail.size.x, side / thumbnail.size.y);
+        const ImVec2 size(thumbnail.size.x * fit, thumbnail.size.y * fit),
+            corner(at.x + (side - size.x) / 2, at.y + (side - size.y) / 2);
+        draw->AddImage(thumbnail.texture->ref(), corner, {corner.x + size.x, corner.y + size.y});
+    } else {
+        const char* label = image                            ? (thumbnail.failed ? "unreadable" : "...")
+                            : asset.kind == AssetKind::scene ? "scene"
+                                                             : "mesh";
+        const ImVec2 extent = ImGui::CalcTextSize(label);
+        draw->AddText({at.x + (side - extent.x) / 2, at.y + (side - extent.y) / 2},
+                      ImGui::GetColorU32(thumbnail.failed ? colors::error : colors::dim), label);
+    }
+    draw->PushClipRect(at, {at.x + side, at.y + side * 2}, true);
+    draw->AddText({at.x, at.y + side + 2}, ImGui::GetColorU32(ImGuiCol_Text), asset.name.c_str());
+    draw->PopClipRect();
+    ImGui::EndGroup();
+    ImGui::PopID();
+}
+
+} // namespace
+
+void accept_asset(Editor& e) {
+    if (!ImGui::BeginDragDropTarget()) return;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path")) {
+        Asset asset{.path = static_cast<const char*>(payload->Data)};
+        const InstanceId under = e.viewport.instance_at(e, ImGui::GetIO().MousePos);
+        if (kind_of_file(asset.path, asset.kind)) {
+            if (asset.kind == AssetKind::texture && under) {
+                const InstanceId ids[] = {under};
+                e.selection.set(ids);
+            } else if (asset.kind == AssetKind::texture)
+                asset.kind = AssetKind::sky; // an image on the background
+            apply(e, asset);
+        }
+    }
+    ImGui::EndDragDropTarget();
+}
+
+void draw_assets(Editor& e) {
+    AssetsState& state = e.panel_state->assets;
+    if (!state.loaded) load(e, state);
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    ImGui::SetNextItemWidth(100 * scale);
+    ImGui::Combo("##kind", &state.kind, kind_names, IM_ARRAYSIZE(kind_names));
+    e.mark("assets.kind");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(140 * scale);
+    ImGui::InputTextWithHint("##search", "Search", &state.search);
+    e.mark("assets.search");
+    ImGui::SameLine();
+    if (ImGui::Button("Reload")) {
+        state.loaded = false;
+        for (auto& [path, thumbnail] :
+             state.thumbnails) // those that are there stay: textures live as long as the window
+            if (thumbnail.failed) thumbnail = {};
+    }
+    tip("Read assets.json and the folders again");
+    e.mark("assets.reload");
+    ImGui::SameLine();
+    if (ImGui::Button("Add folder...")) ImGui::OpenPopup("add folder");
+    e.mark("assets.add");
+    if (ImGui::BeginPopup("add folder")) {
+        ImGui::SetNextItemWidth(320 * scale);
+        const bool enter = ImGui::InputTextWithHint("##folder", "Folder with scenes, images or meshes", &state.folder,
+                                                    ImGuiInputTextFlags_EnterReturnsTrue);
+        e.mark("assets.folder");
+        ImGui::SameLine();
+        if ((ImGui::Button("Add") || enter) && !state.folder.empty()) {
+            std::error_code none;
+            const fs::path folder = fs::absolute(state.folder, none).lexically_normal();
+            if (!fs::is_directory(folder, none))
+                e.notices.add(LogLevel::error, folder.string() + " is no folder");
+            else if (own_config(e).empty())
+                e.notices.add(LogLevel::error, "There is no folder for settings to remember it in");
+            else if (auto added = add_asset_folder(own_config(e), folder); !added)
+                e.notices.add(LogLevel::error, added.error().message);
+            else {
+                state.folder.clear();
+                state.loaded = false;
+                ImGui::CloseCurrentPopup();
+            }
+        }
+        e.mark("assets.folder.add");
+        ImGui::EndPopup();
+    }
+    if (state.entries.empty()) {
+        empty_note(fmt::format("No assets yet. Add a folder, or list files in {}.",
+                               own_config(e).empty() ? "assets.json" : own_config(e).string())
+                       .c_str());
+        return;
+    }
+    ImGui::Separator();
+    if (ImGui::BeginChild("grid")) {
+        const float side = 84 * scale, step = side + ImGui::GetStyle().ItemSpacing.x;
+        const int columns =
+            std::max(1, int((ImGui::GetContentRegionAvail().x + ImGui::GetStyle().ItemSpacing.x) / step));
+        int shown = 0;
+        for (const Asset& asset : state.entries) {
+            if ((state.kind > 0 && int(asset.kind) != state.kind - 1) || !contains_word(asset.name, state.search))
+                continue;
+            if (shown++ % columns) ImGui::SameLine();
+            cell(e, state, asset, side);
+        }
+        if (shown == 0) empty_note("Nothing is called that.");
+    }
+    ImGui::EndChild();
+}
+
+} // namespace restage::editor

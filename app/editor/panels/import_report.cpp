@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// Import report: what became of the things in the file, what it is about, and files that were not found.
+#include "panels.hpp"
+
+#include "state.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <misc/cpp/imgui_stdlib.h>
+#include <filesystem>
+
+namespace restage::editor {
+
+namespace {
+
+using ImageId = scene::Id<scene::Image>;
+
+// Selects what an entry is about: 'material "oak"' = the objects that have it.
+bool select_named(Editor& e, const std::string& what) {
+    const std::size_t open = what.find('"'), close = what.rfind('"');
+    if (open == std::string::npos || close <= open) return false;
+    const std::string name = what.substr(open + 1, close - open - 1);
+    const scene::Scene& s = e.scene();
+    std::vector<InstanceId> found;
+    s.lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
+        if (light.name == name && what.starts_with("light")) e.selection.set_light(id);
+    });
+    if (e.selection.light()) return true;
+    s.instances.each([&](InstanceId id, const scene::Instance& instance) {
+        const scene::Material* material = s.materials.find(instance.material);
+        const scene::Mesh* mesh = s.meshes.find(instance.mesh);
+        bool hit = instance.name == name || (mesh && mesh->name == name) || (material && material->name == name);
+        if (material && what.starts_with("texture"))
+            for (const auto& entry : material->params.entries())
+                if (const scene::Texture* t = s.textures.find(entry.value.texture)) hit = hit || t->name == name;
+        if (hit) found.push_back(id);
+    });
+    if (!found.empty()) e.selection.set(found);
+    return !found.empty();
+}
+
+// Reads the images from these places and, when all were read, makes them the scene's: one step of the history.
+void relink(Editor& e, std::vector<std::pair<ImageId, std::string>> places) {
+    struct Gathering {
+        std::size_t left;
+        std::vector<std::tuple<ImageId, std::string, std::shared_ptr<const scene::PixelData>>> read;
+    };
+    auto all = std::make_shared<Gathering>(Gathering{places.size(), {}});
+    for (const auto& [id, path] : places) {
+        const scene::Image& image = e.scene().images[id];
+        e.panel_state->loads.start(
+            {.path = path,
+             .encoding = image.encoding,
+             .gamma = image.gamma,
+             .done = [&e, all, id = id, path = path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+                 if (pixels)
+                     all->read.emplace_back(id, path, *pixels);
+                 else
+                     e.notices.add(LogLevel::error, pixels.error().message);
+                 if (--all->left > 0 || all->read.empty()) return;
+                 e.edit([read = all->read](const scene::Scene& s) {
+                     scene::Edit edit{
+                         read.size() == 1 ? "Find a missing file" : fmt::format("Find {} missing files", read.size()),
+                         {}};
+                     for (const auto& [one, file, data] : read) {
+                         const scene::Image* before = s.images.find(one);
+                         if (!before) continue;
+                         scene::Image after = *before;
+                         after.path = file;
+                         after.data = data;
+                         edit.changes.push_back(scene::Change<scene::Image>{one, *before, std::move(after)});
+                     }
+                     return Result<scene::Edit>(std::move(edit));
+                 });
+             }});
+    }
+}
+
+// The files of these names anywhere in the folder.
+void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const std::string& folder) {
+    std::map<std::string, std::string> files; // name -> path
+    std::error_code error;
+    constexpr std::size_t most = 100'000; // somebody may have typed "/"
+    std::size_t seen = 0;
+    for (auto it = std::filesystem::recursive_directory_iterator(
+             folder, std::filesystem::directory_options::skip_permission_denied, error);
+         !error && it != std::filesystem::recursive_directory_iterator() && ++seen < most; it.increment(error))
+        if (it->is_regular_file(error)) files.try_emplace(it->path().filename().string(), it->path().string());
+    std::vector<std::pair<ImageId, std::string>> places;
+    for (const ImageId id : missing)
+        if (const auto found = files.find(std::filesystem::path(e.scene().images[id].path).filename().string());
+            found != files.end())
+            places.emplace_back(id, found->second);
+    if (places.empty())
+        e.notices.add(LogLevel::warning, folder + ": none of the missing files is in this folder");
+    else
+        relink(e, std::move(places));
+}
+
+void missing_files(Editor& e, ReportState& state) {
+    std::vector<ImageId> missing;
+    e.scene().images.each([&](ImageId id, const scene::Image& image) {
+        if (!image.data && !image.path.empty()) missing.push_back(id);
+    });
+    if (missing.empty()) return;
+    ImGui::TextColored(colors::warning, "%zu image file%s missing; they shade grey.", missing.size(),
+                       missing.size() == 1 ? " is" : "s are");
+    ImGui::SetNextItemWidth(260 * ImGui::GetStyle().FontScaleMain);
+    const bool enter =
+        ImGui::InputTextWithHint("##folder", "Folder they are in", &state.folder, ImGuiInputTextFlags_EnterReturnsTrue);
+    e.mark("report.folder");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(state.folder.empty());
+    if (ImGui::Button("Find all there") || (enter && !state.folder.empty()))
+        relink_from_folder(e, missing, state.folder);
+    ImGui::EndDisabled();
+    tip("Looks for files of the same names in that folder and all within it");
+    e.mark("report.find_all");
+    for (const ImageId id : missing) {
+        ImGui::PushID(int(id.value));
+        if (ImGui::SmallButton("Find...")) {
+            state.relinking = id;
+            ImGui::OpenPopup("relink");
+        }
+        e.mark("report.find." + e.scene().images[id].name);
+        if (ImGui::BeginPopup("relink")) {
+            ImGui::SetNextItemWidth(320 * ImGui::GetStyle().FontScaleMain);
+            const bool done = ImGui::InputTextWithHint("##file", "Where the file is now", &state.file,
+                                                       ImGuiInputTextFlags_EnterReturnsTrue);
+            e.mark("report.file");
+            ImGui::SameLine();
+            if ((ImGui::Button("Use") || done) && !state.file.empty()) {
+                relink(e, {{id, std::filesystem::absolute(std::exchange(state.file, {})).lexically_normal().string()}});
+                ImGui::CloseCurrentPopup();
+            }
+            e.mark("report.use");
+            ImGui::EndPopup();
+        }
+        ImGui::SameLine();
+        ImGui::TextWrapped("%s", e.scene().images[id].path.c_str());
+        ImGui::PopID();
+    }
+    ImGui::Separator();
+}
+
+} // namespace
+
+void draw_import_report(Editor& e) {
+    ReportState& state = e.panel_state->report;
+    missing_files(e, state);
+    const io::Report& report = e.session().report();
+    if (report.entries.empty()) {
+        empty_note(e.session().path().empty() ? "Nothing was imported." : "Everything in the file was kept.");
+        return;
+    }
+    const auto filter = [&](const char* name, RestageFate fate, bool& on, const ImVec4& color, const char* tooltip,
+                            const char* mark) {
+        ImGui::PushStyleColor(ImGuiCol_Text, color);
+        ImGui::Checkbox(fmt::format("{} {}###{}", report.count(fate), name, name).c_str(), &on);
+        ImGui::PopStyleColor();
+        tip(tooltip);
+        e.mark(mark);
+        ImGui::SameLine();
+    };
+    filter("dropped", RESTAGE_DROPPED, state.dropped, colors::error,
+           "Not in the scene; kept in the file when it is written where that is possible", "report.dropped");
+    filter("approximated", RESTAGE_APPROXIMATED, state.approximated, colors::warning,
+           "Rendered in a simpler way than the file says", "report.approximated");
+    filter("kept", RESTAGE_KEPT, state.kept, colors::good, "As the file says", "report.kept");
+    ImGui::SetNextItemWidth(140 * ImGui::GetStyle().FontScaleMain);
+    ImGui::InputTextWithHint("##search", "Search", &state.search);
+    e.mark("report.search");
+    std::vector<const io::ReportEntry*> shown;
+    for (const io::ReportEntry& entry : report.entries) {
+        const bool wanted = entry.fate == RESTAGE_DROPPED        ? state.dropped
+                            : entry.fate == RESTAGE_APPROXIMATED ? state.approximated
+                                                                 : state.kept;
+        if (wanted && (contains_word(entry.what, state.search) || contains_word(entry.note, state.search)))
+            shown.push_back(&entry);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Copy")) {
+        std::string text;
+        for (const io::ReportEntry* entry : shown)
+            text += io::to_string(*entry) + "\n";
+        ImGui::SetClipboardText(text.c_str());
+    }
+    tip("Copy the lines that are shown to the clipboard");
+    e.mark("report.copy");
+    if (shown.empty()) {
+        empty_note("No line fits the filter.");
+        return;
+    }
+    if (!ImGui::BeginTable("entries", 3,
+                           ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp |
+                               ImGuiTableFlags_BordersInnerV))
+        return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("What", 0, 3);
+    ImGui::TableSetupColumn("What became of it", 0, 6);
+    ImGui::TableSetupColumn("Where", 0, 2);
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(int(shown.size()));
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const io::ReportEntry& entry = *shown[std::size_t(i)];
+            ImGui::PushID(i);
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::PushStyleColor(ImGuiCol_Text, entry.fate == RESTAGE_DROPPED        ? colors::error
+                                                 : entry.fate == RESTAGE_APPROXIMATED ? colors::warning
+                                                                                      : colors::good);
+            if (ImGui::Selectable(entry.what.c_str(), false, ImGuiSelectableFlags_SpanAllColumns) &&
+                !select_named(e, entry.what))
+                e.notices.add(LogLevel::info, entry.what + " is no object, nor on one");
+            ImGui::PopStyleColor();
+            tip(fmt::format("{}: {}\n{}\nClick to select what it is about", entry.what, io::to_string(entry.fate),
+                            entry.note)
+                    .c_str());
+            e.mark(fmt::format("report.{}", i));
+            ImGui::TableNextColumn();
+            ImGui::Text("%s%s%s", io::to_string(entry.fate), entry.note.empty() ? "" : ": ", entry.note.c_str());
+            ImGui::TableNextColumn();
+            if (!entry.file.empty())
+                ImGui::TextDisabled("%s:%u", std::filesystem::path(entry.file).filename().string().c_str(), entry.line);
+            ImGui::PopID();
+        }
+    ImGui::EndTable();
+}
+
+} // namespace restage::editor

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inspector, light: an object that emits, and lights without a surface.
+#include "inspector.hpp"
+#include "param_widget.hpp"
+#include "session/color_temperature.hpp"
+#include "state.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace restage::editor {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double luminance(const glm::vec3& c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
+
+// In world units; walking a large mesh takes a while, so it is remembered.
+double area_of(Editor& e, InstanceId id) {
+    auto& known = e.panel_state->inspector.area;
+    const scene::Instance& instance = e.scene().instances[id];
+    if (known.of == id && known.transform == instance.object_to_world) return known.value;
+    known = {.of = id, .transform = instance.object_to_world, .value = 0};
+    const scene::Mesh* mesh = e.scene().meshes.find(instance.mesh);
+    if (!mesh || !mesh->data) return 0;
+    const glm::dmat3 m(instance.object_to_world);
+    for (const glm::uvec3& t : mesh->data->triangles) {
+        const glm::dvec3 a(mesh->data->positions[t.x]), b(mesh->data->positions[t.y]), c(mesh->data->positions[t.z]);
+        known.value += 0.5 * glm::length(glm::cross(m * (b - a), m * (c - a)));
+    }
+    return known.value;
+}
+
+void ask_emission(Editor& e, InstanceId id, std::optional<scene::Emission> emission, const char* gesture) {
+    e.edit([id, emission](const scene::Scene& s) { return scene::set_emission(s, id, emission); }, gesture);
+}
+
+// Directions of lights that shine along +z: an angle above the horizon and one around it, about the scene's up.
+struct Angles {
+    double elevation = 90, azimuth = 0; // of where the light comes from [deg]
+};
+
+glm::dmat3 horizon(const glm::dvec3& up) { // columns: two horizontal axes and up
+    const glm::dvec3 x = glm::normalize(std::abs(up.x) < 0.9 ? glm::cross(up, glm::dvec3(1, 0, 0))
+                                                             : glm::cross(up, glm::dvec3(0, 1, 0)));
+    return {x, glm::cross(up, x), up};
+}
+
+Angles angles_of(const glm::dmat4& light_to_world, const glm::dvec3& up) {
+    const glm::dvec3 from = glm::transpose(horizon(up)) * -glm::normalize(glm::dvec3(light_to_world[2]));
+    return {glm::degrees(std::asin(std::clamp(from.z, -1.0, 1.0))), glm::degrees(std::atan2(from.y, from.x))};
+}
+
+glm::dmat4 turned(const glm::dmat4& light_to_world, const Angles& angles, const glm::dvec3& up) {
+    const double el = glm::radians(std::clamp(angles.elevation, -89.99, 89.99)), az = glm::radians(angles.azimuth);
+    const glm::dvec3 z =
+        -(horizon(up) * glm::dvec3(std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)));
+    const glm::dvec3 x = glm::normalize(glm::cross(up, z));
+    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), light_to_world[3]};
+}
+
+} // namespace
+
+bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, const char* unit,
+                      const std::string& mark) {
+    float strength = std::max({value.x, value.y, value.z});
+    glm::vec3 color = strength > 0 ? value / strength : glm::vec3(1);
+    bool changed = false;
+    form_row("Colour", "Of the light; the brightest channel is 1");
+    if (color_field("##color", &color.x)) {
+        if (const float most = std::max({color.x, color.y, color.z}); most > 0) color /= most;
+        changed = true;
+    }
+    e.mark(mark + ".color");
+    form_row("Temperature",
+             "Sets the colour to that of a lamp: candle 1900 K, bulb 2700 K, noon 5500 K, overcast 7000 K");
+    auto kelvin = float(session::color_temperature(glm::dvec3(color)));
+    const std::string shown = kelvin > 0 ? "%.0f K" : "none";
+    if (kelvin <= 0) kelvin = 6500;
+    if (ImGui::SliderFloat("##kelvin", &kelvin, float(session::least_kelvin), 12000, shown.c_str(),
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {
+        color = glm::vec3(session::blackbody_color(double(kelvin)));
+        changed = true;
+    }
+    e.mark(mark + ".kelvin");
+    form_row(strength_label, unit);
+    const std::string format = fmt::format("%.4g {}", unit);
+    changed |= ImGui::DragFloat("##strength", &strength, drag_speed(strength, 1e-3f), 0, 1e9f, format.c_str(),
+                                ImGuiSliderFlags_AlwaysClamp);
+    e.mark(mark + ".strength");
+    if (changed) value = color * strength;
+    return changed;
+}
+
+void emission_section(Editor& e, InstanceId id) {
+    const bool shown = section_header("Light");
+    e.mark("inspector.light");
+    if (!shown) return;
+    ImGui::PushID("light");
+    const scene::Instance& instance = e.scene().instances[id];
+    form_row("Emits light", "Makes the object a lamp: its whole surface shines");
+    if (bool on = instance.emission.has_value(); ImGui::Checkbox("##emits", &on))
+        ask_emission(e, id,
+                     on ? std::optional(scene::Emission{.radiance = glm::vec3(session::blackbody_color(4000)) * 10.f})
+                        : std::nullopt,
+                     "");
+    e.mark("light.emits");
+    if (instance.emission) {
+        scene::Emission emission = *instance.emission;
+        bool changed = light_value_rows(e, emission.radiance, "Radiance", "W/(m2 sr)", "light");
+        // Power of a Lambertian emitter: pi times area times radiance, twice with both sides.
+        const double sides = pi * area_of(e, id) * (emission.two_sided ? 2 : 1);
+        if (auto power = float(luminance(emission.radiance) * sides); sides > 0) {
+            form_row("Power",
+                     "Of all of its surface, weighted by luminance; a larger object of the same radiance gives more");
+            const float before = power;
+            if (ImGui::DragFloat("##power", &power, drag_speed(power, 1e-3f), 0, 1e12f, "%.4g W",
+                                 ImGuiSliderFlags_AlwaysClamp)) {
+                emission.radiance =
+                    before > 0 ? emission.radiance * (power / before) : glm::vec3(float(double(power) / sides));
+                changed = true;
+            }
+            e.mark("light.power");
+        }
+        form_row("Two-sided", "Shines from the back of its triangles, too");
+        changed |= ImGui::Checkbox("##two-sided", &emission.two_sided);
+        e.mark("light.two_sided");
+        if (changed) ask_emission(e, id, emission, "inspector.emission");
+    }
+    ImGui::PopID();
+}
+
+void light_section(Editor& e, scene::Id<scene::Light> id) {
+    const scene::Light* found = e.scene().lights.find(id);
+    if (!found) return;
+    scene::Light light = *found;
+    std::string name = light.name;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });
+    tip("The light's name");
+    e.mark("light.name");
+    static constexpr const char* kinds[] = {"Point", "Spot", "Distant (sun)"};
+    int kind = int(light.kind) - 1;
+    bool changed = false;
+    form_row("Kind", "Point: all around. Spot: a cone. Distant: parallel, from infinitely far");
+    if (ImGui::Combo("##kind", &kind, kinds, IM_ARRAYSIZE(kinds))) {
+        light.kind = RestageLightKind(kind + 1);
+        changed = true;
+    }
+    e.mark("light.kind");
+    changed |= light_value_rows(e, light.value, light.kind == RESTAGE_LIGHT_DISTANT ? "Irradiance" : "Intensity",
+                                light.kind == RESTAGE_LIGHT_DISTANT ? "W/m2" : "W/sr", "light");
+    if (light.kind != RESTAGE_LIGHT_DISTANT) {
+        glm::dvec3 position(light.light_to_world[3]);
+        form_row("Position", "In scene units");
+        const double size = scene::world_bounds(e.scene()).radius();
+        if (ImGui::DragScalarN("##position", ImGuiDataType_Double, &position.x, 3, float(std::max(size * 0.002, 1e-4)),
+                               nullptr, nullptr, "%.3f")) {
+            light.light_to_world[3] = glm::dvec4(position, 1);
+            changed = true;
+        }
+        e.mark("light.position");
+    }
+    if (light.kind != RESTAGE_LIGHT_POINT) {
+        Angles angles = angles_of(light.light_to_world, e.up());
+        form_row("Height", "How high above the horizon the light comes from [degrees]");
+        const double lowest = -90, highest = 90;
+        bool turn = ImGui::DragScalar("##elevation", ImGuiDataType_Double, &angles.elevation, 0.25f, &lowest, &highest,
+                                      "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
+        e.mark("light.elevation");
+        form_row("Around", "From which side it comes [degrees]");
+        turn |=
+            ImGui::DragScalar("##azimuth", ImGuiDataType_Double, &angles.azimuth, 0.5f, nullptr, nullptr, "%.1f deg");
+        e.mark("light.azimuth");
+        if (turn) light.light_to_world = turned(light.light_to_world, angles, e.up());
+        changed |= turn;
+    }
+    if (light.kind == RESTAGE_LIGHT_SPOT) {
+        form_row("Cone", "Half of the cone's opening [degrees]");
+        changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
+        e.mark("light.cone");
+        form_row("Soft edge", "Width of the edge where it fades [degrees]");
+        changed |= ImGui::SliderFloat("##edge", &light.cone_delta, 0, light.cone_angle, "%.1f deg",
+                                      ImGuiSliderFlags_AlwaysClamp);
+        light.cone_delta = std::min(light.cone_delta, light.cone_angle);
+        e.mark("light.edge");
+    }
+    if (changed)
+        e.edit([id, light](const scene::Scene& s) { return scene::set_light(s, id, light, "Change " + light.name); },
+               "inspector.light");
+    ImGui::Spacing();
+    if (ImGui::Button("Remove this light")) e.edit([id](const scene::Scene& s) { return scene::remove(s, id); });
+    e.mark("light.remove");
+}
+
+} // namespace restage::editor

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inspector, material: which one, who shares it, its type, and a row for every line of the plugin's table.
+#include "inspector.hpp"
+#include "param_widget.hpp"
+#include "pick_tool.hpp"
+#include "state.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace restage::editor {
+
+using MaterialId = scene::Id<scene::Material>;
+
+namespace {
+
+// What any material can have besides its plugin's table: see restage/scene_io.h.
+constexpr RestageParam surface_lines[] = {
+    {"bump",
+     "Bump map",
+     RESTAGE_TEXTURE,
+     0,
+     0,
+     1,
+     {0},
+     "",
+     nullptr,
+     "Heights in scene units that tilt the shading normal"},
+    {"normalmap", "Normal map", RESTAGE_TEXTURE, 0, 0, 1, {0}, "", nullptr, "Tangent-space normals, as games use them"},
+};
+
+scene::ParamTable table_of(const plugin::MaterialEntry* plugin) {
+    return plugin ? scene::ParamTable(plugin->table->params, plugin->table->param_count) : scene::ParamTable();
+}
+
+void swatch(const Editor& e, const scene::Material& m) {
+    const glm::vec3 c = swatch_color(e, m);
+    const float size = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size, at.y + size},
+                                              ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1}), size * 0.2f);
+    ImGui::Dummy({size, size});
+    ImGui::SameLine();
+}
+
+// Assigns, copies, makes anew. `current` may be none.
+void material_choice(Editor& e, MaterialId current) {
+    const auto selected = e.selection.instances();
+    const scene::Material* material = e.scene().materials.find(current);
+    const auto assign = [&](MaterialId to) {
+        e.edit([selected, to](const scene::Scene& s) { return scene::set_material(s, selected, to); });
+    };
+    form_row("Material", "Choose another one of the scene for what is selected");
+    if (ImGui::BeginCombo("##choose", material ? material->name.c_str() : "none", ImGuiComboFlags_HeightLargest)) {
+        std::vector<MaterialId> ids;
+        e.scene().materials.each([&](MaterialId id, const scene::Material&) { ids.push_back(id); });
+        searched_list(
+            e.panel_state->inspector.material_search, ids.size(),
+            [&](std::size_t i) -> std::string_view { return e.scene().materials[ids[i]].name; },
+            [&](std::size_t i) {
+                const scene::Material& m = e.scene().materials[ids[i]];
+                swatch(e, m);
+                if (ImGui::Selectable(m.name.c_str(), ids[i] == current)) {
+                    assign(ids[i]);
+                    ImGui::CloseCurrentPopup();
+                }
+                e.mark("material.choose." + m.name);
+            });
+        ImGui::EndCombo();
+    }
+    e.mark("material.choose");
+
+    if (flow_button("Pick", true)) e.pick_tool = material_eyedropper(e);
+    tip("Take the material of an object that you click in the picture");
+    e.mark("material.pick");
+    if (flow_button("New")) {
+        const std::string type = e.registry().find_material("diffuse") || e.registry().materials().empty()
+                                     ? "diffuse"
+                                     : e.registry().materials().front().table->type;
+        e.edit([selected, type](const scene::Scene& s) {
+            std::set<std::string> taken{"Material"};
+            s.materials.each([&](auto, const scene::Material& m) { taken.insert(m.name); });
+            const MaterialId id = s.materials.next();
+            scene::Edit edit = scene::insert(
+                s, scene::Material{.name = scene::next_name("Material", taken), .type = type}, "New material");
+            for (const InstanceId one : selected) {
+                scene::Instance after = s.instances[one];
+                after.material = id;
+                edit.changes.push_back(scene::Change<scene::Instance>{one, s.instances[one], std::move(after)});
+            }
+            return Result<scene::Edit>(std::move(edit));
+        });
+    }
+    tip("A new matte material for what is selected");
+    e.mark("material.new");
+    ImGui::BeginDisabled(!material);
+    if (flow_button("Copy")) e.material_clipboard = current;
+    ImGui::EndDisabled();
+    tip("Remember this material, to paste it on others");
+    e.mark("material.copy");
+    const scene::Material* held = e.material_clipboard ? e.scene().materials.find(*e.material_clipboard) : nullptr;
+    ImGui::BeginDisabled(!held);
+    if (flow_button("Paste") && held) assign(*e.material_clipboard);
+    ImGui::EndDisabled();
+    tip(held ? ("Give what is selected \"" + held->name + "\"").c_str() : "Copy a material first");
+    e.mark("material.paste");
+    bool mixed = false;
+    for (const InstanceId one : selected)
+        mixed = mixed || e.scene().instances[one].material != current;
+    if (mixed && material) {
+        if (flow_button("Give to all selected")) assign(current);
+        tip("The selected objects have different materials now");
+        e.mark("material.assign");
+    }
+}
+
+void sharing(Editor& e, MaterialId id) {
+    std::size_t users = 0, chosen = 0;
+    e.scene().instances.each([&](InstanceId, const scene::Instance& i) { users += i.material == id; });
+    for (const InstanceId one : e.selection.instances())
+        chosen += e.scene().instances[one].material == id;
+    if (users <= chosen) return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(colors::hover, "Shared by %zu objects", users);
+    tip("Changes are seen on all of them. Click to select them");
+    if (ImGui::IsItemClicked()) {
+        std::vector<InstanceId> all;
+        e.scene().instances.each([&](InstanceId one, const scene::Instance& i) {
+            if (i.material == id) all.push_back(one);
+        });
+        e.later([&e, all] { e.selection.set(all); });
+    }
+    e.mark("material.shared");
+    ImGui::SameLine();
+    if (ImGui::Button("Make unique"))
+        e.edit([id, ids = e.selection.instances()](const scene::Scene& s) {
+            auto made = scene::make_unique(s, ids, id);
+            return made ? Result<scene::Edit>(std::move(made->edit)) : tl::unexpected<Error>(made.error());
+        });
+    tip("Give what is selected a copy of its own; the others stay as they are");
+    e.mark("material.unique");
+}
+
+void ask_image(Editor& e, MaterialId id, const RestageParam& line, const std::string& file) {
+    // Colours are painted for the eye; heights, normals and roughness are data.
+    const RestageEncoding encoding = line.type == RESTAGE_COLOR ? RESTAGE_SRGB : RESTAGE_LINEAR;
+    const bool scalar = line.type == RESTAGE_FLOAT || std::string_view(line.id) == "bump";
+    const std::string path = std::filesystem::absolute(file).lexically_normal().string();
+    e.panel_state->loads.start(
+        {.path = path,
+         .encoding = encoding,
+         .done = [&e, id, path, encoding, scalar, param = std::string(line.id),
+                  type = RestageType(line.type)](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+             if (!pixels) {
+                 e.notices.add(LogLevel::error, pixels.error().message);
+                 return;
+             }
+             scene::Image image{.name = std::filesystem::path(path).stem().string(),
+                                .path = path,
+                                .encoding = encoding,
+                                .data = *pixels};
+             e.edit([id, param, type, scalar, image](const scene::Scene& s) {
+                 return scene::set_image_texture(s, id, param, type, scalar, image);
+             });
+         }});
+}
+
+void param_row(Editor& e, MaterialId id, const scene::Material& material, const RestageParam& line) {
+    const scene::Value* set = material.params.find(line.id);
+    const bool fits = set && set->type == static_cast<RestageType>(line.type);
+    const ParamAsk ask = param_widget(e, line, fits ? *set : scene::default_value(line), set != nullptr,
+                                      std::string("material.") + line.id);
+    if (!ask.image_file.empty()) ask_image(e, id, line, ask.image_file);
+    if (ask.reset || (ask.value && line.type == RESTAGE_TEXTURE && !ask.value->texture))
+        e.edit([id, param = std::string(line.id)](const scene::Scene& s) { return scene::reset_param(s, id, param); });
+    else if (ask.value)
+        e.edit([id, param = std::string(line.id),
+                v = *ask.value](const scene::Scene& s) { return scene::set_param(s, id, param, v); },
+               fmt::format("material.{}.{}", id.value, line.id));
+}
+
+} // namespace
+
+void texture_for_selected(Editor& e, const std::string& file) {
+    const scene::Instance* instance = e.scene().instances.find(e.selection.active());
+    const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
+    if (!material) return;
+    for (const RestageParam& line : table_of(e.registry().find_material(material->type)))
+        if (line.type == RESTAGE_COLOR && (line.flags & RESTAGE_PARAM_TEXTURABLE)) {
+            ask_image(e, instance->material, line, file);
+            return;
+        }
+    e.notices.add(LogLevel::info, material->name + " has no colour that a texture could stand for");
+}
+
+glm::vec3 swatch_color(const Editor& e, const scene::Material& material) {
+    glm::vec3 seen(0.5f);
+    const plugin::MaterialEntry* plugin = e.registry().find_material(material.type);
+    for (const RestageParam& line : table_of(plugin)) {
+        if (line.type != RESTAGE_COLOR || line.max != 1) continue;
+        const scene::Value* set = material.params.find(line.id);
+        const scene::Value v = set ? *set : scene::default_value(line);
+        for (int i = 0; i < 3; ++i)
+            seen[i] = std::pow(std::clamp(v.v[std::size_t(i)], 0.f, 1.f), 1 / 2.2f);
+        break;
+    }
+    return seen;
+}
+
+void material_section(Editor& e, MaterialId id) {
+    const bool open = section_header("Material", true);
+    e.mark("inspector.material");
+    if (!open) return;
+    ImGui::PushID("material");
+    material_choice(e, id);
+    const scene::Material* material = e.scene().materials.find(id);
+    if (!material) {
+        empty_note("It has no material: choose one, or make a new one.");
+        ImGui::PopID();
+        return;
+    }
+    sharing(e, id);
+    std::string name = material->name;
+    form_row("Name", "The material's name");
+    if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });
+    e.mark("material.name");
+
+    const plugin::MaterialEntry* plugin = e.registry().find_material(material->type);
+    form_row("Type", plugin ? plugin->table->tooltip : "What kind of surface it is");
+    if (ImGui::BeginCombo("##type", plugin ? plugin->table->label : material->type.c_str())) {
+        for (const auto& choice : e.registry().materials()) {
+            if (ImGui::Selectable(choice.table->label, material->type == choice.table->type) &&
+                material->type != choice.table->type)
+                e.edit([id, type = std::string(choice.table->type), before = table_of(plugin),
+                        after = table_of(&choice)](const scene::Scene& s) {
+                    return scene::switch_material_type(s, id, type, before, after);
+                });
+            tip(choice.table->tooltip);
+            e.mark(std::string("material.type.") + choice.table->type);
+        }
+        ImGui::EndCombo();
+    }
+    e.mark("material.type");
+    if (!plugin)
+        warning_note(
+            fmt::format("No plugin provides \"{}\". It shades as a placeholder; its values are kept and written back.",
+                        material->type)
+                .c_str());
+
+    bool advanced = false;
+    for (const RestageParam& line : table_of(plugin)) {
+        if (line.flags & RESTAGE_PARAM_ADVANCED)
+            advanced = true;
+        else
+            param_row(e, id, *material, line);
+    }
+    if (plugin && plugin->table->glsl_file)
+        for (const RestageParam& line : surface_lines)
+            param_row(e, id, *material, line);
+    if (advanced) {
+        const bool unfolded = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_SpanAvailWidth);
+        e.mark("material.advanced");
+        if (unfolded) {
+            for (const RestageParam& line : table_of(plugin))
+                if (line.flags & RESTAGE_PARAM_ADVANCED) param_row(e, id, *material, line);
+            ImGui::TreePop();
+        }
+    }
+    ImGui::PopID();
+}
+
+} // namespace restage::editor

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene panel, lights: what shines, and new ones where the camera looks.
+#include "scene_panel.hpp"
+
+#include "session/navigation.hpp"
+#include "session/raycast.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace restage::editor {
+
+namespace {
+
+// A place above what is in the middle of the picture, under any ceiling, and how far above it is.
+struct Place {
+    glm::dvec3 target{0}, above{0};
+    double height = 1;
+};
+
+Place place_for_light(const Editor& e) {
+    const scene::Bounds all = scene::world_bounds(e.scene());
+    Place place;
+    const double size = all.empty() ? 1 : std::max(all.radius(), 1e-6);
+    place.target = all.empty() ? glm::dvec3(0) : all.center();
+    const session::ViewRay ray = session::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
+    if (const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
+        place.target = hits[0].position;
+    place.height = 0.5 * size;
+    const auto ceiling = session::raycast_all(e.scene(), place.target + e.up() * (1e-4 * size), e.up());
+    if (!ceiling.empty()) place.height = std::min(place.height, 0.7 * ceiling[0].t);
+    place.above = place.target + e.up() * place.height;
+    return place;
+}
+
+// Shines along +z: `direction`.
+glm::dmat4 aimed(const glm::dvec3& at, const glm::dvec3& direction) {
+    const glm::dvec3 z = glm::normalize(direction);
+    const glm::dvec3 x = glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
+    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(at, 1)};
+}
+
+void add_light(Editor& e, RestageLightKind kind) {
+    const Place place = place_for_light(e);
+    const auto h2 = float(place.height * place.height);
+    scene::Light light{.kind = kind, .light_to_world = aimed(place.above, -e.up())};
+    // As bright as to be seen: 10 W/m2 on what is below.
+    light.name = kind == RESTAGE_LIGHT_POINT ? "Point light" : kind == RESTAGE_LIGHT_SPOT ? "Spot light" : "Sun";
+    light.value = kind == RESTAGE_LIGHT_DISTANT ? glm::vec3(10) : glm::vec3(10 * h2);
+    if (kind == RESTAGE_LIGHT_DISTANT) // from behind the camera's shoulder
+        light.light_to_world = aimed(place.above, glm::dvec3(e.camera().camera_to_world[2]) * 0.6 - e.up() +
+                                                      glm::dvec3(e.camera().camera_to_world[0]) * 0.5);
+    e.later([&e, light = std::move(light)]() mutable {
+        session::Session& session = e.session_for_changes();
+        const auto id = session.scene().lights.next();
+        const std::string label = "Add " + light.name;
+        session.edit(scene::insert(session.scene(), std::move(light), label));
+        e.selection.set_light(id);
+    });
+}
+
+void add_area_light(Editor& e) {
+    const Place place = place_for_light(e);
+    auto square = std::make_shared<scene::MeshData>(); // faces +z
+    square->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+    square->uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    square->triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene::compute_bounds(*square);
+    const double side = 0.5 * place.height;
+    const glm::dmat4 to_world = aimed(place.above, -e.up()) * glm::scale(glm::dmat4(1), glm::dvec3(side, side, side));
+    const std::string type = e.registry().find_material("diffuse") || e.registry().materials().empty()
+                                 ? "diffuse"
+                                 : e.registry().materials().front().table->type;
+    e.later([&e, square, to_world, type] {
+        session::Session& session = e.session_for_changes();
+        const scene::Scene& s = session.scene();
+        scene::Edit edit{"Add area light", {}};
+        const auto mesh = s.meshes.next();
+        edit.changes.push_back(
+            scene::Change<scene::Mesh>{mesh, std::nullopt, scene::Mesh{.name = "Area light", .data = square}});
+        const auto material = s.materials.next();
+        edit.changes.push_back(scene::Change<scene::Material>{material, std::nullopt,
+                                                              scene::Material{.name = "Area light", .type = type}});
+        const InstanceId id = s.instances.next();
+        edit.changes.push_back(
+            scene::Change<scene::Instance>{id, std::nullopt,
+                                           scene::Instance{.name = "Area light",
+                                                           .mesh = mesh,
+                                                           .material = material,
+                                                           .object_to_world = to_world,
+                                                           .emission = scene::Emission{.radiance = glm::vec3(15)}}});
+        session.edit(std::move(edit));
+        const InstanceId ids[] = {id};
+        e.selection.set(ids);
+    });
+}
+
+} // namespace
+
+void lights_section(Editor& e) {
+    const bool open = section_header("Lights");
+    e.mark("scene.lights");
+    if (!open) return;
+    ImGui::PushID("lights");
+    std::size_t shown = 0;
+    e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
+        static constexpr const char* kinds[] = {"", "point", "spot", "distant"};
+        ImGui::PushID(int(id.value));
+        if (ImGui::Selectable(light.name.c_str(), e.selection.light() == id, ImGuiSelectableFlags_AllowOverlap))
+            e.selection.set_light(id);
+        e.mark("lights." + light.name);
+        ImGui::SameLine(ImGui::GetContentRegionAvail().x - 60 * ImGui::GetStyle().FontScaleMain);
+        ImGui::TextDisabled("%s", kinds[light.kind]);
+        ImGui::PopID();
+        ++shown;
+    });
+    constexpr std::size_t most = 50; // a file can have thousands of emitting triangles
+    std::size_t emitters = 0;
+    e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
+        if (!instance.emission || ++emitters > most) return;
+        ImGui::PushID(int(id.value) + 1'000'000);
+        const InstanceId ids[] = {id};
+        if (ImGui::Selectable(instance.name.c_str(), e.selection.contains(id), ImGuiSelectableFlags_AllowOverlap))
+            e.selection.set(ids);
+        if (ImGui::IsItemHovered()) e.hovered = id;
+        e.mark("lights." + instance.name);
+        ImGui::SameLine(ImGui::GetContentRegionAvail().x - 60 * ImGui::GetStyle().FontScaleMain);
+        ImGui::TextDisabled("object");
+        ImGui::PopID();
+        ++shown;
+    });
+    if (emitters > most) ImGui::TextDisabled("and %zu more objects that emit", emitters - most);
+    if (shown == 0) empty_note("No lights besides the sky.");
+    if (flow_button("+ Point", true)) add_light(e, RESTAGE_LIGHT_POINT);
+    tip("Shines all around, above what is in the middle of the picture");
+    e.mark("lights.add_point");
+    if (flow_button("+ Spot")) add_light(e, RESTAGE_LIGHT_SPOT);
+    tip("A cone downwards onto what is in the middle of the picture");
+    e.mark("lights.add_spot");
+    if (flow_button("+ Sun")) add_light(e, RESTAGE_LIGHT_DISTANT);
+    tip("Parallel light from behind the camera");
+    e.mark("lights.add_distant");
+    if (flow_button("+ Area")) add_area_light(e);
+    tip("A square that shines downwards: soft shadows");
+    e.mark("lights.add_area");
+    ImGui::PopID();
+}
+
+} // namespace restage::editor

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What panels remember from frame to frame. No part of the document; one for each editor.
+#pragma once
+
+#include "assets.hpp"
+#include "image_loads.hpp"
+#include "selection.hpp"
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace restage::editor {
+
+struct InspectorState {
+    bool uniform_scale = true;
+    std::optional<glm::dvec3> euler; // last shown [deg]: kept while it still means the same rotation
+    InstanceId euler_of;
+    struct Relative { // of several objects: what the fields show until they are let go
+        glm::dvec3 move{0}, turn{0}, scale{1};
+        glm::dvec3 pivot{0};
+        std::vector<std::pair<InstanceId, glm::dmat4>> start;
+    } relative;
+    std::string material_search;
+    struct Area { // of the selected emitter, in world units
+        InstanceId of;
+        glm::dmat4 transform{0};
+        double value = 0;
+    } area;
+};
+
+struct OutlinerState {
+    struct Row {
+        enum class Kind { header, group, instance, light, camera } kind = Kind::instance;
+        std::uint32_t id = 0; // of that kind
+        int depth = 0;
+    };
+    std::vector<Row> rows;
+    scene::Version made_for = ~std::uint64_t(0);
+    std::string made_search;
+    scene::Id<scene::Material> made_material;
+    std::set<std::uint32_t> open, made_open; // groups
+    std::vector<std::uint32_t> members, hidden; // objects in each group, at any depth
+    std::string search;
+    scene::Id<scene::Material> material; // only what uses it
+    OutlinerState::Row renaming{.id = 0};
+    std::string new_name;
+    bool focus_name = false;
+    InstanceId last_active; // scrolls when it changes elsewhere
+};
+
+struct SceneState {
+    bool keep_aspect = true;
+    double aspect = 1;
+    std::string device, sky_search;
+    bool device_shown = false;
+    int threads = 0; // while it is dragged
+    bool choose_sky = false; // the row of a sky's image is wanted, and there is none yet
+};
+
+struct ReportState {
+    bool kept = false, approximated = true, dropped = true;
+    std::string search, folder, file;
+    scene::Id<scene::Image> relinking;
+};
+
+struct LogState {
+    bool info = true, warnings = true, errors = true;
+    std::string search;
+    std::size_t cleared = 0; // lines before this one are not shown
+    std::size_t seen = 0;
+};
+
+struct Curve {
+    std::uint64_t request = 0;
+    std::vector<double> seconds, samples, error;
+};
+struct ConvergenceState {
+    Curve current, previous;
+    bool against_samples = false;
+};
+
+struct PanelState {
+    explicit PanelState(std::function<void()> wake) : loads(std::move(wake)) {}
+    // Of a scene that is no more.
+    void forget_document() {
+        inspector = {};
+        outliner = {};
+        report = {};
+        convergence.current = {};
+        convergence.previous = {};
+        history_seen = 0;
+    }
+
+    ImageLoads loads;
+    InspectorState inspector;
+    OutlinerState outliner;
+    SceneState scene;
+    ReportState report;
+    LogState log;
+    ConvergenceState convergence;
+    AssetsState assets;
+    std::size_t history_seen = 0;
+    std::string image_path, texture_search; // in popups that ask for an image
+};
+
+} // namespace restage::editor

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "param_widget.hpp"
+
+#include "editor.hpp"
+#include "io/image_file.hpp"
+#include "panels/state.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
+#include <cmath>
+
+namespace restage::editor {
+
+namespace {
+
+constexpr float slider_span = 20; // the largest range a slider is of use for; beyond it a drag is better
+
+bool number(const RestageParam& line, float& v) {
+    const std::string format = *line.unit ? fmt::format("%.4g {}", line.unit) : "%.4g";
+    if (line.max - line.min <= slider_span)
+        return ImGui::SliderFloat("##value", &v, line.min, line.max, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+    return ImGui::DragFloat("##value", &v, drag_speed(v), line.min, line.max, format.c_str(),
+                            ImGuiSliderFlags_AlwaysClamp);
+}
+
+std::string default_text(const RestageParam& line) {
+    const scene::Value v = scene::default_value(line);
+    switch (v.type) {
+        case RESTAGE_COLOR:
+            return fmt::format("{:.3g}, {:.3g}, {:.3g}", v.v[0], v.v[1], v.v[2]);
+        case RESTAGE_BOOL:
+            return v.v[0] != 0 ? "on" : "off";
+        case RESTAGE_ENUM:
+            return v.text;
+        case RESTAGE_FLOAT:
+        case RESTAGE_INT:
+            return fmt::format("{:.4g}", v.v[0]);
+        default:
+            return "none";
+    }
+}
+
+bool enum_combo(const RestageParam& line, scene::Value& v) {
+    bool changed = false;
+    if (!ImGui::BeginCombo("##value", v.text.c_str())) return false;
+    std::string_view rest = line.choices;
+    while (!rest.empty()) {
+        const std::string choice(rest.substr(0, rest.find('|')));
+        rest.remove_prefix(std::min(rest.size(), choice.size() + 1));
+        if (ImGui::Selectable(choice.c_str(), choice == v.text)) {
+            changed = v.text != choice;
+            v.text = choice;
+        }
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool material_combo(Editor& e, scene::Value& v, const std::string& mark) {
+    const scene::Material* current = e.scene().materials.find(v.material);
+    bool changed = false;
+    if (!ImGui::BeginCombo("##value", current ? current->name.c_str() : "none")) return false;
+    e.scene().materials.each([&](scene::Id<scene::Material> id, const scene::Material& m) {
+        if (ImGui::Selectable(fmt::format("{}##{}", m.name, id.value).c_str(), id == v.material)) {
+            v.material = id;
+            changed = true;
+        }
+        e.mark(mark + "." + m.name);
+    });
+    ImGui::EndCombo();
+    return changed;
+}
+
+// Everything a slot can hold: the scene's textures, a file, nothing.
+void texture_popup(Editor& e, const scene::Value& value, bool scalar, ParamAsk& ask, const std::string& mark) {
+    if (!ImGui::BeginPopup("texture")) return;
+    if (value.texture) {
+        if (ImGui::MenuItem("Remove the texture")) {
+            ask.value = value;
+            ask.value->texture = {};
+        }
+        e.mark(mark + ".texture.remove");
+        ImGui::Separator();
+    }
+    std::vector<scene::Id<scene::Texture>> ids;
+    e.scene().textures.each([&](scene::Id<scene::Texture> id, const scene::Texture& t) {
+        if (t.is_float == scalar || t.type == "imagemap") ids.push_back(id);
+    });
+    if (ids.empty())
+        ImGui::TextDisabled("The scene has no textures yet.");
+    else
+        searched_list(
+            e.panel_state->texture_search, ids.size(),
+            [&](std::size_t i) -> std::string_view { return e.scene().textures[ids[i]].name; },
+            [&](std::size_t i) {
+                const scene::Texture& t = e.scene().textures[ids[i]];
+                if (ImGui::Selectable(t.name.c_str(), ids[i] == value.texture)) {
+                    ask.value = value;
+                    ask.value->texture = ids[i];
+                    ImGui::CloseCurrentPopup();
+                }
+                e.mark(mark + ".texture." + t.name);
+            });
+    ImGui::Separator();
+    if (const std::string file = image_file_popup(e, mark + ".texture"); !file.empty()) {
+        ask.image_file = file;
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void accept_image(ParamAsk& ask) {
+    if (!ImGui::BeginDragDropTarget()) return;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path"))
+        ask.image_file = static_cast<const char*>(payload->Data);
+    ImGui::EndDragDropTarget();
+}
+
+} // namespace
+
+std::string image_file_popup(Editor& e, const std::string& mark) {
+    std::string& path = e.panel_state->image_path;
+    std::string chosen;
+    ImGui::SetNextItemWidth(200 * ImGui::GetStyle().FontScaleMain);
+    const bool enter =
+        ImGui::InputTextWithHint("##file", "Path of an image file", &path, ImGuiInputTextFlags_EnterReturnsTrue);
+    tip("PNG, JPG, EXR, HDR, TGA, BMP or PFM");
+    e.mark(mark + ".file");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(path.empty());
+    if ((ImGui::Button("Use") || enter) && !path.empty()) chosen = std::exchange(path, {});
+    ImGui::EndDisabled();
+    e.mark(mark + ".use");
+    return chosen;
+}
+
+bool color_field(const char* id, float* linear, bool hdr) {
+    if (hdr) return ImGui::ColorEdit3(id, linear, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+    float seen[3];
+    for (int i = 0; i < 3; ++i)
+        seen[i] = io::linear_to_srgb(linear[i]);
+    const float before[3] = {seen[0], seen[1], seen[2]};
+    if (!ImGui::ColorEdit3(id, seen, ImGuiColorEditFlags_Float)) return false;
+    for (int i = 0; i < 3; ++i) // a channel that was not touched keeps its exact value
+        if (seen[i] != before[i]) linear[i] = io::srgb_to_linear(seen[i]);
+    return true;
+}
+
+ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& value, bool is_set,
+                      const std::string& mark) {
+    ParamAsk ask;
+    scene::Value v = value;
+    const bool textured = e.scene().textures.find(value.texture) != nullptr;
+    const bool slot = line.type == RESTAGE_TEXTURE || (line.flags & RESTAGE_PARAM_TEXTURABLE);
+    ImGui::PushID(line.id);
+    const float square = ImGui::GetFrameHeight();
+    form_row(line.label, line.tooltip, slot && line.type != RESTAGE_TEXTURE ? square : 0);
+    bool changed = false;
+    if (textured || line.type == RESTAGE_TEXTURE) {
+        const scene::Texture* texture = e.scene().textures.find(value.texture);
+        const std::string name = texture ? texture->name : "none";
+        if (ImGui::Button((name + "###value").c_str(), {ImGui::CalcItemWidth(), 0})) ImGui::OpenPopup("texture");
+        tip(texture ? "A texture stands for this value: click to choose another, or none"
+                    : "Click to choose a texture; or drop an image here");
+        accept_image(ask);
+    } else {
+        switch (static_cast<RestageType>(line.type)) {
+            case RESTAGE_FLOAT:
+                changed = number(line, v.v[0]);
+                break;
+            case RESTAGE_COLOR:
+                changed = color_field("##value", v.v.data(), line.max > 1);
+                break;
+            case RESTAGE_INT: {
+                int i = int(v.v[0]);
+                changed =
+                    ImGui::SliderInt("##value", &i, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
+                v.v[0] = float(i);
+                break;
+            }
+            case RESTAGE_BOOL: {
+                bool on = v.v[0] != 0;
+                changed = ImGui::Checkbox("##value", &on);
+                v.v[0] = on ? 1.f : 0.f;
+                break;
+            }
+            case RESTAGE_ENUM:
+                changed = enum_combo(line, v);
+                break;
+            case RESTAGE_TEXT:
+                changed = ImGui::InputText("##value", &v.text);
+                break;
+            case RESTAGE_MATERIAL:
+                changed = material_combo(e, v, mark);
+                break;
+            case RESTAGE_TEXTURE:
+                break;
+        }
+        tip(line.tooltip);
+    }
+    e.mark(mark);
+    if (ImGui::BeginPopupContextItem("param")) {
+        if (ImGui::MenuItem(fmt::format("Back to the default ({})", default_text(line)).c_str(), nullptr, false,
+                            is_set))
+            ask.reset = true;
+        e.mark(mark + ".reset");
+        ImGui::EndPopup();
+    }
+    if (slot && line.type != RESTAGE_TEXTURE) {
+        ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+        if (icon_button("slot", Icon::texture, textured, "A texture for this value; or drop an image here"))
+            ImGui::OpenPopup("texture");
+        e.mark(mark + ".texture");
+        accept_image(ask);
+    }
+    if (slot) texture_popup(e, value, line.type == RESTAGE_FLOAT, ask, mark);
+    if (changed) ask.value = v;
+    if (textured) texture_settings(e, value.texture, mark + ".image");
+    ImGui::PopID();
+    return ask;
+}
+
+void texture_settings(Editor& e, scene::Id<scene::Texture> id, const std::string& mark) {
+    const scene::Texture& texture = e.scene().textures[id];
+    if (texture.type != "imagemap") return;
+    if (!ImGui::TreeNodeEx("Image", ImGuiTreeNodeFlags_SpanAvailWidth)) {
+        e.mark(mark);
+        return;
+    }
+    e.mark(mark);
+    const scene::Image* image = e.scene().images.find(texture.image);
+    if (image && image->data)
+        ImGui::TextDisabled("%u x %u, %s", image->data->width, image->data->height,
+                            image->encoding == RESTAGE_SRGB ? "sRGB" : "linear");
+    else
+        warning_note("The image is missing; it shades grey.");
+    if (image) tip(image->path.c_str());
+    static constexpr RestageParam lines[] = {
+        {"scale", "Scale", RESTAGE_FLOAT, 0, 0, 10, {1}, "", nullptr, "Multiplies the image's values"},
+        {"invert", "Invert", RESTAGE_BOOL, 0, 0, 1, {0}, "", nullptr, "One minus the image's values"},
+        {"wrap", "Outside", RESTAGE_ENUM, 0, 0, 2, {0}, "", "repeat|black|clamp", "What is seen where the image ends"},
+        {"uscale", "Repeat u", RESTAGE_FLOAT, 0, -100, 100, {1}, "", nullptr, "How often the image fits along u"},
+        {"vscale", "Repeat v", RESTAGE_FLOAT, 0, -100, 100, {1}, "", nullptr, "How often the image fits along v"},
+        {"udelta", "Shift u", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In widths of the image"},
+        {"vdelta", "Shift v", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In heights of the image"},
+    };
+    for (const RestageParam& line : lines) {
+        const scene::Value* set = texture.params.find(line.id);
+        const ParamAsk ask =
+            param_widget(e, line, set ? *set : scene::default_value(line), set != nullptr, mark + "." + line.id);
+        if (ask.value || ask.reset)
+            e.edit([id, name = std::string(line.id), v = ask.reset ? scene::default_value(line) : *ask.value](
+                       const scene::Scene& s) { return scene::set_param(s, id, name, v); },
+                   fmt::format("texture.{}.{}", id.value, line.id));
+    }
+    ImGui::TreePop();
+}
+
+} // namespace restage::editor

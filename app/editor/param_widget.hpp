@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The widget of one parameter that a plugin declares, made from its table line, and of a texture that stands for it.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace restage::editor {
+
+class Editor;
+
+struct ParamAsk { // what the user wants of it; nothing most of the time
+    std::optional<scene::Value> value;
+    bool reset = false; // back to the table's default
+    std::string image_file; // a texture of this image
+};
+
+// A row: label, range, unit and tooltip are the table's. A right click offers the default. `mark` names it for tests.
+ParamAsk param_widget(Editor& editor, const RestageParam& line, const scene::Value& value, bool is_set,
+                      const std::string& mark);
+
+// Scale, wrap, inversion and placing of an image texture, as rows that ask for edits themselves.
+void texture_settings(Editor& editor, scene::Id<scene::Texture> texture, const std::string& mark);
+
+// A colour that is linear inside and chosen as it is seen. True when changed.
+bool color_field(const char* id, float* linear, bool hdr = false);
+
+// Opens with OpenPopup("image file"): a path to type and the images that lie beside the scene's. The chosen file, or
+// "".
+std::string image_file_popup(Editor& editor, const std::string& mark);
+
+} // namespace restage::editor

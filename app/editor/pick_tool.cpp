@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pick_tool.hpp"
+
+#include "session/navigation.hpp"
+#include "session/raycast.hpp"
+
+namespace restage::editor {
+
+bool run_pick_tool(Editor& e, bool over) {
+    if (!e.pick_tool) return false;
+    if (ImGui::IsKeyPressed(ImGuiKey_Escape) || ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+        e.pick_tool.reset();
+        return true;
+    }
+    if (!over) return true;
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    e.hovered = e.viewport.instance_at(e, at);
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    ImGui::SetTooltip("%s (Esc: give up)", e.pick_tool->hint.c_str());
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+        const PickTool tool = *e.pick_tool; // done() may take up another
+        e.pick_tool.reset();
+        tool.done(e, e.hovered, at);
+    }
+    return true;
+}
+
+PickTool material_eyedropper(const Editor& editor) {
+    return {"Click the object whose material to take",
+            [to = editor.selection.instances()](Editor& e, InstanceId id, ImVec2) {
+                const scene::Instance* from = e.scene().instances.find(id);
+                if (!from || !from->material) return;
+                e.material_clipboard = from->material;
+                e.edit([to, material = from->material](const scene::Scene& s) {
+                    return scene::set_material(s, to, material);
+                });
+            }};
+}
+
+PickTool focus_picker() {
+    return {"Click what shall be sharp", [](Editor& e, InstanceId, ImVec2 screen) {
+                // A view ray has z = 1 in camera space, so t is the distance along the view: what pbrt calls focal
+                // distance.
+                const session::ViewRay ray =
+                    session::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
+                const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+                if (hits.empty()) {
+                    e.notices.add(LogLevel::info, "There is nothing to focus on");
+                    return;
+                }
+                e.edit([t = float(hits[0].t)](const scene::Scene& s) {
+                    const scene::Camera* now = s.cameras.find(s.active_camera.value);
+                    if (!now) return Result<scene::Edit>(fail("the scene has no camera"));
+                    scene::Camera camera = *now;
+                    camera.focal_distance = t;
+                    return scene::set_camera(s, s.active_camera.value, camera, "Focus");
+                });
+            }};
+}
+
+} // namespace restage::editor

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pick tools: a click in the picture that gives something to a panel (a material, a distance) instead of selecting.
+#pragma once
+
+#include "editor.hpp"
+
+namespace restage::editor {
+
+// By the viewport, before it picks. True while a tool is in hand: the click is its own. `over`: the mouse is free
+// there.
+bool run_pick_tool(Editor& editor, bool over);
+
+// The material of what is clicked goes to the objects that are selected now.
+PickTool material_eyedropper(const Editor& editor);
+// What is clicked becomes sharp: the camera's focus distance.
+PickTool focus_picker();
+
+} // namespace restage::editor

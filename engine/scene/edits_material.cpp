@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builders of edits for what is done to materials: another type, one of one's own, an image for a parameter.
+#include "scene/edits.hpp"
+
+#include <algorithm>
+
+namespace restage::scene {
+
+namespace {
+
+const RestageParam* line_of(ParamTable table, std::string_view id) {
+    const auto found = std::find_if(table.begin(), table.end(), [&](const RestageParam& p) { return p.id == id; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+const RestageParam* main_color(ParamTable table) {
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [](const RestageParam& p) { return p.type == RESTAGE_COLOR && p.max == 1; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+bool is_roughness(const RestageParam& p) {
+    return p.type == RESTAGE_FLOAT && p.max == 1 && std::string_view(p.id).ends_with("roughness");
+}
+
+// The value as the table line can hold it; nothing where it cannot.
+std::optional<Value> fitted(Value value, const RestageParam& line) {
+    const auto type = static_cast<RestageType>(line.type);
+    if (value.texture && !(line.flags & RESTAGE_PARAM_TEXTURABLE) && type != RESTAGE_TEXTURE) return {};
+    if (value.type != type) return {};
+    if (type == RESTAGE_ENUM && !choice_index(line.choices, value.text)) return {};
+    if (type == RESTAGE_FLOAT || type == RESTAGE_INT || type == RESTAGE_COLOR)
+        for (float& x : value.v)
+            x = std::clamp(x, line.min, line.max);
+    return value;
+}
+
+} // namespace
+
+Result<Edit> switch_material_type(const Scene& scene, Id<Material> id, std::string type, ParamTable before,
+                                  ParamTable after) {
+    const Material* old = scene.materials.find(id);
+    if (!old) return fail("there is no material with id " + std::to_string(id.value));
+    const auto held = [&](const RestageParam& line) { // what the old type showed for it
+        const Value* set = old->params.find(line.id);
+        return set ? *set : default_value(line);
+    };
+    ParamSet params = old->params; // ids of neither table travel along
+    for (const RestageParam& line : after) {
+        const Value* set = params.find(line.id);
+        if (!set) continue;
+        if (const auto value = fitted(*set, line))
+            params.set(line.id, *value);
+        else
+            params.remove(line.id);
+    }
+    const auto carry = [&](const RestageParam* from, const RestageParam& to) {
+        if (!from || params.find(to.id) || line_of(before, to.id)) return;
+        if (const auto value = fitted(held(*from), to)) params.set(to.id, *value);
+    };
+    if (const RestageParam* color = main_color(after)) carry(main_color(before), *color);
+    const auto rough = std::find_if(before.begin(), before.end(), is_roughness);
+    for (const RestageParam& line : after)
+        if (is_roughness(line)) carry(rough == before.end() ? nullptr : &*rough, line);
+    return modify(scene, id, old->name + ": type " + type, [&](Material& m) {
+        m.type = std::move(type);
+        m.params = std::move(params);
+        forget_edited(m.origin, "*");
+    });
+}
+
+Result<MadeUnique> make_unique(const Scene& scene, std::span<const Id<Instance>> ids, Id<Material> material) {
+    const Material* shared = scene.materials.find(material);
+    if (!shared) return fail("there is no material with id " + std::to_string(material.value));
+    std::vector<Id<Instance>> users;
+    for (const Id<Instance> id : ids)
+        if (const Instance* instance = scene.instances.find(id); instance && instance->material == material)
+            users.push_back(id);
+    if (users.empty()) return fail("none of these objects has the material \"" + shared->name + "\"");
+    std::set<std::string> taken;
+    scene.materials.each([&](auto, const Material& m) { taken.insert(m.name); });
+    Material copy = *shared;
+    copy.name = next_name(copy.name, taken);
+    MadeUnique made{insert(scene, std::move(copy), "Make " + shared->name + " unique"), scene.materials.next()};
+    for (const Id<Instance> id : users) {
+        Instance after = scene.instances[id];
+        after.material = made.material;
+        made.edit.changes.push_back(Change<Instance>{id, scene.instances[id], std::move(after)});
+    }
+    return made;
+}
+
+Result<Edit> set_image_texture(const Scene& scene, Id<Material> id, std::string_view param, RestageType type,
+                               bool scalar, Image image) {
+    const Material* material = scene.materials.find(id);
+    if (!material) return fail("there is no material with id " + std::to_string(id.value));
+    Edit edit{material->name + ": image for " + std::string(param), {}};
+    Id<Image> image_id;
+    scene.images.each([&](Id<Image> other, const Image& i) {
+        if (!image_id && !image.path.empty() && i.path == image.path && i.encoding == image.encoding && i.data)
+            image_id = other;
+    });
+    Id<Texture> texture_id;
+    const std::string name = image.name;
+    if (image_id) {
+        scene.textures.each([&](Id<Texture> other, const Texture& t) {
+            if (!texture_id && t.type == "imagemap" && t.image == image_id && t.is_float == scalar &&
+                t.params.entries().empty())
+                texture_id = other;
+        });
+    } else {
+        image_id = scene.images.next();
+        edit.changes.push_back(Change<Image>{image_id, std::nullopt, std::move(image)});
+    }
+    if (!texture_id) {
+        std::set<std::string> taken;
+        scene.textures.each([&](auto, const Texture& t) { taken.insert(t.name); });
+        texture_id = scene.textures.next();
+        Texture texture{.name = taken.contains(name) ? next_name(name, taken) : name,
+                        .type = "imagemap",
+                        .is_float = scalar,
+                        .image = image_id};
+        edit.changes.push_back(Change<Texture>{texture_id, std::nullopt, std::move(texture)});
+    }
+    Material after = *material;
+    const Value* before = material->params.find(param);
+    Value value = before && before->type == type ? *before : Value{.type = type};
+    value.texture = texture_id;
+    after.params.set(param, std::move(value));
+    forget_edited(after.origin, param);
+    edit.changes.push_back(Change<Material>{id, *material, std::move(after)});
+    return edit;
+}
+
+} // namespace restage::scene

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// The editor without a window or a GPU of its own: Dear ImGui with a backend that draws nothing, a mouse moved by Dear
+// ImGui Test Engine, and a live picture of a few pixels. Widgets are named by the marks that panels give them.
+#pragma once
+
+#include "editor/editor.hpp"
+#include "editor/panels/state.hpp"
+
+#include <imgui_internal.h>
+#include <imgui_te_context.h>
+#include <imgui_te_engine.h>
+#include <implot.h>
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <thread>
+
+namespace restage::tests {
+
+class Headless {
+  public:
+    explicit Headless(const std::string& scene) {
+        const plugin::SearchPath plugins{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true};
+        registry_.scan({&plugins, 1});
+        ImGui::CreateContext();
+        ImPlot::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_DockingEnable;
+        io.BackendFlags |= ImGuiBackendFlags_RendererHasTextures | ImGuiBackendFlags_HasMouseCursors;
+        io.DisplaySize = {1500, 1000};
+        engine_ = ImGuiTestEngine_CreateContext();
+        ImGuiTestEngineIO& test_io = ImGuiTestEngine_GetIO(engine_);
+        test_io.ConfigRunSpeed = ImGuiTestRunSpeed_Fast;
+        test_io.ConfigNoThrottle = true;
+        test_io.ConfigVerboseLevel = ImGuiTestVerboseLevel_Error;
+        test_io.ConfigVerboseLevelOnError = ImGuiTestVerboseLevel_Info;
+        test_io.ConfigLogToTTY = true;
+        ImGuiTestEngine_Start(engine_, ImGui::GetCurrentContext());
+        render::RendererOptions renderer;
+        renderer.tracer = "embree";
+        renderer.stand_ins = true;
+        renderer.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+        editor_ = std::make_unique<editor::Editor>(registry_, log_, editor::EditorOptions{.renderer = renderer});
+        editor_->view.resolution = 0.02f; // the picture is no matter here
+        editor_->open(std::filesystem::path(RESTAGE_SOURCE_DIR) / "scenes" / scene);
+        const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+        while (editor_->opening().running() && std::chrono::steady_clock::now() < limit) {
+            frame();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        frame();
+        REQUIRE(editor_->scene().instances.live() > 0);
+    }
+    ~Headless() { // the editor outlives the window: see editor/texture.hpp
+        ImGuiTestEngine_Stop(engine_);
+        ImPlot::DestroyContext();
+        ImGui::DestroyContext();
+        ImGuiTestEngine_DestroyContext(engine_);
+    }
+    Headless(const Headless&) = delete;
+    Headless& operator=(const Headless&) = delete;
+
+    editor::Editor& editor() { return *editor_; }
+    const scene::Scene& scene() const { return editor_->scene(); }
+    std::size_t step() const { return editor_->session().history().position(); }
+
+    // Plays what a user does. Fails the test case when a check in it fails.
+    void play(const char* name, const std::function<void(ImGuiTestContext*)>& user) {
+        ImGuiTest* test = IM_REGISTER_TEST(engine_, "editor", name);
+        test->TestFunc = user;
+        ImGuiTestEngine_QueueTest(engine_, test);
+        while (!ImGuiTestEngine_IsTestQueueEmpty(engine_))
+            frame();
+        INFO(name);
+        CHECK(test->Output.Status == ImGuiTestStatus_Success);
+    }
+
+    // --- inside play() ---------------------------------------------------------------------------------------------
+    // The widget of that mark, scrolled to where it is seen; waits a moment for it to be drawn.
+    ImVec4 find(ImGuiTestContext* ctx, const std::string& mark) {
+        for (int i = 0; i < 30 && !editor_->find_mark(mark); ++i)
+            ctx->Yield();
+        const auto* found = editor_->find_mark(mark);
+        IM_CHECK_SILENT_RETV(found, (ctx->LogError("there is no \"%s\"", mark.c_str()), ImVec4()));
+        if (found->item) {
+            ctx->ItemMakeVisible(found->item, ImGuiTestOpFlags_NoError);
+            ctx->Yield(2);
+            if (const auto* again = editor_->find_mark(mark)) found = again;
+        }
+        return found->rect;
+    }
+    bool has(ImGuiTestContext* ctx, const std::string& mark) {
+        ctx->Yield(2);
+        return editor_->find_mark(mark) != nullptr;
+    }
+    // Left of its middle, where fields of several numbers have their first one.
+    void click(ImGuiTestContext* ctx, const std::string& mark, int button = 0) {
+        const ImVec4 r = find(ctx, mark);
+        ctx->MouseMoveToPos({r.x + std::min(12.f, (r.z - r.x) / 2), (r.y + r.w) / 2});
+        ctx->MouseClick(button);
+        ctx->Yield(2);
+    }
+    void double_click(ImGuiTestContext* ctx, const std::string& mark) {
+        const ImVec4 r = find(ctx, mark);
+        ctx->MouseMoveToPos({r.x + std::min(12.f, (r.z - r.x) / 2), (r.y + r.w) / 2});
+        ctx->MouseDoubleClick();
+        ctx->Yield(2);
+    }
+    // Across the widget from a quarter of its width: changes sliders and drags alike.
+    void drag(ImGuiTestContext* ctx, const std::string& mark, float pixels = 25) {
+        const ImVec4 r = find(ctx, mark);
+        ctx->MouseMoveToPos({r.x + (r.z - r.x) * 0.25f, (r.y + r.w) / 2});
+        ctx->MouseDown();
+        for (int i = 1; i <= 4; ++i)
+            ctx->MouseMoveToPos({r.x + (r.z - r.x) * 0.25f + pixels * float(i) / 4, (r.y + r.w) / 2});
+        ctx->MouseUp();
+        ctx->Yield(2);
+    }
+    void focus(ImGuiTestContext* ctx, const char* panel) {
+        editor_->open_panel(panel);
+        ctx->Yield(2);
+        ctx->WindowFocus((std::string("//") + panel).c_str());
+        ctx->Yield(2);
+    }
+    void select(const std::string& name) {
+        const auto id = editor_->session().find<scene::Instance>(name);
+        REQUIRE(id);
+        const editor::InstanceId ids[] = {id};
+        editor_->selection.set(ids);
+    }
+
+  private:
+    void frame() {
+        ImGui::GetIO().DeltaTime = 1.f / 60;
+        ImGui::NewFrame();
+        editor_->frame();
+        ImGui::Render();
+        for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) {
+            if (texture->Status == ImTextureStatus_WantDestroy) {
+                texture->SetTexID(ImTextureID_Invalid);
+                texture->SetStatus(ImTextureStatus_Destroyed);
+            } else if (texture->Status != ImTextureStatus_OK && texture->Status != ImTextureStatus_Destroyed) {
+                texture->SetTexID(1);
+                texture->SetStatus(ImTextureStatus_OK);
+            }
+        }
+        ImGuiTestEngine_PostSwap(engine_);
+    }
+
+    Log log_{[](LogLevel, std::string_view) {}};
+    plugin::Registry registry_{log_};
+    ImGuiTestEngine* engine_ = nullptr;
+    std::unique_ptr<editor::Editor> editor_;
+};
+
+} // namespace restage::tests
