@@ -28,6 +28,7 @@ class History {
     std::string_view redo_label() const { return position_ < size() ? std::string_view(label(position_)) : ""; }
 
     void mark_clean(); // the scene as it is now is what the file holds
+    void mark_unsaved() { clean_.reset(); } // no position is what the file holds
     bool clean() const { return clean_ && *clean_ == position_; }
 
   private:
