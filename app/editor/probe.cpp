@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor::probe(): what tests that drive the program with real mouse and key events need to know of it.
+// Editor::probe(): what tests that drive the program with real mouse and key events need to know of it; and what they
+// cannot do with a mouse and keys.
 #include "editor.hpp"
+#include "files.hpp"
 
 #include <nlohmann/json.hpp>
+#include <cstdlib>
+#include <sstream>
 
 namespace restage::editor {
 
@@ -11,7 +15,11 @@ std::string Editor::probe() const {
     json j;
     const auto& history = session_.history();
     j["path"] = session_.path();
+    j["base"] = session_.base().file;
     j["modified"] = session_.modified();
+    j["recovery"] = files_->autosave.file().string();
+    j["jobs"] = files_->jobs.running();
+    j["modal"] = modals_.empty() ? "" : modals_.front().title;
     j["version"] = session_.version();
     j["opening"] = opening_.running();
     j["history"] = {{"size", history.size()}, {"position", history.position()}, {"undo", history.undo_label()}};
@@ -59,6 +67,19 @@ std::string Editor::probe() const {
     for (const auto& line : notices.lines())
         j["log"].push_back(line.text);
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+// A line each: "drop PATH X Y", as a file manager would let it go there.
+void Editor::run_commands(const std::string& lines) {
+    std::istringstream in(lines);
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t y = line.rfind(' '), x = y == 0 || y == std::string::npos ? y : line.rfind(' ', y - 1);
+        if (!line.starts_with("drop ") || x == std::string::npos || x < 5) {
+            log_.warning("probe: \"" + line + "\" is no command");
+            continue;
+        }
+        drop({line.substr(5, x - 5)}, {std::strtof(line.c_str() + x, nullptr), std::strtof(line.c_str() + y, nullptr)});
+    }
 }
 
 } // namespace restage::editor

@@ -64,7 +64,8 @@ std::string local_time(std::time_t time) {
 } // namespace
 
 Autosave::~Autosave() {
-    forget();
+    if (thread_.joinable()) thread_.join();
+    drop_lock(lock_);
 }
 
 void Autosave::update(const Session& session, double now) {

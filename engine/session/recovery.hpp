@@ -17,7 +17,7 @@ class Autosave { // [main]
   public:
     // Files are in `folder`, which is made when it is needed.
     Autosave(std::filesystem::path folder, double every_seconds) : folder_(std::move(folder)), every_(every_seconds) {}
-    ~Autosave(); // a clean end: nothing stays
+    ~Autosave(); // what is written stays, to be recovered
     Autosave(const Autosave&) = delete;
     Autosave& operator=(const Autosave&) = delete;
 
@@ -25,12 +25,12 @@ class Autosave { // [main]
     // its time has come; forgets the file when everything is saved.
     void update(const Session& session, double now);
     void write_now(const Session& session, double now); // returns when it is written
+    void forget(); // what is written goes: all is saved, or given up
     const std::filesystem::path& file() const { return file_; } // "" = nothing is written now
     std::string take_problem(); // what went wrong in writing, once
 
   private:
     void start(const Session& session, double now);
-    void forget();
 
     std::filesystem::path folder_, file_, lock_path_;
     double every_, due_ = 0;
