@@ -63,6 +63,12 @@ bool BackgroundJobs::picture_paused() const {
     return std::any_of(jobs_.begin(), jobs_.end(), [](const auto& job) { return job->pauses_picture_; });
 }
 
+double BackgroundJobs::progress() const {
+    if (jobs_.empty()) return 1;
+    std::lock_guard lock(jobs_[0]->mutex_);
+    return jobs_[0]->done_;
+}
+
 void BackgroundJobs::update(Editor& editor) {
     for (std::size_t i = 0; i < jobs_.size();) {
         if (!jobs_[i]->finished_) {

@@ -58,6 +58,7 @@ class BackgroundJobs {
     void update(Editor& editor); // [main] once a frame, inside it: bars, and what is finished
     bool running() const { return !jobs_.empty(); }
     bool picture_paused() const;
+    double progress() const; // of the first; 0..1
 
   private:
     std::function<void()> wake_;

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <thread>
 
@@ -116,7 +117,7 @@ class Browser {
     void go(const fs::path& folder, const std::string& make = {});
     void accept(const fs::path& path);
     bool act(Editor& e); // on what accept() found out; true = chosen
-    void select(int step);
+    std::string select(int step); // the name of what is selected then
     void update_shown();
     bool fits(const FileEntry& entry) const;
     void draw_places(Editor& e, float height);
@@ -138,7 +139,7 @@ class Browser {
     int selected_ = -1;
     bool scroll_ = false;
     std::string typed_, folder_text_, new_folder_, problem_;
-    bool naming_folder_ = false, focus_name_ = true;
+    bool naming_folder_ = false, focus_folder_ = false, focus_name_ = true;
     fs::path asked_path_;
     std::shared_ptr<Asked<Kind>> asked_kind_;
     fs::path replace_; // asks whether this file may be replaced
@@ -154,7 +155,8 @@ void Browser::go(const fs::path& folder, const std::string& make) {
     shown_.clear();
     selected_ = -1;
     problem_.clear();
-    typed_ = options_.save ? typed_ : "";
+    ImGui::ClearActiveID(); // a field that is being typed in keeps its text
+    if (!options_.save) typed_.clear();
     focus_name_ = true;
 }
 
@@ -193,12 +195,12 @@ void Browser::update_shown() {
     if (!drawn_->problem.empty()) problem_ = drawn_->problem;
 }
 
-void Browser::select(int step) {
-    if (shown_.empty()) return;
+std::string Browser::select(int step) {
+    if (shown_.empty()) return "";
     selected_ = selected_ < 0 ? (step > 0 ? 0 : int(shown_.size()) - 1)
                               : std::clamp(selected_ + step, 0, int(shown_.size()) - 1);
-    typed_ = shown_[std::size_t(selected_)]->name;
     scroll_ = true;
+    return shown_[std::size_t(selected_)]->name;
 }
 
 void Browser::accept(const fs::path& path) {
@@ -214,9 +216,10 @@ bool Browser::act(Editor& e) {
     if (!asked_kind_ || !asked_kind_->done) return false;
     const Kind kind = asked_kind_->answer;
     asked_kind_.reset();
+    focus_name_ = true;
     if (kind == Kind::folder) {
-        typed_.clear();
         go(asked_path_);
+        typed_ = options_.save ? fs::path(options_.name).filename().string() : "";
         return false;
     }
     if (!options_.save && kind == Kind::nothing) {
@@ -240,7 +243,7 @@ bool Browser::act(Editor& e) {
 }
 
 int Browser::on_key(ImGuiInputTextCallbackData* data) {
-    auto& self = *static_cast<Browser*>(data->UserData);
+    auto& self = *static_cast<Browser*>(data->UserData); // its typed_ is in use by the widget
     if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion && self.drawn_) {
         std::vector<FileEntry> fitting;
         for (const FileEntry* entry : self.shown_)
@@ -250,9 +253,9 @@ int Browser::on_key(ImGuiInputTextCallbackData* data) {
         if (more.ends_with('/')) self.accept(data->Buf); // into the folder
     }
     if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
-        self.select(data->EventKey == ImGuiKey_DownArrow ? 1 : -1);
+        const std::string name = self.select(data->EventKey == ImGuiKey_DownArrow ? 1 : -1);
         data->DeleteChars(0, data->BufTextLen);
-        data->InsertChars(0, self.typed_.c_str());
+        data->InsertChars(0, name.c_str());
     }
     return 0;
 }
@@ -344,10 +347,8 @@ void Browser::draw_name(Editor& e) {
     if (ImGui::InputTextWithHint("##name", "Type a name or a path; Tab completes", &typed_,
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
                                      ImGuiInputTextFlags_CallbackHistory,
-                                 on_key, this)) {
-        accept(typed_);
-        focus_name_ = true;
-    }
+                                 on_key, this))
+        accept(typed_); // the field has the keyboard again when it is known what that is
     e.mark("browser.name");
     if (options_.filters.empty()) return;
     ImGui::SameLine();
@@ -387,11 +388,11 @@ bool Browser::draw_buttons(Editor& e) {
     if (options_.save) {
         ImGui::SameLine();
         if (!naming_folder_) {
-            if (ImGui::Button("New folder")) naming_folder_ = true;
+            if (ImGui::Button("New folder")) naming_folder_ = focus_folder_ = true;
             e.mark("browser.new_folder");
         } else {
             ImGui::SetNextItemWidth(160 * ImGui::GetStyle().FontScaleMain);
-            ImGui::SetKeyboardFocusHere();
+            if (std::exchange(focus_folder_, false)) ImGui::SetKeyboardFocusHere();
             if (ImGui::InputTextWithHint("##new folder", "Its name, then Enter", &new_folder_,
                                          ImGuiInputTextFlags_EnterReturnsTrue) &&
                 !new_folder_.empty()) {

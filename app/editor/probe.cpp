@@ -19,13 +19,19 @@ std::string Editor::probe() const {
     j["modified"] = session_.modified();
     j["recovery"] = files_->autosave.file().string();
     j["jobs"] = files_->jobs.running();
+    j["job"] = files_->jobs.progress();
     j["modal"] = modals_.empty() ? "" : modals_.front().title;
     j["version"] = session_.version();
     j["opening"] = opening_.running();
     j["history"] = {{"size", history.size()}, {"position", history.position()}, {"undo", history.undo_label()}};
     for (std::size_t i = 0; i < history.size(); ++i)
         j["history"]["labels"].push_back(history.label(i));
-    j["counts"] = {{"instances", scene().instances.live()},
+    std::size_t hidden = 0;
+    scene().instances.each([&](InstanceId, const scene::Instance& instance) { hidden += instance.hidden; });
+    j["counts"] = {{"hidden", hidden},
+                   {"groups", scene().groups.live()},
+                   {"images", scene().images.live()},
+                   {"instances", scene().instances.live()},
                    {"materials", scene().materials.live()},
                    {"textures", scene().textures.live()},
                    {"lights", scene().lights.live()}};
@@ -41,6 +47,8 @@ std::string Editor::probe() const {
                                   {"material", material ? material->name : ""},
                                   {"type", material ? material->type : ""}});
     }
+    const auto& sky = scene().environment.value;
+    j["sky"] = sky ? sky->name : "";
     const glm::dvec3 eye(camera().camera_to_world[3]);
     j["camera"] = {eye.x, eye.y, eye.z};
     const session::ViewStatus status = live_->status();

@@ -2,8 +2,7 @@
 // A project file becomes its base, imported anew, and one edit. References are found by id and name; where the base has
 // changed, by name alone; what cannot be found is an error that names it, or is left out when asked to.
 #include "session/project.hpp"
-#include "session/project_fields.hpp"
-#include "session/project_json.hpp"
+#include "session/project_values.hpp"
 
 #include "base/file.hpp"
 #include "io/image_file.hpp"
@@ -12,8 +11,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
-#include <optional>
 #include <set>
 
 namespace restage::session {
@@ -22,22 +19,6 @@ using namespace scene;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Ref {
-    std::uint32_t number = 0;
-    std::string name;
-};
-
-std::optional<Ref> parse_ref(const json& j) { // "#17 oak"
-    if (!j.is_string()) return std::nullopt;
-    const std::string& text = j.get_ref<const std::string&>();
-    Ref ref;
-    if (!text.starts_with('#')) return std::nullopt;
-    const auto [end, code] = std::from_chars(text.data() + 1, text.data() + text.size(), ref.number);
-    if (code != std::errc() || ref.number == 0) return std::nullopt;
-    if (end != text.data() + text.size()) ref.name.assign(end + 1, text.data() + text.size());
-    return ref;
-}
 
 // What stands for geometry or pixels that are not to be found: a cube, a grey pixel.
 std::shared_ptr<const MeshData> stand_in_mesh() {
@@ -53,10 +34,12 @@ std::shared_ptr<const PixelData> stand_in_pixels() {
     return std::make_shared<const PixelData>(PixelData{.width = 1, .height = 1, .channels = 3, .values = {0.5f, 0.5f, 0.5f}});
 }
 
-class Reader {
+class Reader : public ValueReader {
   public:
     Reader(const std::string& path, const plugin::Registry& registry, const ReadOptions& options)
-        : path_(path), folder_(fs::absolute(path).parent_path()), registry_(registry), options_(options) {}
+        : ValueReader(path), path_(path), folder_(fs::absolute(path).parent_path()), registry_(registry), options_(options) {
+        base_ = &doc_.base.scene;
+    }
 
     Result<Document> run() {
         doc_.path = path_;
@@ -95,16 +78,9 @@ class Reader {
         return std::move(doc_);
     }
 
+    using ValueReader::operator();
+
     // --- as a visitor of fields() --------------------------------------------------------------------------------------
-    template <class T>
-    void operator()(const char* name, T& value) {
-        if (const json* j = member(name)) read(*j, value, name);
-        if constexpr (std::is_same_v<T, ParamSet>)
-            if (const json* all = member("all_params")) {
-                value = {};
-                read(*all, value, "all_params");
-            }
-    }
     void path(const char* name, std::string& value) {
         const json* j = member(name);
         if (!j) return;
@@ -200,24 +176,6 @@ class Reader {
         return {};
     }
 
-    // --- references ----------------------------------------------------------------------------------------------------
-    template <class T>
-    std::optional<Id<T>> resolve(const json& j, const char* field) {
-        const auto ref = parse_ref(j);
-        if (!ref) {
-            error(field, "a reference like \"#17 oak\" is expected");
-            return std::nullopt;
-        }
-        const auto& base = table<T>(doc_.base.scene);
-        const std::uint32_t old = sizes_[kind_name<T>];
-        if (ref->number > old) return Id<T>{base.size() + (ref->number - old)};
-        const T* item = base.find({ref->number});
-        if (item && item->name == ref->name) return Id<T>{ref->number};
-        if (const Id<T> id = find_by_name<T>(doc_.base.scene, ref->name)) return id;
-        lost_.push_back(fmt::format("{} \"{}\"", kind_name<T>, ref->name));
-        return std::nullopt;
-    }
-
     // Data that somebody else has: a thing of the base, a new one, or a file. Null: it is none of these.
     template <class T, class Stand, class New>
     auto shared(const json& j, const char* which, Stand&& stand_in, New& made) -> decltype(T{}.data) {
@@ -257,134 +215,7 @@ class Reader {
         return made[current_] = data;
     }
 
-    // --- values --------------------------------------------------------------------------------------------------------
-    const json* member(const char* name) {
-        seen_.insert(name);
-        const auto found = in_->find(name);
-        return found == in_->end() ? nullptr : &*found;
-    }
-    void error(const char* field, const std::string& what) {
-        if (error_.empty()) error_ = fmt::format("{}: {}: {}: {}", path_, where_, field, what);
-    }
-    void read(const json& j, std::string& s, const char* field) {
-        if (j.is_string()) s = j.get<std::string>();
-        else error(field, "text is expected");
-    }
-    void read(const json& j, bool& b, const char* field) {
-        if (j.is_boolean()) b = j.get<bool>();
-        else error(field, "true or false is expected");
-    }
-    void read(const json& j, std::uint32_t& n, const char* field) {
-        if (j.is_number_unsigned()) n = j.get<std::uint32_t>();
-        else error(field, "a whole number is expected");
-    }
-    template <class F>
-        requires std::is_floating_point_v<F>
-    void read(const json& j, F& x, const char* field) {
-        if (!read_number(j, x)) error(field, "a number is expected");
-    }
-    template <int N, class T>
-    void read(const json& j, glm::vec<N, T>& v, const char* field) {
-        if (!j.is_array() || j.size() != N) return error(field, fmt::format("{} numbers are expected", N));
-        for (int i = 0; i < N; ++i)
-            read(j[std::size_t(i)], v[i], field);
-    }
-    void read(const json& j, glm::dmat4& m, const char* field) {
-        if (!j.is_array() || j.size() != 4) return error(field, "four columns of four numbers are expected");
-        for (int c = 0; c < 4; ++c)
-            read(j[std::size_t(c)], m[c], field);
-    }
-    template <class T>
-    void read(const json& j, Id<T>& id, const char* field) {
-        if (j.is_null()) id = {};
-        else if (const auto found = resolve<T>(j, field)) id = *found;
-    }
-    template <class E>
-        requires std::is_enum_v<E>
-    void read(const json& j, E& e, const char* field) {
-        for (std::size_t i = 0; i < std::size(Names<E>::list); ++i)
-            if (j == Names<E>::list[i]) {
-                e = static_cast<E>(int(i) + Names<E>::first);
-                return;
-            }
-        error(field, j.dump() + " is not known");
-    }
-    template <class T>
-    void read(const json& j, std::optional<T>& x, const char* field) {
-        if (j.is_null()) {
-            x.reset();
-            return;
-        }
-        if (!x) x.emplace();
-        read(j, *x, field);
-    }
-    template <class T>
-        requires std::is_class_v<T>
-    void read(const json& j, T& item, const char* field) {
-        json ignored;
-        json* const place = unknown_ ? unknown_ : &ignored;
-        json below = json::object();
-        read_members(j, item, field, below);
-        if (!below.empty()) (*place)[field] = std::move(below);
-    }
-    void read(const json& j, Value& v, const char* field) {
-        v = {};
-        if (j.is_number()) return void(v.v[0] = j.get<float>());
-        if (j.is_boolean()) {
-            v.type = RESTAGE_BOOL;
-            v.v[0] = j.get<bool>() ? 1.f : 0.f;
-        } else if (j.is_array() && j.size() == 3) {
-            v.type = RESTAGE_COLOR;
-            for (std::size_t i = 0; i < 3; ++i)
-                read(j[i], v.v[i], field);
-        } else if (j.is_object()) {
-            const auto type = j.find("type");
-            const auto known = std::find_if(std::begin(type_names), std::end(type_names),
-                                            [&](const char* name) { return type != j.end() && *type == name; });
-            if (known == std::end(type_names)) return error(field, "the type of the value is not known");
-            v.type = static_cast<RestageType>(RESTAGE_FLOAT + (known - std::begin(type_names)));
-            if (const auto list = j.find("v"); list != j.end() && list->is_array())
-                for (std::size_t i = 0; i < std::min<std::size_t>(list->size(), 4); ++i)
-                    read((*list)[i], v.v[i], field);
-            if (const auto text = j.find("text"); text != j.end()) read(*text, v.text, field);
-            if (const auto texture = j.find("texture"); texture != j.end()) read(*texture, v.texture, field);
-            if (const auto material = j.find("material"); material != j.end()) read(*material, v.material, field);
-        } else if (float x = 0; read_number(j, x)) { // "inf"
-            v.v[0] = x;
-        } else if (j.is_string()) {
-            v.type = RESTAGE_TEXT;
-            v.text = j.get<std::string>();
-        } else error(field, "a value is expected");
-    }
-    void read(const json& j, ParamSet& params, const char* field) {
-        if (!j.is_object()) return error(field, "values by name are expected");
-        for (const auto& [id, value] : j.items()) {
-            if (value.is_null()) {
-                params.remove(id);
-                continue;
-            }
-            Value v;
-            read(value, v, id.c_str());
-            params.set(id, std::move(v));
-        }
-    }
-
     // --- things --------------------------------------------------------------------------------------------------------
-    template <class T>
-    void read_members(const json& j, T& item, const char* field, json& unknown) {
-        if (!j.is_object()) return error(field, "an object is expected");
-        const json* const outer = std::exchange(in_, &j);
-        json* const outer_unknown = std::exchange(unknown_, &unknown);
-        std::set<std::string> outer_seen = std::exchange(seen_, {});
-        fields(*this, item);
-        for (const auto& [key, value] : j.items())
-            if (!seen_.contains(key)) unknown[key] = value;
-        if (!unknown.empty()) unknown[place_mark] = true;
-        seen_ = std::move(outer_seen);
-        unknown_ = outer_unknown;
-        in_ = outer;
-    }
-
     template <class T>
     void single(const json& j, const char* name, const T& before, json& unknown) {
         const auto found = j.find(name);
@@ -424,7 +255,7 @@ class Reader {
             json rest = json::object();
             current_ = key;
             current_id_ = id->value;
-            read_members(members, item, key.c_str(), rest);
+            read_members(*this, members, item, key.c_str(), rest);
             keep_unknown("changed", key, std::move(rest));
             doc_.changes.changes.push_back(Change<T>{*id, base[*id], std::move(item)});
         }
@@ -439,7 +270,7 @@ class Reader {
             const std::size_t lost_before = lost_.size();
             current_ = key;
             current_id_ = next.value;
-            read_members(members, item, key.c_str(), rest);
+            read_members(*this, members, item, key.c_str(), rest);
             keep_unknown("added", key, std::move(rest));
             Change<T> change{next, std::nullopt, std::move(item)};
             if constexpr (std::is_same_v<T, Instance>)
@@ -474,18 +305,13 @@ class Reader {
     const plugin::Registry& registry_;
     const ReadOptions& options_;
     Document doc_;
-    std::map<std::string, std::uint32_t> sizes_; // of the base when the project was saved, by kind
     bool base_changed_ = false;
-    std::vector<std::string> lost_;
-    std::string error_, where_, current_;
+    std::string current_;
     std::uint32_t current_id_ = 0;
     std::set<std::uint32_t> from_file_; // images
     std::map<std::string, std::shared_ptr<const MeshData>> new_meshes_; // by reference
     std::map<std::string, std::shared_ptr<const PixelData>> new_images_;
     std::map<std::string, Scene> imported_; // files whose meshes and images are used
-    const json* in_ = nullptr;
-    json* unknown_ = nullptr;
-    std::set<std::string> seen_;
 };
 
 } // namespace

@@ -11,6 +11,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
+#include <catch2/generators/catch_generators_range.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
@@ -394,7 +395,7 @@ class Monkey {
 
 TEST_CASE("Any edits come back exactly from a project file", "[project]") {
     const Fixture files;
-    const unsigned seed = GENERATE(range(1u, 41u));
+    const unsigned seed = GENERATE(Catch::Generators::range(1u, 41u));
     INFO("seed " << seed);
     session::Session session(files.registry);
     const bool based = seed % 4 != 0; // or made in the program
