@@ -6,8 +6,8 @@
 #include "theme.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <imgui.h>
+#include <algorithm>
 
 namespace restage::editor {
 
@@ -78,8 +78,10 @@ void BackgroundJobs::update(Editor& editor) {
         const std::unique_ptr<BackgroundJob> job = std::move(jobs_[i]);
         jobs_.erase(jobs_.begin() + std::ptrdiff_t(i));
         job->thread_.join();
-        if (job->cancelled_) editor.notices.add(LogLevel::info, job->title_ + ": stopped");
-        else if (job->then_) job->then_(editor);
+        if (job->cancelled_)
+            editor.notices.add(LogLevel::info, job->title_ + ": stopped");
+        else if (job->then_)
+            job->then_(editor);
     }
     if (jobs_.empty()) return;
 
@@ -90,7 +92,8 @@ void BackgroundJobs::update(Editor& editor) {
     ImGui::SetNextWindowSize({420 * scale, 0});
     if (ImGui::Begin("##background", nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize))
+                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_AlwaysAutoResize))
         for (auto& job : jobs_) {
             ImGui::PushID(job.get());
             double done = 0;
@@ -100,9 +103,11 @@ void BackgroundJobs::update(Editor& editor) {
                 done = std::clamp(job->done_, 0.0, 1.0);
                 stage = job->stage_;
             }
-            const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - job->start_).count();
+            const double elapsed =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - job->start_).count();
             ImGui::TextUnformatted(job->title_.c_str());
-            if (done > 0.02) stage += fmt::format("{}{} left", stage.empty() ? "" : ", ", duration(elapsed * (1 - done) / done));
+            if (done > 0.02)
+                stage += fmt::format("{}{} left", stage.empty() ? "" : ", ", duration(elapsed * (1 - done) / done));
             ImGui::ProgressBar(float(done), {-1, 0}, fmt::format("{:.0f} %", done * 100).c_str());
             editor.mark("job.bar");
             ImGui::TextColored(colors::dim, "%s", job->cancelled_ ? "stopping" : stage.c_str());

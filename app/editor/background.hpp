@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BackgroundJobs: work that takes a while (exports, final pictures) on threads of its own, each with a bar, what it is at,
-// how long it will take, and a way to stop it.
+// BackgroundJobs: work that takes a while (exports, final pictures) on threads of its own, each with a bar, what it is
+// at, how long it will take, and a way to stop it.
 #pragma once
 
 #include "base/result.hpp"

@@ -7,8 +7,8 @@
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace restage::editor {
@@ -35,8 +35,8 @@ glm::dmat4 upright(const glm::dvec3& up) {
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(up, x), 0), glm::dvec4(up, 0), glm::dvec4(0, 0, 0, 1)};
 }
 
-scene::Id<scene::Image> add_image(const scene::Scene& s, scene::Edit& edit, const fs::path& path, RestageEncoding encoding,
-                                  const std::shared_ptr<const scene::PixelData>& pixels) {
+scene::Id<scene::Image> add_image(const scene::Scene& s, scene::Edit& edit, const fs::path& path,
+                                  RestageEncoding encoding, const std::shared_ptr<const scene::PixelData>& pixels) {
     const auto id = s.images.next();
     edit.changes.push_back(scene::Change<scene::Image>{
         id, std::nullopt,
@@ -61,20 +61,24 @@ Result<scene::Edit> make_sky(const scene::Scene& s, const fs::path& path,
     return edit;
 }
 
-Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, InstanceId on, const fs::path& path,
-                                 const std::shared_ptr<const scene::PixelData>& pixels) {
+Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, InstanceId on,
+                                 const fs::path& path, const std::shared_ptr<const scene::PixelData>& pixels) {
     const scene::Instance* instance = s.instances.find(on);
     const scene::Material* material = instance ? s.materials.find(instance->material) : nullptr;
     if (!material) return fail("There is no material for the image to go on");
     const auto* plugin = registry.find_material(material->type);
-    if (!plugin) return fail("material \"" + material->name + "\": there is no plugin \"" + material->type + "\" that could say where an image goes");
+    if (!plugin)
+        return fail("material \"" + material->name + "\": there is no plugin \"" + material->type +
+                    "\" that could say where an image goes");
     // The base colour comes first in every table.
     const RestageParam* begin = plugin->table->params;
     const RestageParam* end = begin + plugin->table->param_count;
     const RestageParam* slot = std::find_if(begin, end, [](const RestageParam& p) {
         return p.type == RESTAGE_COLOR && (p.flags & RESTAGE_PARAM_TEXTURABLE);
     });
-    if (slot == end) return fail(fmt::format("material \"{}\": a {} has no colour an image could stand for", material->name, material->type));
+    if (slot == end)
+        return fail(fmt::format("material \"{}\": a {} has no colour an image could stand for", material->name,
+                                material->type));
     scene::Edit edit{fmt::format("Texture {} on {}", path.stem().string(), material->name), {}};
     scene::Texture texture{.name = path.stem().string(), .type = "imagemap"};
     texture.image = add_image(s, edit, path, RESTAGE_SRGB, pixels);
@@ -91,16 +95,22 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
 void drop_image(Editor& e, const fs::path& path, InstanceId on) {
     const std::string extension = extension_of(path);
     const bool sky = !on || is_one_of(extension, {"hdr", "exr", "pfm"});
-    e.files().jobs.start({.title = "Reading " + path.filename().string()}, [path, sky, on](BackgroundJob&) -> std::function<void(Editor&)> {
-        auto pixels = io::read_image(path.string(), RESTAGE_SRGB);
-        if (!pixels)
-            return [message = pixels.error().message](Editor& editor) { editor.notices.add(LogLevel::error, message); };
-        return [path, sky, on, data = std::make_shared<const scene::PixelData>(std::move(*pixels))](Editor& editor) {
-            editor.edit([path, sky, on, data, up = editor.up(), &registry = editor.registry()](const scene::Scene& s) {
-                return sky ? make_sky(s, path, data, up) : make_texture(s, registry, on, path, data);
-            });
-        };
-    });
+    e.files().jobs.start(
+        {.title = "Reading " + path.filename().string()},
+        [path, sky, on](BackgroundJob&) -> std::function<void(Editor&)> {
+            auto pixels = io::read_image(path.string(), RESTAGE_SRGB);
+            if (!pixels)
+                return [message = pixels.error().message](Editor& editor) {
+                    editor.notices.add(LogLevel::error, message);
+                };
+            return
+                [path, sky, on, data = std::make_shared<const scene::PixelData>(std::move(*pixels))](Editor& editor) {
+                    editor.edit(
+                        [path, sky, on, data, up = editor.up(), &registry = editor.registry()](const scene::Scene& s) {
+                            return sky ? make_sky(s, path, data, up) : make_texture(s, registry, on, path, data);
+                        });
+                };
+        });
 }
 
 } // namespace
@@ -108,11 +118,17 @@ void drop_image(Editor& e, const fs::path& path, InstanceId on) {
 void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     const glm::dvec2 film = viewport.film_point(screen);
     const bool over = film.x >= 0 && film.y >= 0 && film.x < 1 && film.y < 1;
+    InstanceId on; // asked of the scene, not of the picture, which may be of another moment
+    if (over && scene().instances.live() > 0) {
+        const session::ViewRay ray = session::view_ray(camera(), film, film_aspect());
+        if (const auto hits = session::raycast_all(scene(), ray.origin, ray.direction); !hits.empty())
+            on = hits[0].instance;
+    }
     for (const fs::path& given : paths) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
         if (is_one_of(extension, {"png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr", "pfm"}))
-            drop_image(*this, path, over ? viewport.instance_at(*this, screen) : InstanceId{});
+            drop_image(*this, path, on);
         // Files of objects join what is there; scenes, and anything when there is nothing yet, are opened.
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
@@ -125,26 +141,23 @@ void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
 
 void Editor::place_inserted(const io::ImportedScene& imported) {
     const Opening::Request& request = opening_.request();
-    const scene::Bounds bounds = scene::world_bounds(imported.scene);
-    if (imported.scene.instances.live() == 0 || bounds.empty()) {
-        notices.add(LogLevel::error, request.path.filename().string() + ": there is nothing in it to insert");
-        return;
-    }
     // The middle of its underside comes to stand on what is seen there.
-    const glm::dvec3 c = bounds.center(), lowest = c - up_ * (0.5 * std::abs(glm::dot(bounds.size(), up_)));
-    const session::ViewRay ray = session::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
+    const session::ViewRay ray =
+        session::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
     const auto hits = session::raycast_all(scene(), ray.origin, ray.direction);
     const scene::Bounds all = scene::world_bounds(scene());
-    const glm::dvec3 stand = !hits.empty() ? hits[0].position
-                             : all.empty() ? lowest
-                                           : ray.origin + glm::normalize(ray.direction) * std::max(glm::length(all.center() - ray.origin), 1e-6);
-    selection.set(session_.insert(imported, request.path.string(), glm::translate(glm::dmat4(1), stand - lowest)));
+    const double away = all.empty() ? 1 : std::max(glm::length(all.center() - ray.origin), 1e-6);
+    const glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
+    const auto made = session_.insert(imported, request.path.string(), session::Session::Stand{at, up_});
+    if (!made) {
+        notices.add(LogLevel::error, made.error().message);
+        return;
+    }
+    selection.set(made->instances);
     const auto dropped = imported.report.count(RESTAGE_DROPPED);
     notices.add(LogLevel::info, fmt::format("{}: {} objects inserted{}", request.path.filename().string(),
-                                            imported.scene.instances.live(),
-                                            dropped ? fmt::format(", {} things dropped", dropped) : ""));
-    for (const io::ReportEntry& entry : imported.report.entries)
-        if (entry.fate == RESTAGE_DROPPED) notices.add(LogLevel::warning, io::to_string(entry));
+                                            made->instances.size(),
+                                            dropped ? fmt::format(", {} things dropped: see Import report", dropped) : ""));
 }
 
 } // namespace restage::editor

@@ -128,7 +128,8 @@ void Editor::follow_opening() {
     if (!*result) {
         if (opening_.problem() != session::BaseProblem::none)
             ask_for_base(result->error().message, opening_.problem() == session::BaseProblem::changed);
-        else notices.add(LogLevel::error, result->error().message);
+        else
+            notices.add(LogLevel::error, result->error().message);
         return;
     }
     if ((*result)->inserted) {
@@ -170,7 +171,8 @@ void Editor::ask_for_base(const std::string& message, bool some_fits) {
         bool stay = true;
         if (ImGui::Button("Find it...")) {
             stay = false;
-            browse(e, {.title = "Where is the scene?", .start = request.path.parent_path(),
+            browse(e, {.title = "Where is the scene?",
+                       .start = request.path.parent_path(),
                        .done = [request](Editor& editor, const std::filesystem::path& base) {
                            Opening::Request again = request;
                            again.base = base;

@@ -7,12 +7,12 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <thread>
 
 namespace restage::editor {
@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// --- what is asked of the file system, on threads of their own -----------------------------------------------------------
+// --- what is asked of the file system, on threads of their own
+// -----------------------------------------------------------
 
 template <class T>
 struct Asked {
@@ -59,7 +60,8 @@ Listing list_folder(const fs::path& folder, const std::string& make) {
     if (code) result.problem = code.message();
     for (; !code && it != fs::directory_iterator(); it.increment(code)) {
         std::error_code none;
-        FileEntry entry{.name = it->path().filename().string(), .folder = it->is_directory(none), .size = 0, .time = {}};
+        FileEntry entry{
+            .name = it->path().filename().string(), .folder = it->is_directory(none), .size = 0, .time = {}};
         if (!entry.folder) entry.size = it->file_size(none);
         if (none) entry.size = 0;
         entry.time = it->last_write_time(none);
@@ -89,8 +91,8 @@ std::string size_text(std::uintmax_t bytes) {
 }
 
 std::string time_text(fs::file_time_type time) {
-    const auto system = std::chrono::time_point_cast<std::chrono::seconds>(
-        time - fs::file_time_type::clock::now() + std::chrono::system_clock::now());
+    const auto system = std::chrono::time_point_cast<std::chrono::seconds>(time - fs::file_time_type::clock::now() +
+                                                                           std::chrono::system_clock::now());
     return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(system)));
 }
 
@@ -99,7 +101,8 @@ fs::path home() {
     return place && *place ? fs::path(place) : fs::path("/");
 }
 
-// --- the browser ---------------------------------------------------------------------------------------------------------
+// --- the browser
+// ---------------------------------------------------------------------------------------------------------
 
 class Browser {
   public:
@@ -150,7 +153,8 @@ void Browser::go(const fs::path& folder, const std::string& make) {
     if (!make.empty()) folder_ /= make;
     if (folder_.has_relative_path() && !folder_.has_filename()) folder_ = folder_.parent_path(); // "a/b/"
     folder_text_ = folder_.string();
-    listing_ = ask<Listing>(wake_, [folder = make.empty() ? folder_ : folder, make] { return list_folder(folder, make); });
+    listing_ =
+        ask<Listing>(wake_, [folder = make.empty() ? folder_ : folder, make] { return list_folder(folder, make); });
     drawn_ = nullptr;
     shown_.clear();
     selected_ = -1;
@@ -173,7 +177,8 @@ void Browser::update_shown() {
     if (!listing_->done) return;
     const std::string filter = fmt::format("{}{}", filter_, hidden_);
     if (drawn_ == &listing_->answer && shown_filter_ == filter && !resort_) return;
-    const std::string chosen = selected_ >= 0 && selected_ < int(shown_.size()) ? shown_[std::size_t(selected_)]->name : "";
+    const std::string chosen =
+        selected_ >= 0 && selected_ < int(shown_.size()) ? shown_[std::size_t(selected_)]->name : "";
     drawn_ = &listing_->answer;
     shown_filter_ = filter;
     resort_ = false;
@@ -283,13 +288,15 @@ void Browser::draw_places(Editor& e, float height) {
 
 void Browser::draw_list(Editor& e, float height) {
     const float scale = ImGui::GetStyle().FontScaleMain;
-    if (!ImGui::BeginTable("files", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable |
-                                           ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersOuter,
+    if (!ImGui::BeginTable("files", 3,
+                           ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable |
+                               ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersOuter,
                            {0, height}))
         return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_PreferSortDescending, 80 * scale);
+    ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_PreferSortDescending,
+                            80 * scale);
     ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_PreferSortDescending,
                             135 * scale);
     ImGui::TableHeadersRow();
@@ -404,8 +411,10 @@ bool Browser::draw_buttons(Editor& e) {
         }
     }
     if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) {
-        if (naming_folder_) naming_folder_ = false;
-        else stay = false;
+        if (naming_folder_)
+            naming_folder_ = false;
+        else
+            stay = false;
     }
     return stay;
 }

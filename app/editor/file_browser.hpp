@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FileBrowser: choosing a file inside the window. Folders are listed, and paths looked at, on threads that are left alone
-// when they hang, as those of a network that is gone do.
+// FileBrowser: choosing a file inside the window. Folders are listed, and paths looked at, on threads that are left
+// alone when they hang, as those of a network that is gone do.
 #pragma once
 
 #include <chrono>

@@ -9,10 +9,10 @@
 #include "session/picture.hpp"
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <imgui.h>
 
 namespace restage::editor {
 
@@ -55,7 +55,8 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     std::uint32_t batch = 1;
     while (renderer->samples() < wish.samples && !job.stopping()) {
         const double before = now_seconds();
-        RESTAGE_CHECK(renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }));
+        RESTAGE_CHECK(
+            renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }));
         double done = double(renderer->samples()) / wish.samples;
         std::string stage = fmt::format("{} of {} samples a pixel", renderer->samples(), wish.samples);
         if (wish.error > 0 && renderer->samples() >= 8) {
@@ -69,40 +70,47 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
         batch = std::uint32_t(std::clamp(0.2 / std::max((now_seconds() - before) / batch, 1e-6), 1.0, 1024.0));
     }
     if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was given up");
-    session::Picture picture{.film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
+    session::Picture picture{
+        .film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
     if (denoise) {
         job.report(traced, "denoising");
-        RESTAGE_TRY(picture.denoised, render::denoise(picture.film, *registry.denoisers()[0].table, RESTAGE_DENOISE_HIGH,
-                                                      options.threads, [&](double done) {
-                                                          return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
+        RESTAGE_TRY(picture.denoised, render::denoise(picture.film, *registry.denoisers()[0].table,
+                                                      RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
+                                                          return job.report(traced + done * (1 - traced),
+                                                                            "denoising") ||
+                                                                 !job.cancelled();
                                                       }));
     }
     const auto& stats = renderer->stats();
-    const session::PictureOptions how{.metadata = {{"restage:version", plugin::host_version},
-                                                   {"restage:scene", scene_name},
-                                                   {"restage:device", renderer->device().info().name},
-                                                   {"restage:tracer", renderer->tracer_name()},
-                                                   {"restage:samples", std::to_string(renderer->samples())},
-                                                   {"restage:seed", std::to_string(options.seed)},
-                                                   {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
-                                                   {"restage:denoiser", denoise ? "oidn high" : "none"},
-                                                   {"restage:seconds", fmt::format("{:.3f}", stats.seconds)}}};
+    const session::PictureOptions how{
+        .metadata = {{"restage:version", plugin::host_version},
+                     {"restage:scene", scene_name},
+                     {"restage:device", renderer->device().info().name},
+                     {"restage:tracer", renderer->tracer_name()},
+                     {"restage:samples", std::to_string(renderer->samples())},
+                     {"restage:seed", std::to_string(options.seed)},
+                     {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
+                     {"restage:denoiser", denoise ? "oidn high" : "none"},
+                     {"restage:seconds", fmt::format("{:.3f}", stats.seconds)}}};
     RESTAGE_CHECK(session::write_picture(wish.path.string(), picture, how));
     for (const auto& [type, count] : stats.not_finite)
-        log.warning(fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
-    return say(LogLevel::info, fmt::format("{}: {}x{}, {} samples a pixel in {:.1f} s", wish.path.string(), picture.film.width,
-                                           picture.film.height, renderer->samples(), now_seconds() - start));
+        log.warning(
+            fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
+    return say(LogLevel::info,
+               fmt::format("{}: {}x{}, {} samples a pixel in {:.1f} s", wish.path.string(), picture.film.width,
+                           picture.film.height, renderer->samples(), now_seconds() - start));
 }
 
 void start(Editor& e, const Wish& wish) {
     e.files().last_picture = wish.path;
     const fs::path path(e.session().path());
-    e.files().jobs.start({.title = "Final picture " + wish.path.filename().string(), .can_finish_early = true, .pauses_picture = true},
-                         [wish, scene = e.scene(), &registry = e.registry(), &log = e.log(), options = e.options().renderer,
-                          name = path.filename().string()](BackgroundJob& job) -> Done {
-                             auto done = render(job, registry, log, options, scene, wish, name);
-                             return done ? *done : say(LogLevel::error, done.error().message);
-                         });
+    e.files().jobs.start(
+        {.title = "Final picture " + wish.path.filename().string(), .can_finish_early = true, .pauses_picture = true},
+        [wish, scene = e.scene(), &registry = e.registry(), &log = e.log(), options = e.options().renderer,
+         name = path.filename().string()](BackgroundJob& job) -> Done {
+            auto done = render(job, registry, log, options, scene, wish, name);
+            return done ? *done : say(LogLevel::error, done.error().message);
+        });
 }
 
 } // namespace
@@ -132,10 +140,14 @@ void final_render_dialog(Editor& e) {
             stay = false;
             const fs::path path(editor.session().path());
             const fs::path& last = editor.files().last_picture;
-            browse(editor, {.title = "Final picture as", .save = true,
+            browse(editor, {.title = "Final picture as",
+                            .save = true,
                             .filters = {{"Pictures", {"exr", "png", "hdr", "pfm"}}, {"All files", {}}},
-                            .start = !last.empty() ? last.parent_path() : path.empty() ? fs::path() : path.parent_path(),
-                            .name = (path.empty() ? "untitled" : path.stem().string()) + ".exr", .extension = ".exr",
+                            .start = !last.empty()  ? last.parent_path()
+                                     : path.empty() ? fs::path()
+                                                    : path.parent_path(),
+                            .name = (path.empty() ? "untitled" : path.stem().string()) + ".exr",
+                            .extension = ".exr",
                             .done = [wish](Editor& ed, const fs::path& place) {
                                 wish->path = place;
                                 start(ed, *wish);

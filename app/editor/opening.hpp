@@ -32,7 +32,8 @@ class Opening {
         std::optional<io::ImportedScene> inserted;
     };
 
-    Opening(const plugin::Registry& registry, std::function<void()> wake) : registry_(registry), wake_(std::move(wake)) {}
+    Opening(const plugin::Registry& registry, std::function<void()> wake)
+        : registry_(registry), wake_(std::move(wake)) {}
     ~Opening();
 
     // Gives up what is being read, if anything.

@@ -4,8 +4,8 @@
 #include "editor.hpp"
 #include "files.hpp"
 
-#include <nlohmann/json.hpp>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace restage::editor {

@@ -3,8 +3,8 @@
 
 #include "base/file.hpp"
 
-#include <nlohmann/json.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace restage::editor {
 

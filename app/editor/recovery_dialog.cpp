@@ -6,13 +6,14 @@
 #include "saving.hpp"
 #include "theme.hpp"
 
-#include <algorithm>
 #include <imgui.h>
+#include <algorithm>
 
 namespace restage::editor {
 
 void offer_recovery(Editor& e) {
-    auto found = std::make_shared<std::vector<session::Recoverable>>(session::find_recoverable(e.files().recovery_folder));
+    auto found =
+        std::make_shared<std::vector<session::Recoverable>>(session::find_recoverable(e.files().recovery_folder));
     if (found->empty()) return;
     e.show_modal("Unsaved work was found", [found](Editor& editor) {
         ImGui::TextUnformatted("Restage ended before this was saved. It can be opened as it was.");
@@ -20,7 +21,8 @@ void offer_recovery(Editor& e) {
         bool stay = true;
         std::size_t gone = found->size();
         const float scale = ImGui::GetStyle().FontScaleMain;
-        if (ImGui::BeginTable("found", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit)) {
+        if (ImGui::BeginTable("found", 4,
+                              ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableSetupColumn("Scene", ImGuiTableColumnFlags_WidthFixed, 200 * scale);
             ImGui::TableSetupColumn("Written aside", ImGuiTableColumnFlags_WidthFixed, 150 * scale);
             ImGui::TableSetupColumn("Changes", ImGuiTableColumnFlags_WidthFixed, 70 * scale);

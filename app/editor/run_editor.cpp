@@ -31,10 +31,11 @@ Result<int> run_editor(const RunOptions& options) {
     RESTAGE_TRY(const auto bin, executable_dir());
 
     // Frames are asked for from threads before and after the window's life: GLFW ignores that.
-    Editor editor(registry, log, {.renderer = options.renderer,
-                                  .wake = Window::wake,
-                                  .config_dir = config,
-                                  .autosave_seconds = options.autosave_seconds});
+    Editor editor(registry, log,
+                  {.renderer = options.renderer,
+                   .wake = Window::wake,
+                   .config_dir = config,
+                   .autosave_seconds = options.autosave_seconds});
     notices = &editor.notices;
     RESTAGE_TRY(const auto window, Window::create({.size = options.size,
                                                    .device = options.renderer.device,
@@ -64,7 +65,8 @@ Result<int> run_editor(const RunOptions& options) {
 >>>>>>> 3c83735 (wip2)
         if (!window->begin_frame()) continue;
         glm::vec2 where(0);
-        if (const auto dropped = window->take_dropped(where); !dropped.empty()) editor.drop(dropped, {where.x, where.y});
+        if (const auto dropped = window->take_dropped(where); !dropped.empty())
+            editor.drop(dropped, {where.x, where.y});
         if (!options.probe.empty() && std::filesystem::exists(commands, ignored))
             if (const auto lines = read_file(commands)) {
                 std::filesystem::remove(commands, ignored);

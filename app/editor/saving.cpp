@@ -70,30 +70,32 @@ void ask_unsaved(Editor& e, const char* doing, Then then) {
         then(e);
         return;
     }
-    e.show_modal("Unsaved changes", [text = fmt::format("{} has changes that are not saved. Save them before {}?",
-                                                        e.session().path().empty() ? "The scene" : fs::path(e.session().path()).filename().string(),
-                                                        doing),
-                                     then = std::move(then)](Editor& editor) {
-        ImGui::TextUnformatted(text.c_str());
-        ImGui::Spacing();
-        bool stay = true;
-        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-        if (ImGui::Button("Save")) {
-            editor.later([&editor, then] { save(editor, then); });
-            stay = false;
-        }
-        editor.mark("unsaved.save");
-        ImGui::SameLine();
-        if (ImGui::Button("Discard")) {
-            editor.later([&editor, then] { then(editor); });
-            stay = false;
-        }
-        editor.mark("unsaved.discard");
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
-        editor.mark("unsaved.cancel");
-        return stay;
-    });
+    e.show_modal(
+        "Unsaved changes",
+        [text = fmt::format("{} has changes that are not saved. Save them before {}?",
+                            e.session().path().empty() ? "The scene" : fs::path(e.session().path()).filename().string(),
+                            doing),
+         then = std::move(then)](Editor& editor) {
+            ImGui::TextUnformatted(text.c_str());
+            ImGui::Spacing();
+            bool stay = true;
+            if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+            if (ImGui::Button("Save")) {
+                editor.later([&editor, then] { save(editor, then); });
+                stay = false;
+            }
+            editor.mark("unsaved.save");
+            ImGui::SameLine();
+            if (ImGui::Button("Discard")) {
+                editor.later([&editor, then] { then(editor); });
+                stay = false;
+            }
+            editor.mark("unsaved.discard");
+            ImGui::SameLine();
+            if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+            editor.mark("unsaved.cancel");
+            return stay;
+        });
 }
 
 void new_scene(Editor& e) {
@@ -104,23 +106,33 @@ void new_scene(Editor& e) {
 }
 
 void open_dialog(Editor& e) {
-    browse(e, {.title = "Open", .filters = scene_filters(e.registry(), true), .start = document_folder(e),
+    browse(e, {.title = "Open",
+               .filters = scene_filters(e.registry(), true),
+               .start = document_folder(e),
                .done = [](Editor& editor, const fs::path& path) { editor.open(path); }});
 }
 
 void insert_dialog(Editor& e) {
-    browse(e, {.title = "Insert a file", .filters = scene_filters(e.registry(), false), .start = document_folder(e),
+    browse(e, {.title = "Insert a file",
+               .filters = scene_filters(e.registry(), false),
+               .start = document_folder(e),
                .done = [](Editor& editor, const fs::path& path) { editor.insert(path); }});
 }
 
 void save(Editor& e, Then then) {
-    if (session::is_project(e.session().path())) save_to(e, e.session().path(), then);
-    else save_as(e, std::move(then));
+    if (session::is_project(e.session().path()))
+        save_to(e, e.session().path(), then);
+    else
+        save_as(e, std::move(then));
 }
 
 void save_as(Editor& e, Then then) {
-    browse(e, {.title = "Save as", .save = true, .filters = {{"Restage projects", {"restage"}}, {"All files", {}}},
-               .start = document_folder(e), .name = project_name(e), .extension = std::string(session::project_extension),
+    browse(e, {.title = "Save as",
+               .save = true,
+               .filters = {{"Restage projects", {"restage"}}, {"All files", {}}},
+               .start = document_folder(e),
+               .name = project_name(e),
+               .extension = std::string(session::project_extension),
                .done = [then = std::move(then)](Editor& editor, const fs::path& path) {
                    fs::path place = path;
                    if (!session::is_project(place)) place += session::project_extension;

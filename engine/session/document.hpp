@@ -57,7 +57,11 @@ struct Document {
     std::map<std::string, std::string> note; // of a recovery file, see recovery.hpp
 };
 
-enum class BaseProblem { none, missing, changed }; // of a project's base, where somebody can help by naming another file
+enum class BaseProblem {
+    none,
+    missing,
+    changed
+}; // of a project's base, where somebody can help by naming another file
 
 struct ReadOptions {
     io::Progress progress;

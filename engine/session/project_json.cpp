@@ -31,11 +31,16 @@ json number_json(float x) {
 }
 
 bool read_number(const json& j, double& x) {
-    if (j.is_number()) x = j.get<double>();
-    else if (j == "nan") x = std::numeric_limits<double>::quiet_NaN();
-    else if (j == "inf") x = std::numeric_limits<double>::infinity();
-    else if (j == "-inf") x = -std::numeric_limits<double>::infinity();
-    else return false;
+    if (j.is_number())
+        x = j.get<double>();
+    else if (j == "nan")
+        x = std::numeric_limits<double>::quiet_NaN();
+    else if (j == "inf")
+        x = std::numeric_limits<double>::infinity();
+    else if (j == "-inf")
+        x = -std::numeric_limits<double>::infinity();
+    else
+        return false;
     return true;
 }
 
@@ -46,7 +51,8 @@ bool read_number(const json& j, float& x) {
     return true;
 }
 
-// --- base64 (RFC 4648, 4) ----------------------------------------------------------------------------------------------
+// --- base64 (RFC 4648, 4)
+// ----------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -100,7 +106,9 @@ bool decode(const json& j, std::vector<T>& values) {
     return true;
 }
 
-bool plain_number(const json& j) { return j.is_number() || (j.is_string() && j.get_ref<const std::string&>().size() <= 4); }
+bool plain_number(const json& j) {
+    return j.is_number() || (j.is_string() && j.get_ref<const std::string&>().size() <= 4);
+}
 
 void append(std::string& out, const json& j, int indent) {
     const auto new_line = [&](int by) {
@@ -142,7 +150,8 @@ void erase_marks(json& j) {
             erase_marks(item);
 }
 
-// --- geometry and pixels -----------------------------------------------------------------------------------------------
+// --- geometry and pixels
+// -----------------------------------------------------------------------------------------------
 
 json inline_mesh(const scene::MeshData& mesh) {
     json j;

@@ -6,8 +6,8 @@
 #include "base/result.hpp"
 #include "scene/scene.hpp"
 
-#include <nlohmann/json.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace restage::session {

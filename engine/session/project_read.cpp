@@ -31,13 +31,18 @@ std::shared_ptr<const MeshData> stand_in_mesh() {
     return mesh;
 }
 std::shared_ptr<const PixelData> stand_in_pixels() {
-    return std::make_shared<const PixelData>(PixelData{.width = 1, .height = 1, .channels = 3, .values = {0.5f, 0.5f, 0.5f}});
+    return std::make_shared<const PixelData>(
+        PixelData{.width = 1, .height = 1, .channels = 3, .values = {0.5f, 0.5f, 0.5f}});
 }
 
 class Reader : public ValueReader {
   public:
     Reader(const std::string& path, const plugin::Registry& registry, const ReadOptions& options)
-        : ValueReader(path), path_(path), folder_(fs::absolute(path).parent_path()), registry_(registry), options_(options) {
+        : ValueReader(path),
+          path_(path),
+          folder_(fs::absolute(path).parent_path()),
+          registry_(registry),
+          options_(options) {
         base_ = &doc_.base.scene;
     }
 
@@ -51,8 +56,8 @@ class Reader : public ValueReader {
         if (const auto base = j.find("base"); base != j.end()) RESTAGE_CHECK(read_base(*base));
 
         json unknown = json::object();
-        static const std::set<std::string_view> known{"restage", "recovery", "base", "environment", "active_camera", "film",
-                                                      "settings"};
+        static const std::set<std::string_view> known{"restage",       "recovery", "base",    "environment",
+                                                      "active_camera", "film",     "settings"};
         std::set<std::string> kinds;
         each_kind([&]<class T>(const char* kind) {
             kinds.insert(kind);
@@ -80,7 +85,8 @@ class Reader : public ValueReader {
 
     using ValueReader::operator();
 
-    // --- as a visitor of fields() --------------------------------------------------------------------------------------
+    // --- as a visitor of fields()
+    // --------------------------------------------------------------------------------------
     void path(const char* name, std::string& value) {
         const json* j = member(name);
         if (!j) return;
@@ -90,20 +96,29 @@ class Reader : public ValueReader {
     void mesh(Mesh& m) {
         const json* j = member("data");
         if (!j) return;
-        if (j->is_null()) m.data = nullptr;
-        else if (const auto data = shared<Mesh>(*j, "mesh", stand_in_mesh, new_meshes_)) m.data = data;
-        else if (auto inlined = read_inline_mesh(*j)) m.data = new_meshes_[current_] = *inlined;
-        else error("data", inlined.error().message);
+        if (j->is_null())
+            m.data = nullptr;
+        else if (const auto data = shared<Mesh>(*j, "mesh", stand_in_mesh, new_meshes_))
+            m.data = data;
+        else if (auto inlined = read_inline_mesh(*j))
+            m.data = new_meshes_[current_] = *inlined;
+        else
+            error("data", inlined.error().message);
     }
     void image(Image& i) {
         const json* j = member("pixels");
         if (!j) return;
         i.data = nullptr;
-        if (*j == "file") from_file_.insert(current_id_);
-        else if (j->is_null()) return;
-        else if (const auto data = shared<Image>(*j, "image", stand_in_pixels, new_images_)) i.data = data;
-        else if (auto inlined = read_inline_image(*j)) i.data = new_images_[current_] = *inlined;
-        else error("pixels", inlined.error().message);
+        if (*j == "file")
+            from_file_.insert(current_id_);
+        else if (j->is_null())
+            return;
+        else if (const auto data = shared<Image>(*j, "image", stand_in_pixels, new_images_))
+            i.data = data;
+        else if (auto inlined = read_inline_image(*j))
+            i.data = new_images_[current_] = *inlined;
+        else
+            error("pixels", inlined.error().message);
     }
 
   private:
@@ -122,15 +137,17 @@ class Reader : public ValueReader {
         if (!j.is_object() || version == j.end() || !version->is_number_integer())
             return fail(path_ + ": this is JSON, but no Restage project");
         if (version->get<int>() > project_version)
-            return fail(fmt::format("{}: a newer Restage wrote this project (version {}, this one knows {}); open it there",
-                                    path_, version->get<int>(), project_version));
+            return fail(
+                fmt::format("{}: a newer Restage wrote this project (version {}, this one knows {}); open it there",
+                            path_, version->get<int>(), project_version));
         return j;
     }
 
     std::string absolute(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
 
     Result<> read_base(const json& j) {
-        if (!j.is_object() || !j.contains("file") || !j["file"].is_string()) return fail(path_ + ": base: a file is expected");
+        if (!j.is_object() || !j.contains("file") || !j["file"].is_string())
+            return fail(path_ + ": base: a file is expected");
         Base& base = doc_.base;
         const std::string named = j["file"].get<std::string>();
         base.file = options_.base.empty() ? absolute(named) : fs::absolute(options_.base).lexically_normal().string();
@@ -142,7 +159,8 @@ class Reader : public ValueReader {
         }
         RESTAGE_TRY(const std::string bytes, read_file(base.file));
         base.hash = hash64(bytes);
-        RESTAGE_TRY(io::ImportedScene imported, io::import_scene(base.file, registry_, {.progress = options_.progress}));
+        RESTAGE_TRY(io::ImportedScene imported,
+                    io::import_scene(base.file, registry_, {.progress = options_.progress}));
         base.scene = std::move(imported.scene);
         base.format = imported.importer;
         doc_.report = std::move(imported.report);
@@ -158,7 +176,8 @@ class Reader : public ValueReader {
         if (lost_.empty()) {
             if (base_changed_)
                 doc_.report.add(RESTAGE_APPROXIMATED, "project",
-                                "its scene has changed on disk since it was saved; the changes were found to fit", doc_.base.file);
+                                "its scene has changed on disk since it was saved; the changes were found to fit",
+                                doc_.base.file);
             return {};
         }
         if (!options_.drop_lost) {
@@ -167,12 +186,14 @@ class Reader : public ValueReader {
             for (std::size_t i = 0; i < std::min<std::size_t>(lost_.size(), 5); ++i)
                 list += (i ? ", " : "") + lost_[i];
             if (lost_.size() > 5) list += fmt::format(" and {} more", lost_.size() - 5);
-            return fail(fmt::format("{}: {} has changed since the project was saved and has no {} any more; restore it, open the "
-                                    "project with another scene, or leave these changes out",
-                                    path_, doc_.base.file, list));
+            return fail(fmt::format(
+                "{}: {} has changed since the project was saved and has no {} any more; restore it, open the "
+                "project with another scene, or leave these changes out",
+                path_, doc_.base.file, list));
         }
         for (const std::string& what : lost_)
-            doc_.report.add(RESTAGE_DROPPED, what, "it is not in the scene any more; what changed it was left out", path_);
+            doc_.report.add(RESTAGE_DROPPED, what, "it is not in the scene any more; what changed it was left out",
+                            path_);
         return {};
     }
 
@@ -186,13 +207,15 @@ class Reader : public ValueReader {
             return item && item->data ? item->data : stand_in();
         }
         if (j.contains("same_as")) {
-            const auto found = j["same_as"].is_string() ? made.find(j["same_as"].template get<std::string>()) : made.end();
+            const auto found =
+                j["same_as"].is_string() ? made.find(j["same_as"].template get<std::string>()) : made.end();
             return found == made.end() ? stand_in() : found->second;
         }
         if (!j.contains("file") || !j["file"].is_string() || !j.contains(which)) return nullptr;
         const std::string file = absolute(j["file"].template get<std::string>());
         const Ref ref = parse_ref(j[which]).value_or(Ref{});
-        const std::string format = j.contains("format") && j["format"].is_string() ? j["format"].template get<std::string>() : "";
+        const std::string format =
+            j.contains("format") && j["format"].is_string() ? j["format"].template get<std::string>() : "";
         auto [at, fresh] = imported_.try_emplace(file);
         if (fresh) {
             auto scene = io::import_scene(file, registry_, {.format = format});
@@ -215,7 +238,8 @@ class Reader : public ValueReader {
         return made[current_] = data;
     }
 
-    // --- things --------------------------------------------------------------------------------------------------------
+    // --- things
+    // --------------------------------------------------------------------------------------------------------
     template <class T>
     void single(const json& j, const char* name, const T& before, json& unknown) {
         const auto found = j.find(name);
@@ -291,8 +315,10 @@ class Reader : public ValueReader {
         Jobs().parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
             for (std::size_t i = begin; i < end; ++i) {
                 auto pixels = io::read_image(work[i]->path, work[i]->encoding, work[i]->gamma);
-                if (pixels) work[i]->data = std::make_shared<const PixelData>(std::move(*pixels));
-                else problems[i] = pixels.error().message;
+                if (pixels)
+                    work[i]->data = std::make_shared<const PixelData>(std::move(*pixels));
+                else
+                    problems[i] = pixels.error().message;
             }
         });
         for (std::size_t i = 0; i < work.size(); ++i)

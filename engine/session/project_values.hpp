@@ -75,16 +75,22 @@ class ValueReader {
         if (error_.empty()) error_ = fmt::format("{}: {}: {}: {}", file_, where_, field, what);
     }
     void read(const json& j, std::string& s, const char* field) {
-        if (j.is_string()) s = j.get<std::string>();
-        else error(field, "text is expected");
+        if (j.is_string())
+            s = j.get<std::string>();
+        else
+            error(field, "text is expected");
     }
     void read(const json& j, bool& b, const char* field) {
-        if (j.is_boolean()) b = j.get<bool>();
-        else error(field, "true or false is expected");
+        if (j.is_boolean())
+            b = j.get<bool>();
+        else
+            error(field, "true or false is expected");
     }
     void read(const json& j, std::uint32_t& n, const char* field) {
-        if (j.is_number_unsigned()) n = j.get<std::uint32_t>();
-        else error(field, "a whole number is expected");
+        if (j.is_number_unsigned())
+            n = j.get<std::uint32_t>();
+        else
+            error(field, "a whole number is expected");
     }
     template <class F>
         requires std::is_floating_point_v<F>
@@ -104,8 +110,10 @@ class ValueReader {
     }
     template <class T>
     void read(const json& j, scene::Id<T>& id, const char* field) {
-        if (j.is_null()) id = {};
-        else if (const auto found = resolve<T>(j, field)) id = *found;
+        if (j.is_null())
+            id = {};
+        else if (const auto found = resolve<T>(j, field))
+            id = *found;
     }
     template <class E>
         requires std::is_enum_v<E>
@@ -162,7 +170,8 @@ class ValueReader {
         } else if (j.is_string()) {
             v.type = RESTAGE_TEXT;
             v.text = j.get<std::string>();
-        } else error(field, "a value is expected");
+        } else
+            error(field, "a value is expected");
     }
     void read(const json& j, scene::ParamSet& params, const char* field) {
         if (!j.is_object()) return error(field, "values by name are expected");
@@ -191,7 +200,6 @@ class ValueReader {
         unknown_ = outer_unknown;
         in_ = outer;
     }
-
 
     const std::string file_;
     const scene::Scene* base_ = nullptr;

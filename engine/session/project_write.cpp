@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs from the base becomes JSON: things that are gone by reference, changed ones by the fields that differ, new
-// ones by the fields that are not the default.
+// What differs from the base becomes JSON: things that are gone by reference, changed ones by the fields that differ,
+// new ones by the fields that are not the default.
 #include "session/project.hpp"
 #include "session/project_fields.hpp"
 #include "session/project_json.hpp"
@@ -59,7 +59,8 @@ class Writer {
         return j;
     }
 
-    // --- as a visitor of fields() -------------------------------------------------------------------------------------
+    // --- as a visitor of fields()
+    // -------------------------------------------------------------------------------------
     template <class T>
     void operator()(const char* name, T& value) {
         (*out_)[name] = to_json(value);
@@ -69,9 +70,12 @@ class Writer {
         (*out_)["data"] = data(m.data.get(), "mesh", [&] { return inline_mesh(*m.data); });
     }
     void image(Image& i) {
-        if (const auto found = known_.find(i.data.get()); i.data && found != known_.end()) (*out_)["pixels"] = found->second;
-        else if (!i.path.empty()) (*out_)["pixels"] = "file"; // it is read from its path
-        else (*out_)["pixels"] = data(i.data.get(), "image", [&] { return inline_image(*i.data); });
+        if (const auto found = known_.find(i.data.get()); i.data && found != known_.end())
+            (*out_)["pixels"] = found->second;
+        else if (!i.path.empty())
+            (*out_)["pixels"] = "file"; // it is read from its path
+        else
+            (*out_)["pixels"] = data(i.data.get(), "image", [&] { return inline_image(*i.data); });
     }
 
   private:
@@ -107,7 +111,8 @@ class Writer {
         return inline_data();
     }
 
-    // --- values --------------------------------------------------------------------------------------------------------
+    // --- values
+    // --------------------------------------------------------------------------------------------------------
     static json to_json(const std::string& s) { return s; }
     static json to_json(bool b) { return b; }
     static json to_json(std::uint32_t n) { return n; }
@@ -183,8 +188,9 @@ class Writer {
         return j;
     }
 
-    // --- differences ---------------------------------------------------------------------------------------------------
-    // Those members of `now` that are not in `before`; null where only `before` has one.
+    // --- differences
+    // --------------------------------------------------------------------------------------------------- Those members
+    // of `now` that are not in `before`; null where only `before` has one.
     static json difference(const json& before, const json& now) {
         json j = json::object();
         for (const auto& [key, value] : now.items()) {
@@ -208,7 +214,8 @@ class Writer {
                 replay.set(id, value);
                 j[id] = to_json(value);
             }
-        if (replay == now) changed["params"] = std::move(j);
+        if (replay == now)
+            changed["params"] = std::move(j);
         else {
             changed["all_params"] = to_json(now);
             changed.erase("params");
@@ -231,8 +238,10 @@ class Writer {
             const T *before = base.find(id), *after = now.find(id);
             if (before && after ? *before == *after : !before && !after) continue;
             current_ = ref(id);
-            if (!after) removed.push_back(current_);
-            else if (!before) added[current_] = difference(to_json(T{}), to_json(*after));
+            if (!after)
+                removed.push_back(current_);
+            else if (!before)
+                added[current_] = difference(to_json(T{}), to_json(*after));
             else {
                 json d = difference(to_json(*before), to_json(*after));
                 if constexpr (std::is_same_v<T, Material> || std::is_same_v<T, Texture>)
@@ -262,7 +271,8 @@ void put_back(json& into, const json& unknown) {
         const auto found = into.find(key);
         if (found == into.end()) {
             if (!value.is_object() || !value.contains(place_mark)) into[key] = value;
-        } else if (found->is_object() && value.is_object()) put_back(*found, value);
+        } else if (found->is_object() && value.is_object())
+            put_back(*found, value);
     }
 }
 

@@ -3,10 +3,10 @@
 
 #include "base/file.hpp"
 
-#include <nlohmann/json.hpp>
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 #if !defined(_WIN32)
 #include <fcntl.h>

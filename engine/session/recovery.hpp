@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recovery: unsaved work is written aside every minute, as a project with absolute paths and a note on whose it is; it is
-// gone after a clean end. Files of processes that are no more are what can be recovered: a living one holds a lock.
+// Recovery: unsaved work is written aside every minute, as a project with absolute paths and a note on whose it is; it
+// is gone after a clean end. Files of processes that are no more are what can be recovered: a living one holds a lock.
 #pragma once
 
 #include "session/session.hpp"
@@ -21,8 +21,8 @@ class Autosave { // [main]
     Autosave(const Autosave&) = delete;
     Autosave& operator=(const Autosave&) = delete;
 
-    // Call often; `now` in seconds. Writes, on a thread of its own, when there is unsaved work that is not written yet and
-    // its time has come; forgets the file when everything is saved.
+    // Call often; `now` in seconds. Writes, on a thread of its own, when there is unsaved work that is not written yet
+    // and its time has come; forgets the file when everything is saved.
     void update(const Session& session, double now);
     void write_now(const Session& session, double now); // returns when it is written
     void forget(); // what is written goes: all is saved, or given up
@@ -44,9 +44,9 @@ class Autosave { // [main]
 
 struct Recoverable {
     std::filesystem::path file;
-    std::string name;   // of what was edited: "kitchen.pbrt"
-    std::string base;   // absolute; "" = a scene that was never saved
-    std::string time;   // local, when it was written
+    std::string name; // of what was edited: "kitchen.pbrt"
+    std::string base; // absolute; "" = a scene that was never saved
+    std::string time; // local, when it was written
     std::string changes; // how many
 };
 

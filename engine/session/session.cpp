@@ -81,7 +81,8 @@ void Session::adopt_recovered(Document document) {
         std::visit(
             [&]<class C>(const C& c) {
                 if constexpr (requires { c.id; })
-                    if (!c.before) table<std::remove_cvref_t<decltype(*c.before)>>(scene_).set(c.id, std::nullopt, scene_.clock);
+                    if (!c.before)
+                        table<std::remove_cvref_t<decltype(*c.before)>>(scene_).set(c.id, std::nullopt, scene_.clock);
             },
             change);
     changes.label = "Recovered changes";
@@ -198,7 +199,8 @@ Result<io::Report> Session::save_as(const std::string& path, const io::ExportOpt
 Result<> Session::save_project(const std::string& path) {
     const std::filesystem::path place = std::filesystem::absolute(path).lexically_normal();
     RESTAGE_CHECK(write_file_atomic(
-        place, project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_}, place.parent_path())));
+        place,
+        project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_}, place.parent_path())));
     path_ = place.string();
     history_.mark_clean();
     return {};

@@ -13,6 +13,7 @@
 #include "session/document.hpp"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>

@@ -33,7 +33,8 @@ std::shared_ptr<const PixelData> sky_pixels() {
             const float around = (float(x) + 0.5f) / width - 0.3f;
             const float above = 1 / (1 + std::exp(-10 * (h - 0.45f)));
             const float side = std::exp(-18 * around * around - 12 * (h - 0.35f) * (h - 0.35f));
-            pixels->values.insert(pixels->values.end(), 3, 0.35f + 1.1f * above + 1.6f * side + std::min(h, 0.f) * 0.2f);
+            pixels->values.insert(pixels->values.end(), 3,
+                                  0.35f + 1.1f * above + 1.6f * side + std::min(h, 0.f) * 0.2f);
         }
     return pixels;
 }
@@ -55,12 +56,14 @@ Scene studio_scene() {
     add(Instance{.name = "floor", .mesh = mesh, .material = material});
     const auto image = add(Image{.name = "studio", .encoding = RESTAGE_LINEAR, .data = sky_pixels()});
     // The panorama's pole is +z; here y is up.
-    s.environment = {Environment{.name = "Studio",
-                                 .image = image,
-                                 .light_to_world = glm::rotate(glm::dmat4(1), glm::radians(-90.0), glm::dvec3(1, 0, 0))},
-                     s.clock};
+    s.environment = {
+        Environment{.name = "Studio",
+                    .image = image,
+                    .light_to_world = glm::rotate(glm::dmat4(1), glm::radians(-90.0), glm::dvec3(1, 0, 0))},
+        s.clock};
     Camera camera{.name = "camera", .fov = 40};
-    camera.camera_to_world = glm::inverse(glm::lookAt(glm::dvec3(2.6, 1.9, 3.6), glm::dvec3(0, 0.5, 0), glm::dvec3(0, 1, 0)));
+    camera.camera_to_world =
+        glm::inverse(glm::lookAt(glm::dvec3(2.6, 1.9, 3.6), glm::dvec3(0, 0.5, 0), glm::dvec3(0, 1, 0)));
     camera.camera_to_world[2] *= -1; // cameras look along +z; x stays on the right
     camera.focal_distance = 4.7f;
     s.active_camera = {add(std::move(camera)), s.clock};
