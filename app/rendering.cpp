@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rendering.hpp"
 
-#include "io/exr.hpp"
-#include "io/image_file.hpp"
 #include "progress.hpp"
 
 #include <fmt/format.h>
@@ -18,18 +16,6 @@ namespace {
 
 double now_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// R, G, B, and Y: the error of luminance, which those of the channels do not tell because channels err together.
-std::vector<float> standard_errors(const render::FilmImage& film, float exposure) {
-    std::vector<float> out;
-    out.reserve(film.std_error.size() * 4);
-    for (std::size_t i = 0; i < film.std_error.size(); ++i) {
-        const glm::vec3& e = film.std_error[i];
-        for (const float error : {e.r, e.g, e.b, std::sqrt(film.luminance_variance[i])})
-            out.push_back(error * exposure);
-    }
-    return out;
 }
 
 } // namespace
@@ -193,61 +179,6 @@ Result<Picture> take_picture(Context& context, const RenderOptions& o, const sce
                     }));
     }
     return picture;
-}
-
-Result<void> check_picture_path(const std::string& path) {
-    const std::filesystem::path p(path);
-    static constexpr std::string_view known[] = {".exr", ".png", ".pfm", ".hdr"};
-    if (std::find(std::begin(known), std::end(known), p.extension().string()) == std::end(known))
-        return fail(path + ": the extension says the format: .exr, .png, .pfm or .hdr");
-    const auto folder = p.has_parent_path() ? p.parent_path() : std::filesystem::path(".");
-    std::error_code error;
-    if (!std::filesystem::is_directory(folder, error))
-        return fail(path + ": there is no folder " + folder.string() + "; make it first, or write elsewhere");
-    return {};
-}
-
-Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& o) {
-    const render::FilmImage& film = picture.film;
-    const auto scaled = [&](const std::vector<glm::vec3>& in, float scale) {
-        std::vector<float> out(in.size() * 3);
-        for (std::size_t i = 0; i < in.size(); ++i)
-            for (int k = 0; k < 3; ++k)
-                out[i * 3 + k] = in[i][k] * scale;
-        return out;
-    };
-    const auto& color = picture.denoised ? *picture.denoised : film.color;
-    if (!path.ends_with(".exr")) {
-        scene::PixelData pixels{
-            .width = film.width, .height = film.height, .channels = 3, .values = scaled(color, picture.exposure)};
-        if (path.ends_with(".png")) return io::write_png(path, pixels, o.exposure_stops);
-        return io::write_image(path, pixels);
-    }
-    const auto wanted = [&](const char* name) {
-        return o.aovs == "all" || ("," + o.aovs + ",").find(std::string(",") + name + ",") != std::string::npos;
-    };
-    const std::vector<std::string> rgb{"R", "G", "B"};
-    io::ExrImage image{.width = film.width, .height = film.height, .metadata = o.metadata};
-    image.layers.push_back({.name = "", .channels = rgb, .values = scaled(color, picture.exposure)});
-    if (picture.denoised)
-        image.layers.push_back({.name = "noisy", .channels = rgb, .values = scaled(film.color, picture.exposure)});
-    if (wanted("stderr"))
-        image.layers.push_back(
-            {.name = "stderr", .channels = {"R", "G", "B", "Y"}, .values = standard_errors(film, picture.exposure)});
-    if (wanted("albedo")) image.layers.push_back({.name = "albedo", .channels = rgb, .values = scaled(film.albedo, 1)});
-    if (wanted("normal"))
-        image.layers.push_back({.name = "normal", .channels = {"X", "Y", "Z"}, .values = scaled(film.normal, 1)});
-    if (wanted("depth")) image.layers.push_back({.name = "depth", .channels = {"Z"}, .values = film.depth});
-    if (wanted("id")) {
-        std::vector<std::uint32_t> ids(film.instance_id.size() * 2);
-        for (std::size_t i = 0; i < film.instance_id.size(); ++i) {
-            ids[2 * i] = film.instance_id[i];
-            ids[2 * i + 1] = film.material_id[i];
-        }
-        image.layers.push_back(
-            {.name = "id", .channels = {"instance", "material"}, .type = io::ExrType::uint32, .integers = ids});
-    }
-    return io::write_exr(path, image);
 }
 
 } // namespace restage::app

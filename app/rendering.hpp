@@ -7,6 +7,7 @@
 #include "io/import.hpp"
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
+#include "session/picture.hpp"
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -46,23 +47,13 @@ Result<void> apply_options(const RenderOptions& options, scene::Scene& scene);
 Result<void> render_to_target(Context& context, const RenderOptions& options, const scene::Scene& scene,
                               render::Renderer& renderer, const std::string& label = "");
 
-struct Picture {
-    render::FilmImage film;
-    std::optional<std::vector<glm::vec3>> denoised;
-    float exposure = 1; // of the scene's film
-};
+using session::Picture;
 // Reads the film; denoises when asked to (a missing denoiser is an error that says so).
 Result<Picture> take_picture(Context& context, const RenderOptions& options, const scene::Scene& scene,
                              const render::Renderer& renderer);
 
-struct PictureOptions {
-    std::string aovs = "all"; // comma-separated: stderr albedo normal depth id | all | none
-    float exposure_stops = 0; // PNG only
-    std::map<std::string, std::string> metadata;
-};
-// Before hours are spent: can a picture be written there at all?
-Result<void> check_picture_path(const std::string& path);
-// .exr: the picture, what --aov names and metadata. .png: exposure and sRGB. .pfm, .hdr: the picture.
-Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& options);
+using session::check_picture_path;
+using session::PictureOptions;
+using session::write_picture;
 
 } // namespace restage::app

@@ -92,7 +92,7 @@ Result<int> run(Context& context, Options& o) {
     catch_interrupts();
     {
         ProgressBar bar(context.quiet);
-        io::ImportOptions options;
+        session::ReadOptions options;
         options.progress = [&](float done, std::string_view what) {
             bar.show(done, std::string(what));
             return !interrupted();

@@ -20,6 +20,9 @@ void add_edit(CLI::App& program, Context& context) {
     command->add_option("--config", o->config_dir, "Folder for layout, preferences and recovery files");
     command->add_option("--probe", o->probe,
                         "For tests: write the editor's state as JSON to this file when it changes");
+    command->add_option("--autosave", o->autosave_seconds, "Write unsaved work aside so often [s]")
+        ->check(CLI::Range(0.2, 86400.0))
+        ->capture_default_str();
     command->add_option("--tracer", o->renderer.tracer, "embree or vulkan (default: by device)")
         ->check(CLI::IsMember({"embree", "vulkan"}));
     command->add_option("--device", o->renderer.device, "Vulkan device: its number or part of its name");

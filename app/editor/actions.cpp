@@ -2,6 +2,8 @@
 #include "actions.hpp"
 
 #include "editor.hpp"
+#include "final_render.hpp"
+#include "saving.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 
@@ -153,6 +155,25 @@ bool is_gizmo(const Editor& e) {
 
 // The order is the menus'. Keys as in Unity and Maya; the second ones as in Blender.
 constexpr auto actions = std::to_array<Action>({
+    {"file.new", "New", ImGuiMod_Ctrl | ImGuiKey_N, 0, "An empty studio: a floor, a neutral sky, a camera", nullptr,
+     new_scene},
+    {"file.open", "Open...", ImGuiMod_Ctrl | ImGuiKey_O, 0, "A scene or a project", nullptr, open_dialog},
+    {"file.insert", "Insert file...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_I, 0,
+     "What a file shows, as new objects", has_scene, insert_dialog},
+    {"file.save", "Save", ImGuiMod_Ctrl | ImGuiKey_S, 0, "The project: the scene it began with and your changes",
+     has_scene, [](Editor& e) { save(e); }},
+    {"file.save_as", "Save as...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S, 0, "The project under another name",
+     has_scene, [](Editor& e) { save_as(e); }},
+    {"file.revert", "Revert...", 0, 0, "Back to what was opened or saved last",
+     [](const Editor& e) { return !e.session().path().empty() && e.session().modified(); }, revert},
+    {"file.export", "Export...", ImGuiMod_Ctrl | ImGuiKey_E, 0, "A scene file for other programs", has_scene,
+     export_dialog},
+    {"file.save_image", "Save image...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_E, 0,
+     "The live picture as it is now", has_scene, save_image_dialog},
+    {"file.final", "Final picture...", ImGuiMod_Ctrl | ImGuiKey_R, 0,
+     "Render at the film's full size in the background, denoise, write", has_scene, final_render_dialog},
+    {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks when something is not saved", nullptr,
+     [](Editor& e) { e.request_quit(); }},
     {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Take the last change back",
      [](const Editor& e) { return e.session().history().position() > 0; }, [](Editor& e) { e.undo(); }},
     {"edit.redo", "Redo", ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z,

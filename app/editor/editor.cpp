@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "editor.hpp"
 
+#include "file_browser.hpp"
+#include "files.hpp"
 #include "panels/panels.hpp"
 #include "panels/state.hpp"
+#include "recovery_dialog.hpp"
+#include "saving.hpp"
 #include "session/navigation.hpp"
 #include "theme.hpp"
 
@@ -18,7 +22,8 @@ Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
       log_(log),
       session_(registry),
       live_(std::make_unique<session::LiveView>(registry, log, options_.renderer, options_.wake)),
-      opening_(registry, options_.wake) {
+      opening_(registry, options_.wake),
+      files_(std::make_unique<Files>(options_.config_dir, options_.autosave_seconds, options_.wake)) {
     panel_state = std::make_unique<PanelState>(options_.wake);
     for (const Panel& panel : all_panels())
         panels_open_[panel.title] = panel.open;
@@ -37,14 +42,20 @@ double Editor::film_aspect() const {
     return double(std::max(film.width, 1u)) / std::max(film.height, 1u);
 }
 
+namespace {
+
+std::string title_name(const session::Session& session) {
+    return session.path().empty() ? "untitled" : std::filesystem::path(session.path()).filename().string();
+}
+
+} // namespace
+
 std::string Editor::title() const {
-    const std::string name =
-        session_.path().empty() ? "untitled" : std::filesystem::path(session_.path()).filename().string();
-    return fmt::format("{}{} - Restage", session_.modified() ? "* " : "", name);
+    return fmt::format("{}{} - Restage", session_.modified() ? "* " : "", title_name(session_));
 }
 
 bool Editor::animating() const {
-    return notices.fading() || opening_.running() || !pending_.empty() || !modals_.empty();
+    return notices.fading() || opening_.running() || files_->jobs.running() || !pending_.empty() || !modals_.empty();
 }
 
 std::shared_ptr<const session::Frame> Editor::shown_frame() const {
@@ -59,11 +70,19 @@ void Editor::edit(Builder builder, std::string gesture) {
 }
 
 void Editor::open(const std::filesystem::path& path) {
-    opening_.start(std::filesystem::absolute(path), Opening::Purpose::replace);
+    const auto absolute = std::filesystem::absolute(path).lexically_normal();
+    ask_unsaved(*this, "opening another scene", [absolute](Editor& e) { e.open_now({.path = absolute}); });
 }
 
-void Editor::insert(const std::filesystem::path& path) {
-    opening_.start(std::filesystem::absolute(path), Opening::Purpose::insert);
+void Editor::insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point) {
+    open_now({.path = std::filesystem::absolute(path).lexically_normal(),
+              .purpose = Opening::Purpose::insert,
+              .film_point = film_point});
+}
+
+void Editor::adopt_scene(scene::Scene scene) {
+    session_.adopt(std::move(scene));
+    document_changed();
 }
 
 void Editor::undo() {
@@ -77,21 +96,8 @@ void Editor::redo() {
 }
 
 void Editor::request_quit() {
-    if (!session_.modified()) {
-        quit_ = true;
-        return;
-    }
-    show_modal("Unsaved changes", [](Editor& e) {
-        ImGui::TextUnformatted("The scene has changes that are not saved.");
-        ImGui::Spacing();
-        if (ImGui::Button("Discard and quit")) {
-            e.quit_ = true;
-            return false;
-        }
-        e.mark("quit.discard");
-        ImGui::SameLine();
-        return !ImGui::Button("Cancel") && !ImGui::IsKeyPressed(ImGuiKey_Escape);
-    });
+    if (!modals_.empty() && modals_.front().title == "Unsaved changes") return; // it was asked already
+    ask_unsaved(*this, "closing Restage", [](Editor& e) { e.quit_ = true; });
 }
 
 // --- a frame
@@ -104,38 +110,97 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     follow_convergence(*this);
     run_shortcuts(*this, keys);
     draw_panels();
+    files_->jobs.update(*this);
     draw_modals();
     // A gesture ends when nothing is held any more.
     if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
         !ImGui::IsMouseDown(ImGuiMouseButton_Right) && !ImGui::IsMouseDown(ImGuiMouseButton_Middle))
         end_gesture_ = true;
     apply_pending();
+    if (!options_.config_dir.empty()) {
+        files_->autosave.update(session_, ImGui::GetTime());
+        if (const std::string problem = files_->autosave.take_problem(); !problem.empty())
+            notices.add(LogLevel::error, problem);
+    }
     refresh_picture();
 }
 
 void Editor::follow_opening() {
     auto result = opening_.take();
     if (!result) return;
+    const Opening::Request& request = opening_.request();
     if (!*result) {
-        if (!opening_.was_cancelled()) notices.add(LogLevel::error, result->error().message);
+        if (opening_.problem() != session::BaseProblem::none)
+            ask_for_base(result->error().message, opening_.problem() == session::BaseProblem::changed);
+        else
+            notices.add(LogLevel::error, result->error().message);
         return;
     }
-    io::ImportedScene& imported = **result;
-    session_.adopt(std::move(imported.scene), std::move(imported.report), opening_.path().string());
+    if ((*result)->inserted) {
+        place_inserted(*(*result)->inserted);
+        return;
+    }
+    if (request.purpose == Opening::Purpose::recover) {
+        session_.adopt_recovered(std::move(*(*result)->document));
+        // The old file goes when there is a new one.
+        files_->autosave.write_now(session_, ImGui::GetTime());
+        if (std::filesystem::exists(files_->autosave.file())) session::discard_recoverable({.file = request.path});
+    } else {
+        session_.adopt(std::move(*(*result)->document));
+        files_->recent.add_file(request.path);
+    }
+    document_changed();
+    const auto approximated = session_.report().count(RESTAGE_APPROXIMATED),
+               dropped = session_.report().count(RESTAGE_DROPPED);
+    notices.add(LogLevel::info, fmt::format("{}: {} objects", title_name(session_), scene().instances.live()));
+    if (approximated + dropped > 0)
+        notices.add(LogLevel::warning,
+                    fmt::format("{} things approximated, {} dropped: see Import report", approximated, dropped));
+}
+
+void Editor::document_changed() {
     ++document_;
-    original_ = scene();
+    original_ = session_.base().file.empty() ? scene() : session_.base().scene;
     selection = {};
     locked.clear();
     pick_tool.reset();
     panel_state->forget_document();
     up_ = session::guess_up(camera());
-    const auto approximated = session_.report().count(RESTAGE_APPROXIMATED),
-               dropped = session_.report().count(RESTAGE_DROPPED);
-    notices.add(LogLevel::info,
-                fmt::format("{}: {} objects", opening_.path().filename().string(), scene().instances.live()));
-    if (approximated + dropped > 0)
-        notices.add(LogLevel::warning,
-                    fmt::format("{} things approximated, {} dropped: see Import report", approximated, dropped));
+}
+
+void Editor::ask_for_base(const std::string& message, bool some_fits) {
+    show_modal("The scene of this project", [message, some_fits, request = opening_.request()](Editor& e) {
+        ImGui::PushTextWrapPos(520 * ImGui::GetStyle().FontScaleMain);
+        ImGui::TextUnformatted(message.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::Spacing();
+        bool stay = true;
+        if (ImGui::Button("Find it...")) {
+            stay = false;
+            browse(e, {.title = "Where is the scene?",
+                       .start = request.path.parent_path(),
+                       .done = [request](Editor& editor, const std::filesystem::path& base) {
+                           Opening::Request again = request;
+                           again.base = base;
+                           editor.open_now(std::move(again));
+                       }});
+        }
+        e.mark("base.find");
+        ImGui::SameLine();
+        if (some_fits) {
+            if (ImGui::Button("Leave these changes out")) {
+                stay = false;
+                Opening::Request again = request;
+                again.drop_lost = true;
+                e.later([&e, again] { e.open_now(again); });
+            }
+            e.mark("base.drop");
+            ImGui::SameLine();
+        }
+        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        e.mark("base.cancel");
+        return stay;
+    });
 }
 
 void Editor::apply_pending() {
@@ -162,7 +227,8 @@ void Editor::refresh_picture() {
                        .original = show_original && original_,
                        .samples = view.samples ? view.samples : settings.samples,
                        .seconds = view.seconds,
-                       .error = view.error};
+                       .error = view.error,
+                       .paused = files_->jobs.picture_paused()};
     if (wanted == asked_ || scene().instances.live() == 0) return;
     asked_ = wanted;
     scene::Scene shown = scene();
@@ -175,6 +241,7 @@ void Editor::refresh_picture() {
     }
     const std::uint64_t request = live_->show(std::move(shown), {.size = wanted.size,
                                                                  .document = document_ * 2 + (wanted.original ? 1 : 0),
+                                                                 .paused = wanted.paused,
                                                                  .samples = wanted.samples,
                                                                  .seconds = wanted.seconds,
                                                                  .error = wanted.error});
@@ -228,6 +295,7 @@ void Editor::draw_menu() {
             last = menu;
         }
         if (shown) menu_item(*this, id);
+        if (shown && id == "file.open") recent_menu(*this);
     }
     if (shown) ImGui::EndMenu();
     const bool panels = ImGui::BeginMenu("Panels");

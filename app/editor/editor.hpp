@@ -27,11 +27,13 @@
 namespace restage::editor {
 
 class Editor;
+struct Files; // files.hpp
 
 struct EditorOptions {
     render::RendererOptions renderer;
     std::function<void()> wake; // [any] asks for another frame
     std::filesystem::path config_dir; // layout, preferences; "" = nothing is remembered
+    double autosave_seconds = 60; // unsaved work is written aside so often
 };
 
 enum class GizmoMode { select, move, rotate, scale };
@@ -75,6 +77,7 @@ class Editor {
     void presented(double frame_seconds);
     bool quit_confirmed() const { return quit_; }
     void request_quit(); // asks about unsaved changes first
+    void run_commands(const std::string& lines); // of tests, see probe.cpp
     // What the window's title says.
     std::string title() const;
     // True while frames should follow each other without waiting for events (flying, a fading notice).
@@ -100,8 +103,16 @@ class Editor {
     session::Session& session_for_changes() { return session_; } // only inside later() and actions
 
     void open(const std::filesystem::path& path); // asks about unsaved changes first
-    void insert(const std::filesystem::path& path); // a file as new objects
+    void open_now(Opening::Request request) { opening_.start(std::move(request)); } // asks nothing
+    // A file as new objects, on what is seen at this point of the picture.
+    void insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point = {});
+    // Files that were let go at this point of the window: scenes are opened, objects inserted, images applied.
+    void drop(const std::vector<std::filesystem::path>& paths, ImVec2 screen);
+    void adopt_scene(scene::Scene scene); // one made in the program becomes the document
     Opening& opening() { return opening_; }
+    Files& files() { return *files_; }
+    const EditorOptions& options() const { return options_; }
+    Log& log() { return log_; }
     void undo();
     void redo();
     // The camera the file was opened with; null when there is none.
@@ -169,6 +180,9 @@ class Editor {
     void draw_modals();
     void apply_pending();
     void follow_opening();
+    void document_changed(); // another one is open now
+    void place_inserted(const io::ImportedScene& imported);
+    void ask_for_base(const std::string& message, bool some_fits);
     void refresh_picture();
 
     EditorOptions options_;
@@ -176,6 +190,7 @@ class Editor {
     session::Session session_;
     std::unique_ptr<session::LiveView> live_;
     Opening opening_;
+    std::unique_ptr<Files> files_;
     std::vector<Pending> pending_;
     std::vector<std::string> actions_to_run_;
     bool end_gesture_ = false;
@@ -194,6 +209,7 @@ class Editor {
         bool original = false;
         std::uint32_t samples = 0;
         double seconds = 0, error = 0;
+        bool paused = false;
         bool operator==(const Shown&) const = default;
     } asked_;
     struct Latency { // the latest of each [ms]

@@ -5,32 +5,62 @@
 
 namespace restage::editor {
 
-void Opening::start(std::filesystem::path path, Purpose purpose) {
-    cancel_and_wait();
-    path_ = std::move(path);
-    purpose_ = purpose;
+Opening::~Opening() {
+    cancelled_ = true;
+    if (thread_.joinable()) thread_.join();
+}
+
+void Opening::start(Request request) {
+    if (thread_.joinable()) { // importers stop when they next ask; the window does not wait for that
+        cancelled_ = true;
+        next_ = std::move(request);
+        return;
+    }
+    request_ = std::move(request);
     cancelled_ = finished_ = false;
     progress_ = 0;
-    thread_ = std::thread([this] {
-        lower_thread_priority(2);
-        io::ImportOptions options;
-        options.progress = [this](float done, std::string_view what) {
-            progress_ = done;
-            {
-                std::lock_guard lock(mutex_);
-                stage_ = what;
-            }
-            wake_();
-            return !cancelled_;
-        };
-        auto result = io::import_scene(path_.string(), registry_, options);
+    problem_ = session::BaseProblem::none;
+    {
+        std::lock_guard lock(mutex_);
+        stage_.clear();
+    }
+    thread_ = std::thread([this] { run(); });
+}
+
+void Opening::run() {
+    lower_thread_priority(2);
+    const io::Progress progress = [this](float done, std::string_view what) {
+        progress_ = done;
         {
             std::lock_guard lock(mutex_);
-            result_ = std::move(result);
+            stage_ = what;
         }
-        finished_ = true;
         wake_();
-    });
+        return !cancelled_;
+    };
+    const auto read = [&]() -> Result<Opened> {
+        Opened opened;
+        if (request_.purpose == Purpose::insert) {
+            RESTAGE_TRY(opened.inserted, io::import_scene(request_.path.string(), registry_, {.progress = progress}));
+        } else {
+            const session::ReadOptions options{
+                .progress = progress, .base = request_.base, .drop_lost = request_.drop_lost, .problem = &problem_};
+            RESTAGE_TRY(opened.document, session::read_document(request_.path.string(), registry_, options));
+        }
+        return opened;
+    };
+    auto result = read();
+    {
+        std::lock_guard lock(mutex_);
+        result_ = std::move(result);
+    }
+    finished_ = true;
+    wake_();
+}
+
+void Opening::cancel() {
+    next_.reset();
+    cancelled_ = true;
 }
 
 std::string Opening::stage() const {
@@ -38,17 +68,13 @@ std::string Opening::stage() const {
     return stage_;
 }
 
-std::optional<Result<io::ImportedScene>> Opening::take() {
+std::optional<Result<Opening::Opened>> Opening::take() {
     if (!thread_.joinable() || !finished_) return std::nullopt;
     thread_.join();
-    std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
-}
-
-void Opening::cancel_and_wait() {
-    cancelled_ = true;
-    if (thread_.joinable()) thread_.join();
-    result_.reset();
+    auto result = std::exchange(result_, std::nullopt);
+    if (cancelled_) result.reset();
+    if (next_) start(*std::exchange(next_, std::nullopt));
+    return result;
 }
 
 } // namespace restage::editor

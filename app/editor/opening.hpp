@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening: a scene file is read on a thread of its own while the editor goes on, with progress and cancel.
+// Opening: a scene or project file is read on a thread of its own while the editor goes on, with progress and cancel.
 #pragma once
 
 #include "io/import.hpp"
 #include "plugin/registry.hpp"
+#include "session/document.hpp"
 
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -17,37 +19,49 @@ namespace restage::editor {
 
 class Opening {
   public:
-    enum class Purpose { replace, insert }; // becomes the document, or joins it
+    enum class Purpose { replace, insert, recover }; // becomes the document, joins it, becomes an unsaved document
+    struct Request {
+        std::filesystem::path path;
+        Purpose purpose = Purpose::replace;
+        std::filesystem::path base = {}; // of a project: instead of the one it names
+        bool drop_lost = false;          // see session::ReadOptions
+        std::optional<glm::dvec2> film_point = {}; // insert: where on the picture it is to stand
+    };
+    struct Opened {
+        std::optional<session::Document> document;  // replace, recover
+        std::optional<io::ImportedScene> inserted;
+    };
 
     Opening(const plugin::Registry& registry, std::function<void()> wake)
         : registry_(registry), wake_(std::move(wake)) {}
-    ~Opening() { cancel_and_wait(); }
+    ~Opening();
 
     // Gives up what is being read, if anything.
-    void start(std::filesystem::path path, Purpose purpose);
-    void cancel() { cancelled_ = true; }
+    void start(Request request);
+    void cancel();
     bool running() const { return thread_.joinable(); }
     float progress() const { return progress_; }
     std::string stage() const;
-    const std::filesystem::path& path() const { return path_; }
-    Purpose purpose() const { return purpose_; }
-    // What came of it, once; nothing while it runs.
-    std::optional<Result<io::ImportedScene>> take();
-    bool was_cancelled() const { return cancelled_; }
+    const Request& request() const { return request_; }
+    const std::filesystem::path& path() const { return request_.path; }
+    // What came of it, once; nothing while it runs, or when it was given up.
+    std::optional<Result<Opened>> take();
+    session::BaseProblem problem() const { return problem_; } // when take() gave an error
 
   private:
-    void cancel_and_wait();
+    void run();
 
     const plugin::Registry& registry_;
     std::function<void()> wake_;
     std::thread thread_;
-    std::filesystem::path path_;
-    Purpose purpose_ = Purpose::replace;
+    Request request_;
+    std::optional<Request> next_; // starts when the running one has stopped
     std::atomic<bool> cancelled_ = false, finished_ = false;
     std::atomic<float> progress_ = 0;
+    session::BaseProblem problem_ = session::BaseProblem::none;
     mutable std::mutex mutex_;
     std::string stage_;
-    std::optional<Result<io::ImportedScene>> result_;
+    std::optional<Result<Opened>> result_;
 };
 
 } // namespace restage::editor

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor::probe(): what tests that drive the program with real mouse and key events need to know of it.
+// Editor::probe(): what tests that drive the program with real mouse and key events need to know of it; and what they
+// cannot do with a mouse and keys.
 #include "editor.hpp"
+#include "files.hpp"
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace restage::editor {
 
@@ -11,13 +15,23 @@ std::string Editor::probe() const {
     json j;
     const auto& history = session_.history();
     j["path"] = session_.path();
+    j["base"] = session_.base().file;
     j["modified"] = session_.modified();
+    j["recovery"] = files_->autosave.file().string();
+    j["jobs"] = files_->jobs.running();
+    j["job"] = files_->jobs.progress();
+    j["modal"] = modals_.empty() ? "" : modals_.front().title;
     j["version"] = session_.version();
     j["opening"] = opening_.running();
     j["history"] = {{"size", history.size()}, {"position", history.position()}, {"undo", history.undo_label()}};
     for (std::size_t i = 0; i < history.size(); ++i)
         j["history"]["labels"].push_back(history.label(i));
-    j["counts"] = {{"instances", scene().instances.live()},
+    std::size_t hidden = 0;
+    scene().instances.each([&](InstanceId, const scene::Instance& instance) { hidden += instance.hidden; });
+    j["counts"] = {{"hidden", hidden},
+                   {"groups", scene().groups.live()},
+                   {"images", scene().images.live()},
+                   {"instances", scene().instances.live()},
                    {"materials", scene().materials.live()},
                    {"textures", scene().textures.live()},
                    {"lights", scene().lights.live()}};
@@ -33,6 +47,8 @@ std::string Editor::probe() const {
                                   {"material", material ? material->name : ""},
                                   {"type", material ? material->type : ""}});
     }
+    const auto& sky = scene().environment.value;
+    j["sky"] = sky ? sky->name : "";
     const glm::dvec3 eye(camera().camera_to_world[3]);
     j["camera"] = {eye.x, eye.y, eye.z};
     const session::ViewStatus status = live_->status();
@@ -59,6 +75,19 @@ std::string Editor::probe() const {
     for (const auto& line : notices.lines())
         j["log"].push_back(line.text);
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+// A line each: "drop PATH X Y", as a file manager would let it go there.
+void Editor::run_commands(const std::string& lines) {
+    std::istringstream in(lines);
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t y = line.rfind(' '), x = y == 0 || y == std::string::npos ? y : line.rfind(' ', y - 1);
+        if (!line.starts_with("drop ") || x == std::string::npos || x < 5) {
+            log_.warning("probe: \"" + line + "\" is no command");
+            continue;
+        }
+        drop({line.substr(5, x - 5)}, {std::strtof(line.c_str() + x, nullptr), std::strtof(line.c_str() + y, nullptr)});
+    }
 }
 
 } // namespace restage::editor

@@ -3,6 +3,8 @@
 
 #include "base/file.hpp"
 #include "editor.hpp"
+#include "files.hpp"
+#include "recovery_dialog.hpp"
 #include "window.hpp"
 
 #include <chrono>
@@ -29,7 +31,11 @@ Result<int> run_editor(const RunOptions& options) {
     RESTAGE_TRY(const auto bin, executable_dir());
 
     // Frames are asked for from threads before and after the window's life: GLFW ignores that.
-    Editor editor(registry, log, {.renderer = options.renderer, .wake = Window::wake, .config_dir = config});
+    Editor editor(registry, log,
+                  {.renderer = options.renderer,
+                   .wake = Window::wake,
+                   .config_dir = config,
+                   .autosave_seconds = options.autosave_seconds});
     notices = &editor.notices;
     RESTAGE_TRY(const auto window, Window::create({.size = options.size,
                                                    .device = options.renderer.device,
@@ -39,6 +45,9 @@ Result<int> run_editor(const RunOptions& options) {
                                                    .layout = config / "layout.ini"},
                                                   log));
     if (!options.scene.empty()) editor.open(options.scene);
+    offer_recovery(editor);
+    std::filesystem::path commands = options.probe;
+    commands += ".in";
 
     std::string title, probe;
     while (!editor.quit_confirmed()) {
@@ -47,11 +56,16 @@ Result<int> run_editor(const RunOptions& options) {
             window->refuse_close();
             editor.request_quit();
         }
-        glm::vec2 where(0);
-        for (const auto& path : window->take_dropped(where))
-            editor.open(path);
         const auto begin = std::chrono::steady_clock::now();
         if (!window->begin_frame()) continue;
+        glm::vec2 where(0);
+        if (const auto dropped = window->take_dropped(where); !dropped.empty())
+            editor.drop(dropped, {where.x, where.y});
+        if (!options.probe.empty() && std::filesystem::exists(commands, ignored))
+            if (const auto lines = read_file(commands)) {
+                std::filesystem::remove(commands, ignored);
+                editor.run_commands(*lines);
+            }
         const auto keys = window->take_keys();
         editor.frame(&keys);
         RESTAGE_CHECK(window->end_frame());
@@ -63,6 +77,7 @@ Result<int> run_editor(const RunOptions& options) {
                 probe = std::move(now);
             }
     }
+    editor.files().autosave.forget(); // a clean end; any other leaves what it wrote
     return 0;
 }
 

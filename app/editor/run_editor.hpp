@@ -16,7 +16,8 @@ struct RunOptions {
     float scale = 0; // of the UI; 0 = the monitor's
     glm::ivec2 size{1440, 860};
     std::filesystem::path config_dir; // "" = the user's
-    std::filesystem::path probe;      // for tests: state is written here when it changes
+    double autosave_seconds = 60;     // unsaved work is written into its `recovery` so often
+    std::filesystem::path probe;      // for tests: state is written here when it changes; PROBE.in holds commands
 };
 
 // [main] Returns the exit code.

@@ -30,6 +30,7 @@ class History {
 
     void mark_clean(); // the scene as it is now is what the file holds
     std::optional<std::size_t> clean_position() const { return clean_; } // of the saved state, while it can be reached
+    void mark_unsaved() { clean_.reset(); } // no position is what the file holds
     bool clean() const { return clean_ && *clean_ == position_; }
 
   private:

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/session.hpp"
 
+#include "base/file.hpp"
+#include "scene/bounds.hpp"
+#include "session/project.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace restage::session {
 
 using namespace scene;
 
-Result<> Session::open(const std::string& path, const io::ImportOptions& options) {
-    RESTAGE_TRY(io::ImportedScene imported, io::import_scene(path, registry_, options));
-    adopt(std::move(imported.scene), std::move(imported.report), path);
+Result<> Session::open(const std::string& path, const ReadOptions& options) {
+    RESTAGE_TRY(Document document, read_document(path, registry_, options));
+    adopt(std::move(document));
     return {};
 }
 
@@ -25,7 +31,7 @@ void touch(Table<T>& slots, Version version) {
 
 } // namespace
 
-void Session::adopt(Scene scene, io::Report report, std::string path) {
+void Session::take(Scene&& scene) {
     // Whoever compares versions must not take a slot of the new scene for one of the old: all of them are changed now.
     const Version now = std::max(scene.clock, scene_.clock) + 1;
     scene_ = std::move(scene);
@@ -41,8 +47,47 @@ void Session::adopt(Scene scene, io::Report report, std::string path) {
     touch(scene_.cameras, now);
     scene_.environment.version = scene_.active_camera.version = scene_.film.version = scene_.settings.version = now;
     history_ = {};
+}
+
+void Session::adopt(Scene scene, io::Report report, std::string path) {
+    take(std::move(scene));
     report_ = std::move(report);
     path_ = std::move(path);
+    base_ = {};
+    sources_ = {};
+    unknown_.clear();
+}
+
+void Session::adopt(Document document) {
+    Scene scene = document.base.scene;
+    apply(scene, document.changes);
+    take(std::move(scene));
+    report_ = std::move(document.report);
+    path_ = std::move(document.path);
+    base_ = std::move(document.base);
+    sources_ = std::move(document.sources);
+    unknown_ = std::move(document.unknown);
+}
+
+void Session::adopt_recovered(Document document) {
+    Edit changes = std::exchange(document.changes, {});
+    const auto saved = document.note.find("path");
+    document.path = saved != document.note.end() ? saved->second : "";
+    const bool from_base = document.path == document.base.file; // nothing of it was ever saved
+    adopt(std::move(document));
+    // Slots that stay empty are no change a history would keep, but the ids after them need them.
+    ++scene_.clock;
+    for (const AnyChange& change : changes.changes)
+        std::visit(
+            [&]<class C>(const C& c) {
+                if constexpr (requires { c.id; })
+                    if (!c.before)
+                        table<std::remove_cvref_t<decltype(*c.before)>>(scene_).set(c.id, std::nullopt, scene_.clock);
+            },
+            change);
+    changes.label = "Recovered changes";
+    history_.push(scene_, std::move(changes));
+    if (!from_base) history_.mark_unsaved();
 }
 
 bool Session::edit(Edit edit, std::string_view gesture) { return history_.push(scene_, std::move(edit), gesture); }
@@ -99,16 +144,45 @@ Result<Id<Material>> Session::add_material(std::string name, std::string type) {
     if (!registry_.find_material(type)) return fail("there is no material type \"" + type + "\"");
     const Id<Material> id = scene_.materials.next();
     const std::string label = "Add " + name;
-    edit(insert(scene_, Material{.name = std::move(name), .type = std::move(type)}, label));
+    edit(scene::insert(scene_, Material{.name = std::move(name), .type = std::move(type)}, label));
     return id;
 }
 
 Result<Merged> Session::insert_file(const std::string& path, const io::ImportOptions& options) {
-    RESTAGE_TRY(io::ImportedObjects objects, io::import_into(scene_, path, registry_, options));
-    edit(objects.merged.edit);
-    for (io::ReportEntry& entry : objects.report.entries)
-        report_.entries.push_back(std::move(entry));
-    return std::move(objects.merged);
+    RESTAGE_TRY(const io::ImportedScene imported, io::import_scene(path, registry_, options));
+    return insert(imported, path);
+}
+
+Result<Merged> Session::insert(const io::ImportedScene& imported, const std::string& file,
+                               const std::optional<Stand>& stand) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    Merged made = merge(scene_, imported.scene, path.stem().string());
+    if (made.instances.empty()) return fail(file + ": holds no objects");
+    if (stand) {
+        std::map<std::uint32_t, std::shared_ptr<const MeshData>> meshes;
+        for (const AnyChange& change : made.edit.changes)
+            if (const auto* c = std::get_if<Change<Mesh>>(&change); c && c->after) meshes[c->id.value] = c->after->data;
+        Bounds bounds;
+        for (const AnyChange& change : made.edit.changes)
+            if (const auto* c = std::get_if<Change<Instance>>(&change); c && c->after)
+                if (const auto mesh = meshes.find(c->after->mesh.value); mesh != meshes.end() && mesh->second)
+                    bounds.add(world_bounds(*mesh->second, c->after->object_to_world));
+        const glm::dvec3 lowest = bounds.center() - stand->up * (0.5 * std::abs(glm::dot(bounds.size(), stand->up)));
+        glm::dmat4 move(1);
+        if (!bounds.empty()) move[3] = glm::dvec4(stand->at - lowest, 1);
+        for (AnyChange& change : made.edit.changes) {
+            if (auto* i = std::get_if<Change<Instance>>(&change); i && i->after)
+                i->after->object_to_world = move * i->after->object_to_world;
+            if (auto* l = std::get_if<Change<Light>>(&change); l && l->after)
+                l->after->light_to_world = move * l->after->light_to_world;
+        }
+    }
+    sources_.note_all(imported.scene, path.string(), imported.importer);
+    edit(made.edit);
+    for (const io::ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
+        if (entry.fate != RESTAGE_KEPT || (entry.what != "camera" && entry.what != "environment"))
+            report_.entries.push_back(entry);
+    return made;
 }
 
 Result<io::Report> Session::export_to(const std::string& path, const io::ExportOptions& options) const {
@@ -120,6 +194,20 @@ Result<io::Report> Session::save_as(const std::string& path, const io::ExportOpt
     path_ = path;
     history_.mark_clean();
     return report;
+}
+
+Result<> Session::save_project(const std::string& path) {
+    const std::filesystem::path place = std::filesystem::absolute(path).lexically_normal();
+    RESTAGE_CHECK(write_file_atomic(
+        place,
+        project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_}, place.parent_path())));
+    path_ = place.string();
+    history_.mark_clean();
+    return {};
+}
+
+std::string Session::recovery_text(const std::map<std::string, std::string>& note) const {
+    return project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_, .note = &note}, {});
 }
 
 } // namespace restage::session

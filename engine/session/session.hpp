@@ -10,8 +10,10 @@
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
+#include "session/document.hpp"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,15 +25,19 @@ class Session {
   public:
     explicit Session(const plugin::Registry& registry) : registry_(registry) {}
 
-    // Replaces what is open; when it fails, what is open stays.
-    Result<> open(const std::string& path, const io::ImportOptions& = {});
-    void adopt(scene::Scene, io::Report = {}, std::string path = {}); // a scene made in code, or read elsewhere
+    // A scene file or a project replaces what is open; when it fails, what is open stays.
+    Result<> open(const std::string& path, const ReadOptions& = {});
+    void adopt(Document); // read elsewhere
+    // A recovery file: what it holds beyond its base is one unsaved change, and the place it was saved at is its path.
+    void adopt_recovered(Document);
+    void adopt(scene::Scene, io::Report = {}, std::string path = {}); // a scene made in code
 
     const scene::Scene& scene() const { return scene_; }
     scene::Version version() const { return scene_.clock; } // grows with every change
     const scene::History& history() const { return history_; }
     const io::Report& report() const { return report_; } // of the import
     const std::string& path() const { return path_; } // of the file that was opened or saved; "" = none
+    const Base& base() const { return base_; } // what projects hold the changes against
     bool modified() const { return !history_.clean(); }
     const plugin::Registry& registry() const { return registry_; }
 
@@ -59,20 +65,34 @@ class Session {
                            std::string_view gesture = {});
     Result<scene::Id<scene::Material>> add_material(std::string name, std::string type);
     // The objects of another file become new objects here, as one step of the history; what became of them is added to
-    // the report. For a UI that reads on a worker: io::import_into, then edit() with what it returns.
+    // the report. `stand`: the middle of their underside is put there.
+    struct Stand {
+        glm::dvec3 at, up;
+    };
     Result<scene::Merged> insert_file(const std::string& path, const io::ImportOptions& = {});
+    Result<scene::Merged> insert(const io::ImportedScene&, const std::string& file,
+                                 const std::optional<Stand>& stand = {}); // read elsewhere
 
     // Writes a copy; the document stays what and where it is.
     Result<io::Report> export_to(const std::string& path, const io::ExportOptions& = {}) const;
     // Writes it and remembers the place: the document is unmodified afterwards.
     Result<io::Report> save_as(const std::string& path, const io::ExportOptions& = {});
+    // The same as a project (project.hpp): its base by reference and the changes. The history goes on.
+    Result<> save_project(const std::string& path);
+    // The text of a project; paths in it are absolute. `note`: see recovery.hpp.
+    std::string recovery_text(const std::map<std::string, std::string>& note) const;
 
   private:
+    void take(scene::Scene&&);
+
     const plugin::Registry& registry_;
     scene::Scene scene_;
     scene::History history_;
     io::Report report_;
     std::string path_;
+    Base base_;
+    DataSources sources_;
+    std::string unknown_; // of a project a newer program wrote
 };
 
 } // namespace restage::session

@@ -103,8 +103,11 @@ class Editor:
     def point(self, where):
         """A mark's middle; ("picture", u, v); or (x, y)."""
         if isinstance(where, str):
-            state = self.wait(lambda s: where in s["marks"], f"'{where}' to be on screen", 10)
-            x0, y0, x1, y1 = state["marks"][where]
+            rectangle = None
+            while rectangle != (now := self.wait(lambda s: where in s["marks"], f"'{where}' to be on screen", 10)["marks"][where]):
+                rectangle = now  # dialogs find their size in their first frames
+                time.sleep(0.15)
+            x0, y0, x1, y1 = rectangle
             return int((x0 + x1) / 2), int((y0 + y1) / 2)
         if where[0] == "picture":
             x0, y0, x1, y1 = self.state()["marks"]["picture"]

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// BackgroundJobs: work that takes a while (exports, final pictures) on threads of its own, each with a bar, what it is
+// at, how long it will take, and a way to stop it.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace restage::editor {
+
+class Editor;
+
+class BackgroundJob {
+  public:
+    // [worker] done is 0..1. False: stop.
+    bool report(double done, std::string_view stage);
+    bool cancelled() const { return cancelled_; }
+    bool finish_early() const { return finish_early_; } // "that is enough", where the job offers it
+    bool stopping() const { return cancelled_ || finish_early_; }
+
+  private:
+    friend class BackgroundJobs;
+    std::string title_;
+    bool can_finish_early_ = false, pauses_picture_ = false;
+    std::function<void()> wake_;
+    std::atomic<bool> cancelled_ = false, finish_early_ = false, finished_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::mutex mutex_;
+    double done_ = 0;
+    std::string stage_;
+    std::function<void(Editor&)> then_;
+    std::thread thread_;
+};
+
+class BackgroundJobs {
+  public:
+    explicit BackgroundJobs(std::function<void()> wake) : wake_(std::move(wake)) {}
+    ~BackgroundJobs();
+
+    struct Options {
+        std::string title; // "Exporting kitchen.pbrt"
+        bool can_finish_early = false; // there is a button that ends it with what it has
+        bool pauses_picture = false; // the live picture leaves the processor to it
+    };
+    // `work` runs on a thread; what it returns is done on the main thread, unless it was cancelled.
+    using Work = std::function<std::function<void(Editor&)>(BackgroundJob&)>;
+    void start(Options options, Work work);
+
+    void update(Editor& editor); // [main] once a frame, inside it: bars, and what is finished
+    bool running() const { return !jobs_.empty(); }
+    bool picture_paused() const;
+    double progress() const; // of the first; 0..1
+
+  private:
+    std::function<void()> wake_;
+    std::vector<std::unique_ptr<BackgroundJob>> jobs_;
+};
+
+} // namespace restage::editor

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// FileBrowser: choosing a file inside the window. Folders are listed, and paths looked at, on threads that are left
+// alone when they hang, as those of a network that is gone do.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace restage::editor {
+
+class Editor;
+
+struct FileFilter {
+    std::string label;                   // "Scenes"
+    std::vector<std::string> extensions; // without dots, lower case; none = every file
+};
+
+struct BrowseOptions {
+    std::string title; // "Open a scene"
+    bool save = false; // a new name may be typed, folders made, and replacing asks
+    std::vector<FileFilter> filters;
+    std::filesystem::path start; // a folder; "" = the last used one
+    std::string name;            // at first in the field
+    std::string extension;       // put behind a name without one, when saving: ".restage"
+    std::function<void(Editor&, const std::filesystem::path&)> done;
+};
+
+// Shows it as a modal.
+void browse(Editor& editor, BrowseOptions options);
+
+struct FileEntry {
+    std::string name;
+    bool folder = false;
+    std::uintmax_t size = 0;
+    std::filesystem::file_time_type time;
+};
+
+// The part of `names` that goes on from `typed` in all that begin with it: what Tab adds.
+std::string completion(const std::string& typed, const std::vector<FileEntry>& names);
+
+} // namespace restage::editor

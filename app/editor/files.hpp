@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files: what the editor knows of files beyond the document: the recent ones, unsaved work written aside, work that
+// goes on in the background.
+#pragma once
+
+#include "background.hpp"
+#include "recent.hpp"
+#include "session/recovery.hpp"
+
+#include <filesystem>
+#include <functional>
+
+namespace restage::editor {
+
+struct Files {
+    Files(const std::filesystem::path& config, double autosave_seconds, std::function<void()> wake)
+        : recent(config.empty() ? config : config / "recent.json"),
+          recovery_folder(config / "recovery"),
+          autosave(recovery_folder, autosave_seconds),
+          jobs(std::move(wake)) {}
+
+    Recent recent;
+    std::filesystem::path recovery_folder;
+    session::Autosave autosave;
+    BackgroundJobs jobs;
+    std::filesystem::path last_picture; // where one was written last
+};
+
+} // namespace restage::editor

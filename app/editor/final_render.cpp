@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "final_render.hpp"
+
+#include "editor.hpp"
+#include "file_browser.hpp"
+#include "files.hpp"
+#include "render/denoise.hpp"
+#include "render/renderer.hpp"
+#include "session/picture.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace restage::editor {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Wish {
+    std::uint32_t samples = 64;
+    float error = 0; // > 0: stop there, at `samples` at the latest
+    bool denoise = true;
+    fs::path path;
+};
+
+double now_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+using Done = std::function<void(Editor&)>;
+Done say(LogLevel level, std::string text) {
+    return [level, text = std::move(text)](Editor& e) { e.notices.add(level, text); };
+}
+
+Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& log, render::RendererOptions options,
+                    const scene::Scene& scene, const Wish& wish, const std::string& scene_name) {
+    RESTAGE_CHECK(session::check_picture_path(wish.path.string()));
+    job.report(0, "opening the renderer");
+    options.stand_ins = false;
+    const auto lookup = [&registry](const std::string& type) -> std::optional<render::MaterialPlugin> {
+        const auto* entry = registry.find_material(type);
+        if (!entry) return std::nullopt;
+        return render::MaterialPlugin{entry->table, entry->plugin->folder};
+    };
+    RESTAGE_TRY(const auto renderer, render::Renderer::create(options, lookup, log));
+    job.report(0, "preparing shaders and acceleration structures");
+    RESTAGE_CHECK(renderer->sync(scene));
+    // Denoising is a small part at the end of the bar.
+    const bool denoise = wish.denoise && !registry.denoisers().empty();
+    const double traced = denoise ? 0.97 : 1.0, start = now_seconds();
+    std::uint32_t batch = 1;
+    while (renderer->samples() < wish.samples && !job.stopping()) {
+        const double before = now_seconds();
+        RESTAGE_CHECK(
+            renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }));
+        double done = double(renderer->samples()) / wish.samples;
+        std::string stage = fmt::format("{} of {} samples a pixel", renderer->samples(), wish.samples);
+        if (wish.error > 0 && renderer->samples() >= 8) {
+            const double error = renderer->relative_error();
+            stage += fmt::format(", {:.2f} % error", error * 100);
+            done = std::max(done, error > 0 ? std::min(1.0, std::pow(double(wish.error) / error, 2.0)) : 1.0);
+            if (error <= double(wish.error)) break;
+        }
+        if (!job.report(done * traced, stage)) break;
+        // Batches of about a fifth of a second, so that a stop is quick and the bar moves.
+        batch = std::uint32_t(std::clamp(0.2 / std::max((now_seconds() - before) / batch, 1e-6), 1.0, 1024.0));
+    }
+    if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was given up");
+    session::Picture picture{
+        .film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
+    if (denoise) {
+        job.report(traced, "denoising");
+        RESTAGE_TRY(picture.denoised, render::denoise(picture.film, *registry.denoisers()[0].table,
+                                                      RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
+                                                          return job.report(traced + done * (1 - traced),
+                                                                            "denoising") ||
+                                                                 !job.cancelled();
+                                                      }));
+    }
+    const auto& stats = renderer->stats();
+    const session::PictureOptions how{
+        .metadata = {{"restage:version", plugin::host_version},
+                     {"restage:scene", scene_name},
+                     {"restage:device", renderer->device().info().name},
+                     {"restage:tracer", renderer->tracer_name()},
+                     {"restage:samples", std::to_string(renderer->samples())},
+                     {"restage:seed", std::to_string(options.seed)},
+                     {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
+                     {"restage:denoiser", denoise ? "oidn high" : "none"},
+                     {"restage:seconds", fmt::format("{:.3f}", stats.seconds)}}};
+    RESTAGE_CHECK(session::write_picture(wish.path.string(), picture, how));
+    for (const auto& [type, count] : stats.not_finite)
+        log.warning(
+            fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
+    return say(LogLevel::info,
+               fmt::format("{}: {}x{}, {} samples a pixel in {:.1f} s", wish.path.string(), picture.film.width,
+                           picture.film.height, renderer->samples(), now_seconds() - start));
+}
+
+void start(Editor& e, const Wish& wish) {
+    e.files().last_picture = wish.path;
+    const fs::path path(e.session().path());
+    e.files().jobs.start(
+        {.title = "Final picture " + wish.path.filename().string(), .can_finish_early = true, .pauses_picture = true},
+        [wish, scene = e.scene(), &registry = e.registry(), &log = e.log(), options = e.options().renderer,
+         name = path.filename().string()](BackgroundJob& job) -> Done {
+            auto done = render(job, registry, log, options, scene, wish, name);
+            return done ? *done : say(LogLevel::error, done.error().message);
+        });
+}
+
+} // namespace
+
+void final_render_dialog(Editor& e) {
+    auto wish = std::make_shared<Wish>();
+    wish->samples = std::max(e.scene().settings.value.samples, 1u);
+    wish->denoise = !e.registry().denoisers().empty();
+    e.show_modal("Final picture", [wish](Editor& editor) {
+        const scene::Film& film = editor.scene().film.value;
+        ImGui::Text("%ux%u, as the scene's film says", film.width, film.height);
+        int samples = int(wish->samples);
+        if (ImGui::DragInt("Samples a pixel", &samples, 1, 1, 1 << 20, "%d", ImGuiSliderFlags_AlwaysClamp))
+            wish->samples = std::uint32_t(samples);
+        editor.mark("final.samples");
+        float percent = wish->error * 100;
+        if (ImGui::DragFloat("Stop at error", &percent, 0.05f, 0, 100, percent > 0 ? "%.2f %%" : "never"))
+            wish->error = percent / 100;
+        ImGui::SetItemTooltip("Estimated relative error of the picture before denoising; 0 = all samples");
+        ImGui::BeginDisabled(editor.registry().denoisers().empty());
+        ImGui::Checkbox("Denoise (high quality)", &wish->denoise);
+        editor.mark("final.denoise");
+        ImGui::EndDisabled();
+        ImGui::Spacing();
+        bool stay = true;
+        if (ImGui::Button("Choose where...")) {
+            stay = false;
+            const fs::path path(editor.session().path());
+            const fs::path& last = editor.files().last_picture;
+            browse(editor, {.title = "Final picture as",
+                            .save = true,
+                            .filters = {{"Pictures", {"exr", "png", "hdr", "pfm"}}, {"All files", {}}},
+                            .start = !last.empty()  ? last.parent_path()
+                                     : path.empty() ? fs::path()
+                                                    : path.parent_path(),
+                            .name = (path.empty() ? "untitled" : path.stem().string()) + ".exr",
+                            .extension = ".exr",
+                            .done = [wish](Editor& ed, const fs::path& place) {
+                                wish->path = place;
+                                start(ed, *wish);
+                            }});
+        }
+        editor.mark("final.choose");
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        editor.mark("final.cancel");
+        return stay;
+    });
+}
+
+} // namespace restage::editor

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writing what is not the project: exports through the exporter plugins, and the live picture as an image.
+#include "background.hpp"
+#include "editor.hpp"
+#include "file_browser.hpp"
+#include "files.hpp"
+#include "io/image_file.hpp"
+#include "saving.hpp"
+#include "session/picture.hpp"
+#include "theme.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <misc/cpp/imgui_stdlib.h>
+
+namespace restage::editor {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string first_of(std::string_view list) { return std::string(list.substr(0, list.find('|'))); }
+
+std::vector<std::string> all_of(std::string_view list) {
+    std::vector<std::string> parts;
+    while (!list.empty()) {
+        parts.push_back(first_of(list));
+        list.remove_prefix(std::min(list.size(), parts.back().size() + 1));
+    }
+    return parts;
+}
+
+// One option of an exporter's table.
+void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values) {
+    const scene::Value* set = values.find(line.id);
+    scene::Value v = set ? *set : scene::default_value(line);
+    bool changed = false;
+    switch (static_cast<RestageType>(line.type)) {
+        case RESTAGE_BOOL: {
+            bool on = v.v[0] != 0;
+            changed = ImGui::Checkbox(line.label, &on);
+            v.v[0] = on ? 1.f : 0.f;
+            break;
+        }
+        case RESTAGE_FLOAT:
+            changed =
+                ImGui::DragFloat(line.label, &v.v[0], 0.01f, line.min, line.max, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+            break;
+        case RESTAGE_INT: {
+            int i = int(v.v[0]);
+            changed =
+                ImGui::DragInt(line.label, &i, 1, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
+            v.v[0] = float(i);
+            break;
+        }
+        case RESTAGE_COLOR:
+            changed = ImGui::ColorEdit3(line.label, v.v.data(), ImGuiColorEditFlags_Float);
+            break;
+        case RESTAGE_ENUM:
+            if (ImGui::BeginCombo(line.label, v.text.c_str())) {
+                for (const std::string& choice : all_of(line.choices)) {
+                    if (ImGui::Selectable(choice.c_str(), choice == v.text)) {
+                        v.text = choice;
+                        changed = true;
+                    }
+                    e.mark(fmt::format("export.{}.{}", line.id, choice));
+                }
+                ImGui::EndCombo();
+            }
+            break;
+        case RESTAGE_TEXT:
+            changed = ImGui::InputText(line.label, &v.text);
+            break;
+        case RESTAGE_MATERIAL:
+        case RESTAGE_TEXTURE:
+            break; // no option can be one
+    }
+    e.mark(std::string("export.") + line.id);
+    if (line.tooltip && *line.tooltip) ImGui::SetItemTooltip("%s", line.tooltip);
+    if (changed) values.set(line.id, std::move(v));
+}
+
+void show_report(Editor& e, const fs::path& path, io::Report report) {
+    e.notices.add(LogLevel::info, "Exported " + path.filename().string());
+    for (const io::ReportEntry& entry : report.entries)
+        if (entry.fate != RESTAGE_KEPT) e.notices.add(LogLevel::warning, io::to_string(entry));
+    e.show_modal("Exported", [path, report = std::move(report)](Editor& editor) {
+        ImGui::Text("%s is written.", path.string().c_str());
+        ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(RESTAGE_KEPT),
+                    report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
+        const float scale = ImGui::GetStyle().FontScaleMain;
+        if (report.count(RESTAGE_APPROXIMATED) + report.count(RESTAGE_DROPPED) > 0) {
+            ImGui::BeginChild("report", {620 * scale, 240 * scale}, ImGuiChildFlags_Borders);
+            for (const io::ReportEntry& entry : report.entries) {
+                if (entry.fate == RESTAGE_KEPT) continue;
+                ImGui::TextColored(entry.fate == RESTAGE_DROPPED ? colors::error : colors::warning, "%s",
+                                   io::to_string(entry.fate));
+                ImGui::SameLine();
+                ImGui::TextWrapped("%s: %s", entry.what.c_str(), entry.note.c_str());
+            }
+            ImGui::EndChild();
+        }
+        const bool close = ImGui::Button("Close") || ImGui::IsKeyPressed(ImGuiKey_Escape, false) ||
+                           ImGui::IsKeyPressed(ImGuiKey_Enter, false);
+        editor.mark("exported.close");
+        return !close;
+    });
+}
+
+void start_export(Editor& e, const fs::path& path, io::ExportOptions options) {
+    e.files().jobs.start(
+        {.title = "Exporting " + path.filename().string()},
+        [path, scene = e.scene(), &registry = e.registry(),
+         options = std::move(options)](BackgroundJob& job) mutable -> std::function<void(Editor&)> {
+            options.progress = [&job](float done, std::string_view what) { return job.report(double(done), what); };
+            auto report = io::export_scene(scene, path.string(), registry, options);
+            if (!report)
+                return [message = report.error().message](Editor& editor) {
+                    editor.notices.add(LogLevel::error, message);
+                };
+            return [path, report = std::move(*report)](Editor& editor) { show_report(editor, path, report); };
+        });
+}
+
+// The live picture, as traced and, where there is one of the same film, denoised.
+std::optional<session::Picture> live_picture(const Editor& e) {
+    const auto raw = e.live().frame(), clean = e.live().denoised();
+    if (!raw) return std::nullopt;
+    session::Picture picture{.film = raw->image, .denoised = std::nullopt, .exposure = e.scene().film.value.exposure};
+    if (clean && clean->request == raw->request && clean->image.width == raw->image.width &&
+        clean->image.height == raw->image.height)
+        picture.denoised = clean->image.color;
+    return picture;
+}
+
+// What is on screen, eight bits a channel.
+Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
+                           const session::DisplaySettings& settings) {
+    std::vector<std::uint32_t> rgba;
+    session::to_display(image, settings, rgba);
+    scene::PixelData pixels{.width = image.width, .height = image.height, .channels = 3, .values = {}};
+    pixels.values.reserve(rgba.size() * 3);
+    for (const std::uint32_t p : rgba)
+        for (int shift = 0; shift < 24; shift += 8)
+            pixels.values.push_back(io::srgb_to_linear(float(p >> shift & 255) / 255));
+    return io::write_png(path.string(), pixels);
+}
+
+} // namespace
+
+void export_dialog(Editor& e) {
+    struct State {
+        std::size_t exporter = 0;
+        scene::ParamSet values;
+    };
+    if (e.registry().exporters().empty()) {
+        e.notices.add(LogLevel::error, "No exporter plugin is loaded: see Plugins");
+        return;
+    }
+    e.show_modal("Export", [state = std::make_shared<State>()](Editor& editor) {
+        const auto& exporters = editor.registry().exporters();
+        const RestageExporter1& exporter = *exporters[state->exporter].table;
+        if (ImGui::BeginCombo("Format", exporter.label)) {
+            for (std::size_t i = 0; i < exporters.size(); ++i)
+                if (ImGui::Selectable(exporters[i].table->label, i == state->exporter)) {
+                    state->exporter = i;
+                    state->values = {};
+                }
+            ImGui::EndCombo();
+        }
+        editor.mark("export.format");
+        for (std::uint32_t i = 0; i < exporter.option_count; ++i)
+            option_widget(editor, exporter.options[i], state->values);
+        ImGui::Spacing();
+        bool stay = true;
+        if (ImGui::Button("Choose where...")) {
+            stay = false;
+            const fs::path path(editor.session().path());
+            io::ExportOptions options{.progress = {}, .format = exporter.format, .values = state->values};
+            const std::string extension = "." + first_of(exporter.extensions);
+            browse(editor,
+                   {.title = "Export as",
+                    .save = true,
+                    .filters = {{exporter.label, all_of(exporter.extensions)}, {"All files", {}}},
+                    .start = path.empty() ? fs::path() : path.parent_path(),
+                    .name = (path.empty() ? "untitled" : path.stem().string() + " edited") + extension,
+                    .extension = extension,
+                    .done = [options](Editor& ed, const fs::path& place) { start_export(ed, place, options); }});
+        }
+        editor.mark("export.choose");
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        editor.mark("export.cancel");
+        return stay;
+    });
+}
+
+void save_image_dialog(Editor& e) {
+    struct State {
+        int format = 0;
+        bool denoised = true, as_seen = true;
+    };
+    auto state = std::make_shared<State>();
+    state->denoised = e.view.denoise;
+    e.show_modal("Save image", [state](Editor& editor) {
+        static constexpr const char* formats[] = {"PNG", "EXR", "HDR"};
+        static constexpr const char* extensions[] = {".png", ".exr", ".hdr"};
+        const auto picture = editor.live().frame();
+        if (!picture)
+            ImGui::TextUnformatted("There is no picture yet.");
+        else
+            ImGui::Text("The live picture as it is: %ux%u, %u samples a pixel", picture->image.width,
+                        picture->image.height, picture->image.samples);
+        for (int i = 0; i < 3; ++i) {
+            if (i) ImGui::SameLine();
+            ImGui::RadioButton(formats[i], &state->format, i);
+            editor.mark(fmt::format("image.{}", formats[i]));
+        }
+        if (state->format == 0) {
+            ImGui::Checkbox("As seen: exposure, tone curve and layer of the view", &state->as_seen);
+            ImGui::SetItemTooltip("Off: clipped sRGB at the scene's own exposure");
+        }
+        ImGui::Checkbox(state->format == 1 ? "Denoised (the raw picture is a layer beside it)" : "Denoised",
+                        &state->denoised);
+        editor.mark("image.denoised");
+        ImGui::Spacing();
+        bool stay = true;
+        ImGui::BeginDisabled(!picture);
+        if (ImGui::Button("Choose where...")) {
+            stay = false;
+            const fs::path path(editor.session().path());
+            const std::string extension = extensions[state->format];
+            const fs::path& last = editor.files().last_picture;
+            browse(editor, {.title = "Save image as",
+                            .save = true,
+                            .filters = {{formats[state->format], {extension.substr(1)}}, {"All files", {}}},
+                            .start = !last.empty()  ? last.parent_path()
+                                     : path.empty() ? fs::path()
+                                                    : path.parent_path(),
+                            .name = (path.empty() ? "untitled" : path.stem().string()) + extension,
+                            .extension = extension,
+                            .done = [state](Editor& ed, const fs::path& place) {
+                                auto shot = live_picture(ed);
+                                if (!shot) return;
+                                if (!state->denoised) shot->denoised.reset();
+                                session::DisplaySettings settings = ed.view.display;
+                                settings.scale = shot->exposure;
+                                const bool seen = state->as_seen && place.extension() == ".png";
+                                if (seen && shot->denoised && settings.layer == session::Layer::color)
+                                    shot->film.color = *shot->denoised;
+                                ed.files().last_picture = place;
+                                ed.files().jobs.start(
+                                    {.title = "Writing " + place.filename().string()},
+                                    [place, shot = std::move(*shot), settings,
+                                     seen](BackgroundJob&) -> std::function<void(Editor&)> {
+                                        auto written = session::check_picture_path(place.string());
+                                        if (written && seen)
+                                            written = write_as_seen(place, shot.film, settings);
+                                        else if (written)
+                                            written = session::write_picture(place.string(), shot, {});
+                                        const std::string message =
+                                            written ? "Written: " + place.string() : written.error().message;
+                                        return [message, good = written.has_value()](Editor& x) {
+                                            x.notices.add(good ? LogLevel::info : LogLevel::error, message);
+                                        };
+                                    });
+                            }});
+        }
+        editor.mark("image.choose");
+        ImGui::EndDisabled();
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        editor.mark("image.cancel");
+        return stay;
+    });
+}
+
+} // namespace restage::editor

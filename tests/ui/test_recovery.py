@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Work is not lost when the editor is: it is killed in mid-edit, and started again."""
+import pathlib
+
+import pytest
+
+from desk import Timeout
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CORNELL = ROOT / "scenes/cornell/cornell.pbrt"
+
+
+def hide_all(editor):
+    editor.key("ctrl+a", "h")
+    return editor.wait(lambda s: s["counts"]["hidden"] > 0, "hidden objects")
+
+
+def written_aside(editor):
+    path = editor.wait(lambda s: s["recovery"] and pathlib.Path(s["recovery"]).exists(), "work to be written aside", 15)["recovery"]
+    return pathlib.Path(path)
+
+
+def answer(editor, button):
+    """The first frames of a starting editor may take a second, and a click in them may find the button elsewhere."""
+    for _ in range(3):
+        editor.click(button)
+        try:
+            return editor.wait(lambda s: s["modal"] == "", "the offer to go", 5)
+        except Timeout:
+            pass
+    raise Timeout(f"{button} does nothing")
+
+
+@pytest.mark.parametrize("never_saved", [False, True], ids=["opened", "never saved"])
+def test_killed_in_mid_edit_and_recovered(launch, tmp_path, never_saved):
+    config = tmp_path / "config"
+    first = launch(*([] if never_saved else [CORNELL]), "--autosave", 0.5, config=config)
+    if never_saved:
+        first.key("ctrl+n")
+    before = first.wait(lambda s: s["counts"]["instances"] > 0 and not s["opening"], "the scene")
+    hidden = hide_all(first)["counts"]["hidden"]
+    aside = written_aside(first)
+    assert aside.parent == config / "recovery" and str(first.process.pid) in aside.name
+    first.kill()
+    assert aside.exists()
+
+    second = launch(config=config)
+    second.wait(lambda s: s["modal"] == "Unsaved work was found", "the offer to recover")
+    answer(second, "recovery.recover")
+    state = second.wait(lambda s: s["counts"]["hidden"] == hidden, "the recovered scene", 60)
+    assert state["modified"] and state["counts"]["instances"] == before["counts"]["instances"]
+    assert state["history"]["labels"] == ["Recovered changes"]
+    # It is still safe, now in a file of the new process.
+    own = written_aside(second)
+    assert list((config / "recovery").glob("*.restage")) == [own] and own != aside
+    second.key("ctrl+z")
+    state = second.wait(lambda s: s["counts"]["hidden"] == 0, "undo of what was recovered")
+    assert state["modified"] is False, "the base is what the file holds"
+    second.key("ctrl+y")
+    second.wait(lambda s: s["modified"], "redo")
+
+    # A clean end leaves nothing.
+    second.key("ctrl+q")
+    second.wait(lambda s: s["modal"] == "Unsaved changes", "the question whether to save")
+    second.click("unsaved.discard")
+    assert second.process.wait(20) == 0
+    assert list((config / "recovery").iterdir()) == []
+
+
+def test_later_offers_again_and_discard_does_not(launch, tmp_path):
+    config = tmp_path / "config"
+    first = launch("--autosave", 0.5, config=config)
+    first.key("ctrl+n")
+    first.wait(lambda s: s["counts"]["instances"] == 1, "a new scene")
+    hide_all(first)
+    written_aside(first)
+    # Of a living process nothing is offered.
+    neighbour = launch(config=config)
+    assert neighbour.state()["modal"] == ""
+    neighbour.close()
+    first.kill()
+
+    second = launch(config=config)
+    second.wait(lambda s: s["modal"] == "Unsaved work was found", "the offer")
+    answer(second, "recovery.later")
+    second.key("ctrl+q")
+    assert second.process.wait(20) == 0
+
+    third = launch(config=config)
+    third.wait(lambda s: s["modal"] == "Unsaved work was found", "the same offer again")
+    answer(third, "recovery.discard")
+    assert list((config / "recovery").iterdir()) == []
