@@ -155,9 +155,9 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
     }
     selection.set(made->instances);
     const auto dropped = imported.report.count(RESTAGE_DROPPED);
-    notices.add(LogLevel::info, fmt::format("{}: {} objects inserted{}", request.path.filename().string(),
-                                            made->instances.size(),
-                                            dropped ? fmt::format(", {} things dropped: see Import report", dropped) : ""));
+    notices.add(LogLevel::info,
+                fmt::format("{}: {} objects inserted{}", request.path.filename().string(), made->instances.size(),
+                            dropped ? fmt::format(", {} things dropped: see Import report", dropped) : ""));
 }
 
 } // namespace restage::editor

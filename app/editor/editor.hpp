@@ -146,7 +146,6 @@ class Editor {
     // A modal that shows until its function returns false.
     void show_modal(std::string title, std::function<bool(Editor&)> body);
 
-    const EditorOptions& options() const { return options_; }
     void configure_renderer(const render::RendererOptions& renderer); // another device, tracer, number of threads
     const std::optional<scene::Scene>& original() const { return original_; } // as opened
 

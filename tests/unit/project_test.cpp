@@ -508,8 +508,8 @@ TEST_CASE("What is inserted from a file is named, not held, and stands in when i
                               "Shape \"disk\" \"float radius\" 0.3\n"));
     const auto lamp = io::import_scene(files.at("scenes/lamp.pbrt"), files.registry);
     REQUIRE(lamp);
-    const auto merged = session.insert(*lamp, files.at("scenes/lamp.pbrt"),
-                                       session::Session::Stand{.at = {0, 1, 0}, .up = {0, 1, 0}});
+    const auto merged =
+        session.insert(*lamp, files.at("scenes/lamp.pbrt"), session::Session::Stand{.at = {0, 1, 0}, .up = {0, 1, 0}});
     REQUIRE(merged);
     const auto& made = merged->instances;
     REQUIRE(made.size() == 2);

@@ -203,8 +203,8 @@ void group_row(Editor& e, OutlinerState& state, const Row& row) {
                std::all_of(ids.begin(), ids.end(), [&](InstanceId one) { return e.locked.contains(one.value); });
     };
     // Looking at every object for every row would be slow, and is not needed while nothing is locked.
-    const auto few = !e.locked.empty() && state.members[row.id] <= 64 ? instances_in(e.scene(), id)
-                                                                      : std::vector<InstanceId>();
+    const auto few =
+        !e.locked.empty() && state.members[row.id] <= 64 ? instances_in(e.scene(), id) : std::vector<InstanceId>();
     const RightIcons pressed = right_icons(e, all_locked(few), !hidden, "group." + group->name);
     if (pressed.lock)
         e.later([&e, id, all_locked] {
