@@ -374,7 +374,7 @@ bool Browser::draw_buttons(Editor& e) {
         if (ImGui::Button("Replace it")) accept(replace_);
         e.mark("browser.replace");
         ImGui::SameLine();
-        if (ImGui::Button("Keep it")) {
+        if (ImGui::Button("Keep it") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) {
             replace_.clear();
             focus_name_ = true;
         }
