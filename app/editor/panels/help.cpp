@@ -89,7 +89,7 @@ void draw_help(Editor& e) {
                 heading(title.c_str());
                 last = menu;
             }
-            line(key.c_str(), fmt::format("{}. {}", action.label, action.tooltip).c_str());
+            line(key.c_str(), fmt::format("{} - {}", action.label, action.tooltip).c_str());
         }
         ImGui::EndTable();
     }
