@@ -79,16 +79,12 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
     if (slot == end)
         return fail(fmt::format("material \"{}\": a {} has no colour an image could stand for", material->name,
                                 material->type));
-    scene::Edit edit{fmt::format("Texture {} on {}", path.stem().string(), material->name), {}};
-    scene::Texture texture{.name = path.stem().string(), .type = "imagemap"};
-    texture.image = add_image(s, edit, path, RESTAGE_SRGB, pixels);
-    const auto id = s.textures.next();
-    edit.changes.push_back(scene::Change<scene::Texture>{id, std::nullopt, std::move(texture)});
-    const scene::Value* old = material->params.find(slot->id);
-    scene::Value value = old ? *old : scene::default_value(*slot);
-    value.texture = id;
-    RESTAGE_TRY(const scene::Edit set, scene::set_param(s, instance->material, slot->id, std::move(value)));
-    edit.changes.insert(edit.changes.end(), set.changes.begin(), set.changes.end());
+    RESTAGE_TRY(scene::Edit edit, scene::set_image_texture(s, instance->material, slot->id, RESTAGE_COLOR, false,
+                                                           scene::Image{.name = path.stem().string(),
+                                                                        .path = path.string(),
+                                                                        .encoding = RESTAGE_SRGB,
+                                                                        .data = pixels}));
+    edit.label = fmt::format("Texture {} on {}", path.stem().string(), material->name);
     return edit;
 }
 
