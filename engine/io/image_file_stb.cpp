@@ -124,11 +124,13 @@ Result<> check_png_chunks(std::string_view bytes) {
     return {};
 }
 
-// stb_image before 2.28 writes behind its Huffman tables when one claims more than 256 codes. Walks over the markers as
-// stb does and refuses that; whatever else is wrong, stb finds.
+// stb_image before 2.28 writes behind its Huffman tables when one claims more than 256 codes, and reads memory that was
+// never written when a scan uses a table that was never defined. Walks over the markers as stb does and refuses both
+// (ITU T.81, B.2.3 and B.2.4.2); whatever else is wrong, stb finds.
 Result<> check_jpeg_tables(std::string_view bytes) {
     const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<std::uint8_t>(bytes[at]) : 0u; };
-    constexpr std::uint32_t define_huffman = 0xc4, end_of_image = 0xd9;
+    constexpr std::uint32_t define_huffman = 0xc4, end_of_image = 0xd9, start_of_scan = 0xda;
+    std::uint32_t defined = 0; // bit 4 * class + number: DC tables 0-3, AC tables 4-7
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
         if (byte(at) != 0xff || byte(at + 1) == 0xff || byte(at + 1) == 0) { // fill, or data of a scan
             ++at;
@@ -146,7 +148,17 @@ Result<> check_jpeg_tables(std::string_view bytes) {
             for (std::size_t i = 1; i <= 16; ++i)
                 codes += byte(table + i);
             if (codes > 256) return fail(fmt::format("a Huffman table claims {} codes (byte {})", codes, table));
+            defined |= 1u << ((byte(table) >> 4 & 1) * 4 + (byte(table) & 3));
             table += 17 + codes;
+        }
+        if (marker == start_of_scan) {
+            const std::size_t components = byte(at + 4), spectrum = at + 5 + 2 * components;
+            const bool uses_dc = byte(spectrum) == 0, uses_ac = byte(spectrum + 1) > 0;
+            for (std::size_t i = 0; i < components; ++i) {
+                const std::uint32_t tables = byte(at + 6 + 2 * i), dc = tables >> 4 & 3, ac = tables & 3;
+                if ((uses_dc && !(defined >> dc & 1)) || (uses_ac && !(defined >> (4 + ac) & 1)))
+                    return fail(fmt::format("a scan uses a Huffman table that is not defined (byte {})", at));
+            }
         }
         at = std::max(end, at + 2);
     }
