@@ -40,7 +40,8 @@ class Headless {
         renderer.tracer = "embree";
         renderer.stand_ins = true;
         renderer.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
-        editor_ = std::make_unique<editor::Editor>(registry_, log_, editor::EditorOptions{.renderer = renderer, .wake = [] {}});
+        editor_ = std::make_unique<editor::Editor>(registry_, log_,
+                                                   editor::EditorOptions{.renderer = renderer, .wake = [] {}});
         editor_->view.resolution = 0.02f; // the picture is no matter here
         editor_->open(std::filesystem::path(RESTAGE_SOURCE_DIR) / "scenes" / scene);
         const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(120);
