@@ -81,14 +81,15 @@ class Headless {
     ImVec4 find(ImGuiTestContext* ctx, const std::string& mark) {
         for (int i = 0; i < 30 && !editor_->find_mark(mark); ++i)
             ctx->Yield();
-        const auto* found = editor_->find_mark(mark);
-        IM_CHECK_SILENT_RETV(found, (ctx->LogError("there is no \"%s\"", mark.c_str()), ImVec4()));
-        if (found->item) {
-            ctx->ItemMakeVisible(found->item, ImGuiTestOpFlags_NoError);
+        const auto* now = editor_->find_mark(mark);
+        IM_CHECK_SILENT_RETV(now, (ctx->LogError("there is no \"%s\"", mark.c_str()), ImVec4()));
+        editor::Editor::Mark found = *now; // marks are made anew each frame
+        if (found.item && ctx->ItemInfo(found.item, ImGuiTestOpFlags_NoError).ID) { // else something is over it
+            ctx->ItemMakeVisible(found.item, ImGuiTestOpFlags_NoError);
             ctx->Yield(2);
-            if (const auto* again = editor_->find_mark(mark)) found = again;
+            if (const auto* again = editor_->find_mark(mark)) found = *again;
         }
-        return found->rect;
+        return found.rect;
     }
     bool has(ImGuiTestContext* ctx, const std::string& mark) {
         ctx->Yield(2);
