@@ -6,6 +6,7 @@
 #include "saving.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
+#include "session/sky.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -26,39 +27,6 @@ std::string extension_of(const fs::path& path) {
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
     return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
-}
-
-// The panorama's pole is +z.
-glm::dmat4 upright(const glm::dvec3& up) {
-    const glm::dvec3 other = std::abs(up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 x = glm::normalize(glm::cross(up, other));
-    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(up, x), 0), glm::dvec4(up, 0), glm::dvec4(0, 0, 0, 1)};
-}
-
-scene::Id<scene::Image> add_image(const scene::Scene& s, scene::Edit& edit, const fs::path& path,
-                                  RestageEncoding encoding, const std::shared_ptr<const scene::PixelData>& pixels) {
-    const auto id = s.images.next();
-    edit.changes.push_back(scene::Change<scene::Image>{
-        id, std::nullopt,
-        scene::Image{.name = path.stem().string(), .path = path.string(), .encoding = encoding, .data = pixels}});
-    return id;
-}
-
-Result<scene::Edit> make_sky(const scene::Scene& s, const fs::path& path,
-                             const std::shared_ptr<const scene::PixelData>& pixels, const glm::dvec3& up) {
-    scene::Edit edit{"Sky " + path.stem().string(), {}};
-    scene::Environment sky;
-    if (s.environment.value) sky = *s.environment.value;
-    // Square pictures are octahedral maps, as pbrt-v4 has them; others are panoramas.
-    const RestageMapping mapping = pixels->width == pixels->height ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT;
-    if (!s.environment.value || sky.mapping != mapping || !sky.image) sky.light_to_world = upright(up);
-    sky.name = path.stem().string();
-    sky.mapping = mapping;
-    sky.scale = glm::vec3(1);
-    sky.image = add_image(s, edit, path, RESTAGE_SRGB, pixels);
-    const scene::Edit set = scene::set_environment(s, sky);
-    edit.changes.insert(edit.changes.end(), set.changes.begin(), set.changes.end());
-    return edit;
 }
 
 Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, InstanceId on,
@@ -103,7 +71,8 @@ void drop_image(Editor& e, const fs::path& path, InstanceId on) {
                 [path, sky, on, data = std::make_shared<const scene::PixelData>(std::move(*pixels))](Editor& editor) {
                     editor.edit(
                         [path, sky, on, data, up = editor.up(), &registry = editor.registry()](const scene::Scene& s) {
-                            return sky ? make_sky(s, path, data, up) : make_texture(s, registry, on, path, data);
+                            return sky ? Result<scene::Edit>(session::image_sky(s, path.string(), data, up))
+                                       : make_texture(s, registry, on, path, data);
                         });
                 };
         });

@@ -155,7 +155,7 @@ void Editor::follow_opening() {
     notices.add(LogLevel::info, fmt::format("{}: {} objects", title_name(session_), scene().instances.live()));
     if (approximated + dropped > 0)
         notices.add(LogLevel::warning,
-                    fmt::format("{} things approximated, {} dropped: see Import report", approximated, dropped));
+                    fmt::format("Import report: {} approximated, {} dropped", approximated, dropped));
 }
 
 void Editor::document_changed() {

@@ -74,6 +74,8 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
         glm::frustumRH_NO(window.x * near, window.y * near, window.z * near, window.w * near, near, far));
 
     const ImGuiIO& io = ImGui::GetIO();
+    // Its own highlight is the orange of our outlines, half transparent.
+    ImGuizmo::GetStyle().Colors[ImGuizmo::SELECTION] = {1.f, 0.95f, 0.35f, 1.f};
     ImGuizmo::SetDrawlist();
     ImGuizmo::SetRect(corner.x, corner.y, size.x, size.y);
     ImGuizmo::SetOrthographic(false);

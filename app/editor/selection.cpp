@@ -2,6 +2,8 @@
 #include "selection.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <unordered_set>
 
 namespace restage::editor {
 
@@ -12,12 +14,16 @@ bool Selection::contains(InstanceId id) const {
 void Selection::set(std::span<const InstanceId> ids, Mode mode) {
     light_ = {};
     if (mode == Mode::replace) instances_.clear();
-    const bool all_there = std::all_of(ids.begin(), ids.end(), [&](InstanceId id) { return contains(id); });
-    for (const InstanceId id : ids) {
-        const auto found = std::find(instances_.begin(), instances_.end(), id);
-        if (found != instances_.end()) instances_.erase(found);
-        if (mode != Mode::toggle || !all_there) instances_.push_back(id);
-    }
+    const std::unordered_set<InstanceId> had(instances_.begin(), instances_.end()), given(ids.begin(), ids.end());
+    const bool all_there = std::all_of(given.begin(), given.end(), [&](InstanceId id) { return had.contains(id); });
+    std::erase_if(instances_, [&](InstanceId id) { return given.contains(id); });
+    if (mode == Mode::toggle && all_there) return;
+    // Each once; of repeated ones the last place counts, as the last of all is the active one.
+    std::unordered_set<InstanceId> seen;
+    const std::size_t before = instances_.size();
+    for (auto id = ids.rbegin(); id != ids.rend(); ++id)
+        if (seen.insert(*id).second) instances_.push_back(*id);
+    std::reverse(instances_.begin() + std::ptrdiff_t(before), instances_.end());
 }
 
 void Selection::set_light(scene::Id<scene::Light> light) {

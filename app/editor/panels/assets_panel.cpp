@@ -148,18 +148,9 @@ void cell(Editor& e, AssetsState& state, const Asset& asset, float side) {
 
 void accept_asset(Editor& e) {
     if (!ImGui::BeginDragDropTarget()) return;
-    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path")) {
-        Asset asset{.path = static_cast<const char*>(payload->Data)};
-        const InstanceId under = e.viewport.instance_at(e, ImGui::GetIO().MousePos);
-        if (kind_of_file(asset.path, asset.kind)) {
-            if (asset.kind == AssetKind::texture && under) {
-                const InstanceId ids[] = {under};
-                e.selection.set(ids);
-            } else if (asset.kind == AssetKind::texture)
-                asset.kind = AssetKind::sky; // an image on the background
-            apply(e, asset);
-        }
-    }
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path"))
+        e.later([&e, path = std::filesystem::path(static_cast<const char*>(payload->Data)),
+                 at = ImGui::GetIO().MousePos] { e.drop({path}, at); }); // as if it came from outside
     ImGui::EndDragDropTarget();
 }
 

@@ -14,8 +14,6 @@ void render_section(Editor& editor);
 
 // False when nothing in the scene shines: its picture is black.
 bool has_light(const scene::Scene& scene);
-// Soft grey light from all around, more from above, made without a file.
-Result<scene::Edit> add_studio(const scene::Scene& scene, const glm::dvec3& up);
 // The image becomes the sky; read on another thread.
 void use_as_sky(Editor& editor, const std::string& file);
 

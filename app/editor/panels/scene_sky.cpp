@@ -4,6 +4,7 @@
 #include "scene_panel.hpp"
 
 #include "param_widget.hpp"
+#include "session/sky.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -20,13 +21,6 @@ namespace restage::editor {
 namespace {
 
 using scene::Environment;
-
-// Equirectangular images have +z on top.
-glm::dmat4 upright(const glm::dvec3& up) {
-    const glm::dvec3 x = glm::normalize(std::abs(up.x) < 0.9 ? glm::cross(up, glm::dvec3(1, 0, 0))
-                                                             : glm::cross(up, glm::dvec3(0, 1, 0)));
-    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(up, x), 0), glm::dvec4(up, 0), glm::dvec4(0, 0, 0, 1)};
-}
 
 // The part of a rotation that is about `axis` [deg] (swing-twist decomposition): turning by d about it adds d.
 double twist(const glm::dmat4& m, const glm::dvec3& axis) {
@@ -101,67 +95,19 @@ bool has_light(const scene::Scene& s) {
     return found;
 }
 
-Result<scene::Edit> add_studio(const scene::Scene& s, const glm::dvec3& up) {
-    constexpr std::uint32_t width = 64, height = 32;
-    scene::PixelData pixels{.width = width, .height = height, .channels = 3, .values = {}};
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
-            const float h = 1 - 2 * (float(y) + 0.5f) / height;  // 1 above, -1 below
-            const float soft = 1 / (1 + std::exp(-10 * (h - 0.45f))); // a wide soft box overhead
-            const float side =
-                std::exp(-18 * std::pow((float(x) + 0.5f) / width - 0.3f, 2.f) - 12 * std::pow(h - 0.35f, 2.f));
-            const float v = 0.35f + 1.1f * soft + 1.6f * side + std::min(h, 0.f) * 0.2f;
-            pixels.values.insert(pixels.values.end(), {v, v, v});
-        }
-    const auto id = s.images.next();
-    scene::Edit edit = scene::insert(s,
-                                     scene::Image{.name = "studio",
-                                                  .encoding = RESTAGE_LINEAR,
-                                                  .data = std::make_shared<const scene::PixelData>(std::move(pixels))},
-                                     "Neutral studio");
-    const Environment sky{.name = "Studio", .image = id, .mapping = RESTAGE_EQUIRECT, .light_to_world = upright(up)};
-    const scene::Edit set = scene::set_environment(s, sky);
-    edit.changes.insert(edit.changes.end(), set.changes.begin(), set.changes.end());
-    return edit;
-}
-
 void use_as_sky(Editor& e, const std::string& file) {
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
-    e.panel_state->loads.start(
-        {.path = path,
-         .encoding = RESTAGE_LINEAR,
-         .done = [&e, path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
-             if (!pixels) {
-                 e.notices.add(LogLevel::error, pixels.error().message);
-                 return;
-             }
-             e.edit([path, data = *pixels, up = e.up()](const scene::Scene& s) {
-                 Environment sky =
-                     s.environment.value.value_or(Environment{.name = "Sky", .light_to_world = upright(up)});
-                 // Square ones are octahedral maps as pbrt-v4 has them, others panoramas.
-                 const RestageMapping mapping = data->width == data->height ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT;
-                 if (mapping != sky.mapping) sky.light_to_world = upright(up);
-                 sky.mapping = mapping;
-                 scene::Edit edit{"Sky " + std::filesystem::path(path).stem().string(), {}};
-                 scene::Id<scene::Image> id;
-                 s.images.each([&](scene::Id<scene::Image> other, const scene::Image& i) {
-                     if (i.path == path && i.encoding == RESTAGE_LINEAR && i.data) id = other;
-                 });
-                 if (!id) {
-                     id = s.images.next();
-                     edit.changes.push_back(
-                         scene::Change<scene::Image>{id, std::nullopt,
-                                                     scene::Image{.name = std::filesystem::path(path).stem().string(),
-                                                                  .path = path,
-                                                                  .encoding = RESTAGE_LINEAR,
-                                                                  .data = data}});
-                 }
-                 sky.image = id;
-                 const scene::Edit set = scene::set_environment(s, sky);
-                 edit.changes.insert(edit.changes.end(), set.changes.begin(), set.changes.end());
-                 return Result<scene::Edit>(std::move(edit));
-             });
-         }});
+    e.panel_state->loads.start({.path = path,
+                                .encoding = RESTAGE_SRGB,
+                                .done = [&e, path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+                                    if (!pixels) {
+                                        e.notices.add(LogLevel::error, pixels.error().message);
+                                        return;
+                                    }
+                                    e.edit([path, data = *pixels, up = e.up()](const scene::Scene& s) {
+                                        return Result<scene::Edit>(session::image_sky(s, path, data, up));
+                                    });
+                                }});
 }
 
 void sky_section(Editor& e) {
@@ -172,7 +118,7 @@ void sky_section(Editor& e) {
     if (!has_light(e.scene())) {
         warning_note("Nothing shines in this scene, so its picture is black.");
         if (ImGui::Button("Light it with a neutral studio"))
-            e.edit([up = e.up()](const scene::Scene& s) { return add_studio(s, up); });
+            e.edit([up = e.up()](const scene::Scene& s) { return Result<scene::Edit>(session::studio_sky(s, up)); });
         tip("Soft grey light from all around");
         e.mark("sky.studio");
     }
@@ -183,13 +129,17 @@ void sky_section(Editor& e) {
     if (ImGui::BeginCombo("##kind", kinds[kind])) {
         for (int i = 0; i < 4; ++i) {
             if (ImGui::Selectable(kinds[i], i == kind) && i != kind) {
-                Environment sky = now.value_or(Environment{.name = "Sky", .light_to_world = upright(e.up())});
+                Environment sky =
+                    now.value_or(Environment{.name = "Sky", .light_to_world = session::upright_sky(e.up())});
                 if (i == 0) ask_sky(e, std::nullopt, "No sky");
                 if (i == 1) {
                     sky.image = {};
                     ask_sky(e, sky, "Sky of one colour");
                 }
-                if (i == 3) e.edit([up = e.up()](const scene::Scene& s) { return add_studio(s, up); });
+                if (i == 3)
+                    e.edit([up = e.up()](const scene::Scene& s) {
+                        return Result<scene::Edit>(session::studio_sky(s, up));
+                    });
                 if (i == 2) e.panel_state->scene.choose_sky = true;
             }
             e.mark(std::string("sky.kind.") + kinds[i]);
