@@ -20,7 +20,7 @@ std::shared_ptr<const PixelData> pixels(std::uint32_t width, std::uint32_t heigh
 } // namespace
 
 TEST_CASE("a sky's pole points up, and its frame is a rotation", "[sky]") {
-    for (const glm::dvec3 up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0)}) {
+    for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0)}) {
         const glm::dmat3 m(session::upright_sky(up));
         CHECK(glm::length(m * glm::dvec3(0, 0, 1) - up) < 1e-12);
         CHECK(std::abs(glm::determinant(m) - 1) < 1e-12);
