@@ -22,8 +22,7 @@ PixelData studio_pixels() {
             const float around = (float(x) + 0.5f) / width - 0.3f;
             const float above = 1 / (1 + std::exp(-10 * (h - 0.45f)));
             const float side = std::exp(-18 * around * around - 12 * (h - 0.35f) * (h - 0.35f));
-            pixels.values.insert(pixels.values.end(), 3,
-                                 0.35f + 1.1f * above + 1.6f * side + std::min(h, 0.f) * 0.2f);
+            pixels.values.insert(pixels.values.end(), 3, 0.35f + 1.1f * above + 1.6f * side + std::min(h, 0.f) * 0.2f);
         }
     return pixels;
 }
@@ -42,11 +41,10 @@ glm::dmat4 upright_sky(const glm::dvec3& up) {
 
 Edit studio_sky(const Scene& scene, const glm::dvec3& up) {
     const Id<Image> id = scene.images.next();
-    Edit edit = insert(scene,
-                       Image{.name = "studio",
-                             .encoding = RESTAGE_LINEAR,
-                             .data = std::make_shared<const PixelData>(studio_pixels())},
-                       "Neutral studio");
+    Edit edit = insert(
+        scene,
+        Image{.name = "studio", .encoding = RESTAGE_LINEAR, .data = std::make_shared<const PixelData>(studio_pixels())},
+        "Neutral studio");
     append(edit, set_environment(scene, Environment{.name = "Studio",
                                                     .image = id,
                                                     .mapping = RESTAGE_EQUIRECT,
@@ -71,9 +69,9 @@ Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<cons
     Edit edit{"Sky " + name, {}};
     if (!sky.image) {
         sky.image = scene.images.next();
-        edit.changes.push_back(Change<Image>{
-            sky.image, std::nullopt,
-            Image{.name = name, .path = path, .encoding = RESTAGE_SRGB, .data = std::move(pixels)}});
+        edit.changes.push_back(
+            Change<Image>{sky.image, std::nullopt,
+                          Image{.name = name, .path = path, .encoding = RESTAGE_SRGB, .data = std::move(pixels)}});
     }
     append(edit, set_environment(scene, sky));
     return edit;

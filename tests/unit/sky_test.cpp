@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Skies made by the editor: where up is, what stays of the sky before, and that an image comes in once.
+#include "session/sky.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
-#include "session/sky.hpp"
 #include "session/studio.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -59,5 +59,6 @@ TEST_CASE("a new document has a studio around it that shines from above", "[sky]
     const Image& image = s.images[s.environment.value->image];
     const auto row = [&](std::uint32_t y) { return image.data->values[3 * std::size_t(y) * image.data->width]; };
     CHECK(row(0) > 2 * row(image.data->height - 1));
-    CHECK(glm::length(glm::dmat3(s.environment.value->light_to_world) * glm::dvec3(0, 0, 1) - glm::dvec3(0, 1, 0)) < 1e-12);
+    CHECK(glm::length(glm::dmat3(s.environment.value->light_to_world) * glm::dvec3(0, 0, 1) - glm::dvec3(0, 1, 0)) <
+          1e-12);
 }
