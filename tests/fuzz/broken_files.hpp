@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "plugin/registry.hpp"
+#include "temporary_folder.hpp"
 
 #include <sys/resource.h>
 #include <chrono>
@@ -26,23 +27,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
     std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-class Folder { // empty, gone at the end
-  public:
-    Folder() {
-        std::random_device random;
-        path_ = std::filesystem::temp_directory_path() / ("restage-broken-" + std::to_string(random()));
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
+using Folder = TemporaryFolder;
 
 class Importers {
   public:

@@ -6,6 +6,7 @@
 #include "gpu/compiler.hpp"
 #include "gpu/device.hpp"
 #include "gpu/pipeline.hpp"
+#include "temporary_folder.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
@@ -28,28 +29,14 @@ inline void ok(const Result<void>& result) {
     if (!result) FAIL(result.error().message);
 }
 
-// A folder that is gone when the test ends.
-class TemporaryFolder {
+// With files in it.
+class TemporaryFolder : public restage::test::TemporaryFolder {
   public:
-    TemporaryFolder() {
-        static int counter = 0;
-        path_ = std::filesystem::temp_directory_path() /
-                ("restage-gpu-test-" + std::to_string(getpid()) + "-" + std::to_string(counter++));
-        std::filesystem::create_directories(path_);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    const std::filesystem::path& path() const { return path_; }
     std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        ok(write_file_atomic(path_ / name, text));
-        return path_ / name;
+        std::filesystem::create_directories((path() / name).parent_path());
+        ok(write_file_atomic(path() / name, text));
+        return path() / name;
     }
-
-  private:
-    std::filesystem::path path_;
 };
 
 // A device with validation. `silent()` at the end of a test: the layers had nothing to say.

@@ -5,6 +5,7 @@
 #include "io/scene_compare.hpp"
 #include "render/agreement.hpp"
 #include "session/session.hpp"
+#include "temporary_folder.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -39,8 +40,8 @@ TEST_CASE("edits of the bundled scene survive export and import, in structure an
     session::Session session(plugins().registry);
     const auto opened = session.open(std::string(RESTAGE_SOURCE_DIR) + "/scenes/demo/demo.pbrt");
     REQUIRE(opened.has_value());
-    const auto folder = std::filesystem::temp_directory_path() / "restage-roundtrip-test";
-    std::filesystem::remove_all(folder);
+    const test::TemporaryFolder temporary;
+    const auto& folder = temporary.path();
     std::filesystem::create_directories(folder / "start");
     std::filesystem::create_directories(folder / "edited");
     std::filesystem::create_directories(folder / "undone");

@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/jobs.hpp"
 #include "base/log.hpp"
+#include "temporary_folder.hpp"
 
 #include <atomic>
 #include <catch2/catch_test_macros.hpp>
@@ -18,13 +19,6 @@ namespace fs = std::filesystem;
 using namespace restage;
 
 namespace {
-
-fs::path fresh_folder(const char* name) {
-    const fs::path folder = fs::temp_directory_path() / ("restage_base_test_" + std::string(name));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
 
 std::size_t files_in(const fs::path& folder) {
     std::size_t n = 0;
@@ -47,7 +41,8 @@ TEST_CASE("hash64 is XXH64", "[base]") {
 }
 
 TEST_CASE("an atomic write replaces the whole file or nothing", "[base]") {
-    const fs::path folder = fresh_folder("atomic");
+    const test::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path();
     const fs::path path = folder / "a.txt";
     REQUIRE(write_file_atomic(path, std::string("one\0two", 7)));
     CHECK(read_file(path).value() == std::string("one\0two", 7));
@@ -65,7 +60,8 @@ TEST_CASE("an atomic write replaces the whole file or nothing", "[base]") {
 }
 
 TEST_CASE("file errors name the file and the reason", "[base]") {
-    const fs::path folder = fresh_folder("errors");
+    const test::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path();
     const auto missing = read_file(folder / "missing.pbrt");
     REQUIRE_FALSE(missing);
     CHECK(missing.error().message ==

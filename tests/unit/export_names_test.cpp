@@ -71,7 +71,7 @@ TEST_CASE("names, groups, hidden things and waiting cameras survive pbrt", "[exp
     Plugins plugins;
     const char* v = GENERATE("v4", "v3");
     CAPTURE(v);
-    Folder folder((std::string("names_") + v).c_str());
+    Folder folder;
     const Everything made = furnished(std::string(v) == "v4");
     REQUIRE(validate(made.scene).empty());
     const auto report = io::export_scene(made.scene, folder.file("out.pbrt"), plugins.registry, version(v));
@@ -117,7 +117,7 @@ TEST_CASE("the comparison of scenes sees names when it is asked to", "[export]")
 
 TEST_CASE("lights that were given by spectra go back as they came until they are edited", "[export]") {
     Plugins plugins;
-    Folder in("spectra_in"), folder("spectra");
+    Folder in, folder;
     REQUIRE(write_file_atomic(in.file("lamp.spd"), "400 1\n500 2\n600 3\n700 3\n"));
     REQUIRE(write_file_atomic(in.file("in.pbrt"), R"(
 Film "rgb" "integer xresolution" [ 8 ] "integer yresolution" [ 8 ]
@@ -170,7 +170,7 @@ Shape "disk"
 
 TEST_CASE("curves go back as curves", "[export]") {
     Plugins plugins;
-    Folder folder("curves");
+    Folder folder;
     REQUIRE(write_file_atomic(folder.file("in.pbrt"), R"(
 Film "rgb" "integer xresolution" [ 8 ] "integer yresolution" [ 8 ]
 WorldBegin

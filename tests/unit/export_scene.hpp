@@ -7,6 +7,7 @@
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
 #include "scene/tables.hpp"
+#include "temporary_folder.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -33,13 +34,8 @@ struct Plugins { // everything that was built
 };
 
 struct Folder {
-    std::filesystem::path path;
-    explicit Folder(const char* name)
-        : path(std::filesystem::temp_directory_path() / ("restage_export_test_" + std::string(name))) {
-        std::filesystem::remove_all(path);
-        std::filesystem::create_directories(path);
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
+    TemporaryFolder own;
+    const std::filesystem::path& path = own.path();
     std::string file(const char* name) const { return (path / name).string(); }
     std::map<std::string, std::string> contents() const {
         std::map<std::string, std::string> all;

@@ -46,7 +46,7 @@ TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
     Plugins plugins;
     const char* v = GENERATE("v4", "v3");
     CAPTURE(v);
-    Folder folder(v);
+    Folder folder;
     const Everything made(std::string(v) == "v4");
     REQUIRE(validate(made.scene).empty());
     const auto report = io::export_scene(made.scene, folder.file("out.pbrt"), plugins.registry, version(v));
@@ -60,7 +60,7 @@ TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
         if (entry.fate != RESTAGE_KEPT) FAIL_CHECK(io::to_string(entry));
     CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry)) == "");
     // And once more: what was imported is written and read.
-    Folder second((std::string(v) + "_again").c_str());
+    Folder second;
     REQUIRE(io::export_scene(again->scene, second.file("out.pbrt"), plugins.registry, version(v)));
     const auto third = io::import_scene(second.file("out.pbrt"), plugins.registry);
     REQUIRE(third);
@@ -102,7 +102,7 @@ TEST_CASE("undo to the start writes the same bytes", "[export]") {
     Plugins plugins;
     session::Session session(plugins.registry);
     session.adopt(Everything(true).scene);
-    Folder before("before"), edited("edited"), after("after"), twice("twice");
+    Folder before, edited, after, twice;
     REQUIRE(session.export_to(before.file("s.pbrt")));
     REQUIRE(session.export_to(twice.file("s.pbrt")));
     CHECK(before.contents() == twice.contents());
@@ -137,7 +137,7 @@ TEST_CASE("undo to the start writes the same bytes", "[export]") {
 
 TEST_CASE("what the renderer reduced or did not understand is written back until it is edited", "[export]") {
     Plugins plugins;
-    Folder folder("verbatim");
+    Folder folder;
     REQUIRE(write_file_atomic(folder.file("in.pbrt"), R"(
 Option "disablepixeljitter" true
 Film "rgb" "integer xresolution" [ 8 ] "integer yresolution" [ 8 ] "string filename" [ "a.exr" ] "float maxcomponentvalue" [ 50 ]
@@ -217,7 +217,7 @@ TEST_CASE("the bundled scenes survive a round trip", "[export]") {
         CAPTURE(name);
         const auto first = io::import_scene((scenes / name).string(), plugins.registry);
         REQUIRE(first);
-        Folder folder("bundled");
+        Folder folder;
         REQUIRE(io::export_scene(first->scene, folder.file("s.pbrt"), plugins.registry));
         const auto second = io::import_scene(folder.file("s.pbrt"), plugins.registry);
         REQUIRE(second);
@@ -232,7 +232,7 @@ TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
     std::vector<Id<Instance>> copies{session.find<Instance>("cup")};
     for (int i = 0; i < 5; ++i)
         copies = session.duplicate(copies, glm::translate(glm::dmat4(1), {1, 0, 0})).value();
-    Folder folder("copies");
+    Folder folder;
     REQUIRE(session.export_to(folder.file("s.pbrt")));
     const auto files = folder.contents();
     CHECK(std::count_if(files.begin(), files.end(),
@@ -247,7 +247,7 @@ TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
 
 TEST_CASE("what a version cannot hold is in the report", "[export]") {
     Plugins plugins;
-    Folder folder("lacks");
+    Folder folder;
     const auto lacks = [&](const Scene& scene, const char* v, const char* part) {
         const auto report = io::export_scene(scene, folder.file("s.pbrt"), plugins.registry, version(v));
         REQUIRE(report);
@@ -265,7 +265,7 @@ TEST_CASE("what a version cannot hold is in the report", "[export]") {
 
 TEST_CASE("an export that fails leaves what was there", "[export]") {
     Plugins plugins;
-    Folder folder("fails");
+    Folder folder;
     const Everything made(true);
     REQUIRE(io::export_scene(made.scene, folder.file("s.pbrt"), plugins.registry));
     const auto before = folder.contents();

@@ -7,6 +7,7 @@
 #include "io/scene_writer.hpp"
 #include "plugin/library.hpp"
 #include "scene/validate.hpp"
+#include "temporary_folder.hpp"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -22,15 +23,12 @@ using Catch::Matchers::ContainsSubstring;
 namespace {
 
 struct TestImporter { // a registry with the importer and the material of tests/plugins_bad
-    fs::path path = fs::temp_directory_path() / "restage_io_test";
+    test::TemporaryFolder temporary;
+    const fs::path& path = temporary.path();
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
 
-    TestImporter() {
-        fs::remove_all(path);
-        add("importer", "importer", "org.example.velvet");
-    }
-    ~TestImporter() { fs::remove_all(path); }
+    TestImporter() { add("importer", "importer", "org.example.velvet"); }
     void add(const char* library, const char* kind, const char* id) {
         const fs::path folder = path / "plugins" / library;
         fs::create_directories(folder);
@@ -279,7 +277,8 @@ TEST_CASE("only the first error is shown, with its place", "[io]") {
 
 TEST_CASE("a missing image is reported and the rest goes on; one file is one image", "[io]") {
     Pushed p;
-    const std::string there = (fs::temp_directory_path() / "restage_io_test_gray.pfm").string();
+    const test::TemporaryFolder folder;
+    const std::string there = (folder / "gray.pfm").string();
     const unsigned char pfm[] = "Pf\n1 1\n-1.0\n\0\0\0\x3f"; // one pixel, 0.5
     REQUIRE(write_file_atomic(there, std::string_view(reinterpret_cast<const char*>(pfm), sizeof pfm - 1)));
     const RestageImage gone{.path = "/no/such/wood.png", .encoding = RESTAGE_SRGB}, gray{.path = there.c_str()};

@@ -5,6 +5,7 @@
 #include "io/import.hpp"
 #include "plugin/registry.hpp"
 #include "scene/tables.hpp"
+#include "temporary_folder.hpp"
 
 #include <array>
 #include <catch2/catch_approx.hpp>
@@ -24,12 +25,6 @@ class ModelFiles {
     ModelFiles() {
         const plugin::SearchPath path[] = {{RESTAGE_BINARY_DIR "/lib/restage/plugins", true}};
         registry.scan(path);
-        folder_ = std::filesystem::temp_directory_path() / ("restage-model-" + std::to_string(std::random_device()()));
-        std::filesystem::create_directories(folder_);
-    }
-    ~ModelFiles() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
     }
     ModelFiles(const ModelFiles&) = delete;
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -48,7 +43,7 @@ class ModelFiles {
 
   private:
     Log log_{[](LogLevel, std::string_view) {}};
-    std::filesystem::path folder_;
+    test::TemporaryFolder folder_;
 
   public:
     plugin::Registry registry{log_};

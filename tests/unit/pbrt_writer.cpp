@@ -121,20 +121,8 @@ int Recorder::load_text(const std::string& text, const std::string& name) {
     return load_file(folder.file(name, text));
 }
 
-Folder::Folder() {
-    static std::atomic<int> number{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("restage_pbrt_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-    std::filesystem::create_directories(path_);
-}
-
-Folder::~Folder() {
-    std::error_code code;
-    std::filesystem::remove_all(path_, code);
-}
-
 std::string Folder::file(const std::string& name, const std::string& bytes) const {
-    const std::filesystem::path path = path_ / name;
+    const std::filesystem::path path = folder_ / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path, std::ios::binary) << bytes;
     return path.string();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "load.hpp"
+#include "temporary_folder.hpp"
 
 #include <array>
 #include <cstdio>
@@ -85,13 +86,11 @@ class Recorder {
 // A folder that goes away with the test.
 class Folder {
   public:
-    Folder();
-    ~Folder();
     std::string file(const std::string& name, const std::string& bytes) const;
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return folder_.path(); }
 
   private:
-    std::filesystem::path path_;
+    restage::test::TemporaryFolder folder_;
 };
 
 } // namespace restage::pbrt::test

@@ -4,6 +4,7 @@
 #include "plugin/library.hpp"
 #include "plugin/registry.hpp"
 #include "plugin/tables.hpp"
+#include "temporary_folder.hpp"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -27,12 +28,10 @@ std::string manifest(const char* kind = "material", const char* abi = "1", const
 
 // A search path in a temporary folder that this test fills with plugins.
 struct Folder {
-    fs::path path = fs::temp_directory_path() / "restage_plugin_test";
+    test::TemporaryFolder own;
+    const fs::path& path = own.path();
     std::vector<std::string> lines;
     Log log{[this](LogLevel, std::string_view line) { lines.emplace_back(line); }};
-
-    Folder() { fs::remove_all(path); }
-    ~Folder() { fs::remove_all(path); }
 
     fs::path add(const std::string& name, const std::string& json, const char* library) {
         const fs::path folder = path / name;

@@ -8,6 +8,7 @@
 #include "session/project.hpp"
 #include "session/project_fields.hpp"
 #include "session/session.hpp"
+#include "temporary_folder.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -58,17 +59,16 @@ LightSource "point" "rgb I" [ 3 3 3 ] "point3 from" [ 2 3 -2 ]
 struct Fixture {
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
-    fs::path folder = fs::temp_directory_path() / "restage_project_test";
+    TemporaryFolder own;
+    const fs::path& folder = own.path();
     Fixture() {
         registry.scan(
             std::vector<plugin::SearchPath>{{fs::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
-        fs::remove_all(folder);
         fs::create_directories(folder / "scenes");
         PixelData wood{.width = 4, .height = 2, .channels = 3, .values = std::vector<float>(24, 0.25f)};
         REQUIRE(io::write_png(at("scenes/wood.png"), wood));
         REQUIRE(write_file_atomic(at("scenes/room.pbrt"), room));
     }
-    ~Fixture() { fs::remove_all(folder); }
     std::string at(const char* name) const { return (folder / name).string(); }
     void opened(session::Session& session) const {
         const auto done = session.open(at("scenes/room.pbrt"));

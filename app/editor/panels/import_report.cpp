@@ -54,9 +54,10 @@ void relink(Editor& e, std::vector<std::pair<ImageId, std::string>> places) {
             {.path = path,
              .encoding = image.encoding,
              .gamma = image.gamma,
-             .done = [&e, all, id = id, path = path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+             .done = [&e, all, image_id = id,
+                      image_path = path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
                  if (pixels)
-                     all->read.emplace_back(id, path, *pixels);
+                     all->read.emplace_back(image_id, image_path, *pixels);
                  else
                      e.notices.add(LogLevel::error, pixels.error().message);
                  if (--all->left > 0 || all->read.empty()) return;
