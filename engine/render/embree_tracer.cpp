@@ -22,6 +22,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: stays near the caches, amortises a submit
 constexpr std::uint32_t group_size = 64;      // of the kernels
 constexpr std::size_t chunk = 2048;           // paths a job
+constexpr std::size_t ahead = 3; // paths that are fetched before their turn: kernels left them in another cache
 constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
 
 static_assert(sizeof(shared::WavePush) == 128);
@@ -178,62 +179,81 @@ class EmbreeTracer final : public Tracer {
                !(scene.instances()[instance].flags & INSTANCE_EMITS);
     }
 
+    // Adds what the shadow rays of these paths found lit. Returns how many rays there were.
+    std::uint32_t trace_shadows(const GpuScene& scene, std::span<const std::uint32_t> active) {
+        auto shadows = shadows_.span<shared::ShadowRay>();
+        auto paths = paths_.span<shared::PathState>();
+        std::uint32_t traced = 0;
+        for (std::size_t a = 0; a < active.size(); ++a) {
+            if (a + ahead < active.size()) {
+                __builtin_prefetch(&shadows[active[a + ahead]]);
+                __builtin_prefetch(&paths[active[a + ahead]]);
+            }
+            shared::ShadowRay& shadow = shadows[active[a]];
+            if (!(shadow.tfar > 0)) continue;
+            ++traced;
+            const float distance = shadow.tfar;
+            embree_->occluded(shadow);
+            if (shadow.tfar > 0) {
+                glm::vec3 c = shadow.contribution;
+                if (scene.features().borders)
+                    c *= embree_->pass_borders(shadow.origin, shadow.direction, distance, shadow.medium).transmittance;
+                paths[active[a]].radiance += c;
+            }
+            shadow.tfar = -1;
+        }
+        return traced;
+    }
+
+    // Next hits of these paths: types_ says who shades each, `count` has how many of each type.
+    std::uint32_t trace_closest(const GpuScene& scene, std::span<const std::uint32_t> active, bool last_vertex,
+                                std::array<std::uint32_t, 256>& count) {
+        auto rays = rays_.span<shared::RayHit>();
+        auto paths = paths_.span<shared::PathState>();
+        std::uint32_t traced = 0;
+        for (std::size_t a = 0; a < active.size(); ++a) {
+            if (a + ahead < active.size()) {
+                __builtin_prefetch(&rays[active[a + ahead]]);
+                __builtin_prefetch(&rays[active[a + ahead]].u);
+            }
+            const std::uint32_t i = active[a];
+            std::uint8_t type = type_none;
+            if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
+                ++traced;
+                ray.geom = ray.inst = NONE;
+                embree_->intersect(ray);
+                if (scene.features().borders) {
+                    const auto passed = embree_->pass_borders(ray.origin, ray.direction, ray.tfar, paths[i].medium);
+                    paths[i].throughput *= passed.transmittance;
+                    paths[i].medium = passed.medium;
+                }
+                if (ray.inst == NONE) {
+                    type = scene.features().environment ? type_escape : type_none;
+                } else if (!last_vertex || !ends_unlit(scene, paths[i], ray.inst)) {
+                    ray.geom = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
+                    if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter let it stand: cannot be
+                    type = std::uint8_t(scene.materials()[ray.geom].type);
+                }
+            }
+            types_[i] = type;
+            ++count[type];
+        }
+        return traced;
+    }
+
     // Shadow rays of the last vertex, then the next hits, for the active paths in natural order. Afterwards `queue_`
     // holds the hit paths sorted by type, type_count_ their numbers, active_ those that will be shaded.
     void trace_rays(const GpuScene& scene, bool last_vertex) {
         const auto start = Clock::now();
-        auto rays = rays_.span<shared::RayHit>();
-        auto shadows = shadows_.span<shared::ShadowRay>();
-        auto paths = paths_.span<shared::PathState>();
         auto queue = queue_.span<std::uint32_t>();
         const std::size_t n = active_.size(), chunks = (n + chunk - 1) / chunk;
-        const bool environment = scene.features().environment, borders = scene.features().borders;
         counts_.assign(chunks, {});
         std::atomic<std::uint64_t> rays_traced = 0, shadows_traced = 0;
         c_.jobs.parallel_for(chunks, 1, [&](std::size_t begin, std::size_t end, unsigned) {
             for (std::size_t k = begin; k < end; ++k) {
-                std::uint32_t closest = 0, any = 0;
-                for (std::size_t a = k * chunk; a < std::min(n, (k + 1) * chunk); ++a) {
-                    const std::uint32_t i = active_[a];
-                    if (shadows[i].tfar > 0) {
-                        ++any;
-                        embree_->occluded(shadows[i]);
-                        if (shadows[i].tfar > 0) {
-                            glm::vec3 c = shadows[i].contribution;
-                            if (borders) {
-                                const auto& s = shadows[i];
-                                c *= embree_->pass_borders(s.origin, s.direction, s.tfar, s.medium).transmittance;
-                            }
-                            paths[i].radiance += c;
-                        }
-                        shadows[i].tfar = -1;
-                    }
-                    std::uint8_t type = type_none;
-                    if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
-                        ++closest;
-                        ray.geom = ray.inst = NONE;
-                        embree_->intersect(ray);
-                        if (borders) {
-                            const auto passed =
-                                embree_->pass_borders(ray.origin, ray.direction, ray.tfar, paths[i].medium);
-                            paths[i].throughput *= passed.transmittance;
-                            paths[i].medium = passed.medium;
-                        }
-                        if (ray.inst == NONE) {
-                            type = environment ? type_escape : type_none;
-                        } else if (last_vertex && ends_unlit(scene, paths[i], ray.inst)) {
-                            type = type_none;
-                        } else {
-                            ray.geom = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
-                            if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter let it stand: cannot be
-                            type = std::uint8_t(scene.materials()[ray.geom].type);
-                        }
-                    }
-                    types_[i] = type;
-                    ++counts_[k][type];
-                }
-                rays_traced += closest;
-                shadows_traced += any;
+                const auto paths = std::span(active_).subspan(k * chunk, std::min(chunk, n - k * chunk));
+                shadows_traced += trace_shadows(scene, paths);
+                rays_traced += trace_closest(scene, paths, last_vertex, counts_[k]);
             }
         });
         // Where each chunk's paths of each type begin in the queue, and its live ones in the next active list.
