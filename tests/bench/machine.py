@@ -35,8 +35,10 @@ def describe(restage):
 
 
 def commit():
-    """Of the checkout, "+" behind it when tracked files differ from it."""
-    return first(output("git", "-C", str(pathlib.Path(__file__).parent), "describe", "--always", "--exclude=*", "--dirty=+"), r"(\S+)")
+    """Of the checkout, "+" behind it when tracked files differ from it; what was measured before does not count."""
+    git = ["git", "-C", str(pathlib.Path(__file__).parents[2])]
+    changed = output(*git, "status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs/bench").strip()
+    return first(output(*git, "rev-parse", "--short", "HEAD"), r"(\S+)") + ("+" if changed else "")
 
 
 class Watch:
