@@ -50,7 +50,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     if (materials || instances) // an instance may bring in a type
         RESTAGE_CHECK(sync_materials(scene, changes));
     if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
-    if (lights) RESTAGE_CHECK(sync_lights(scene, changes));
+    if (lights || !changes.instances.empty()) RESTAGE_CHECK(sync_lights(scene, changes));
     RESTAGE_CHECK(sync_root(scene, changes));
     changes.image = first_ || scene.clock != seen_.settings || changes.image;
     changes.film = first_ || scene.film.version != seen_.film;

@@ -171,11 +171,11 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         const Id<scene::Instance> id{i};
         const auto* in = scene.instances.find(id);
         const auto* material = in ? scene.materials.find(in->material) : nullptr;
-        // `interface`: rays pass, unless it shines; what it may be is a border of media
+        // `interface`: rays pass, and it does not shine, as in pbrt; what it may be is a border of media
         const std::uint32_t m = material ? in->material.value : 0;
         const bool nothing = types_[materials_[m].type].null_surface(), gaps = has_gaps_[m] != 0;
         const bool there = in && !in->hidden && mesh(in->mesh);
-        const bool traced = there && (!nothing || in->emission);
+        const bool traced = there && !nothing;
         const bool border = there && (gaps || !traced) && in->media && in->media->interior != in->media->exterior;
         const bool changed = i >= old || scene.instances.version(id) > seen_.instances || traced != (traced_[i] != 0) ||
                              border != (border_[i] != 0) || instances_[i].material != (nothing ? 0 : m) ||
@@ -222,7 +222,11 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
     });
     radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
 
-    light_table_ = make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), radius_);
+    const auto whole = [&](Id<scene::Instance> id) {
+        return traced_[id.value] && !(instances_[id.value].flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS));
+    };
+    light_table_ =
+        make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), radius_, whole);
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
         if (instances_[i].light_base != light_table_.light_base[i]) {
             auto record = instances_[i];

@@ -15,11 +15,6 @@ constexpr double pi = std::numbers::pi;
 
 double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-bool visible(const scene::Scene& scene, const scene::Instance& instance) {
-    const auto* mesh = scene.meshes.find(instance.mesh);
-    return !instance.hidden && mesh && mesh->data;
-}
-
 } // namespace
 
 glm::dvec3 outward_normal(const scene::Instance& instance, const scene::MeshData& mesh, const glm::uvec3& t) {
@@ -68,13 +63,13 @@ Rounding light_rounding(const glm::dmat4& object_to_render, const scene::MeshDat
 } // namespace
 
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            double radius) {
+                            double radius, const std::function<bool(Id<scene::Instance>)>& whole) {
     LightTable table;
     table.light_base.assign(scene.instances.size() + 1, NONE);
     std::vector<double> power;
 
     scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& instance) {
-        if (!instance.emission || !visible(scene, instance) || luminance(instance.emission->radiance) <= 0) return;
+        if (!instance.emission || luminance(instance.emission->radiance) <= 0 || !whole(id)) return;
         const auto& mesh = *scene.meshes[instance.mesh].data;
         table.light_base[id.value] = std::uint32_t(table.lights.size());
         const double exitance = pi * luminance(instance.emission->radiance) * (instance.emission->two_sided ? 2 : 1);

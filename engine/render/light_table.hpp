@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 #include "shared/scene_data.h"
 
+#include <functional>
 #include <vector>
 
 namespace restage::render {
@@ -19,8 +20,10 @@ struct LightTable {
 
 // environment_mean: mean radiance of the environment over the sphere, scale applied (0 = none).
 // radius: of the scene's bounds, for what shines from infinitely far.
+// whole: of an emissive instance: every point of its surface is there. Others (cut-outs, mixes with a share of nothing)
+// are no entries: paths find them by BSDF sampling alone, since a point chosen on them may be a hole.
 LightTable make_light_table(const scene::Scene&, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            double radius);
+                            double radius, const std::function<bool(scene::Id<scene::Instance>)>& whole);
 
 // Which side of a triangle is out: its normal in world space, by the rule of shaders/path/surface.glsl.
 glm::dvec3 outward_normal(const scene::Instance&, const scene::MeshData&, const glm::uvec3& triangle);

@@ -121,6 +121,32 @@ TEST_CASE("a mirrored transform keeps the side that emits") {
     check_mean(render_image(*make_renderer(tracer), b.scene, 256), 2 * form);
 }
 
+TEST_CASE("a cut-out lamp shines with what is left of it, and an interface does not") {
+    const auto tracer = GENERATE("embree", "vulkan");
+    const std::string left = GENERATE("half of it by alpha", "half of it in a mix", "interface");
+    CAPTURE(left);
+    SceneBuilder b;
+    look_down(b);
+    b.set_camera({8, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.05f); // past the light
+    ground(b, 1.f);
+    auto material = left == "interface" ? b.material("interface") : b.diffuse(0, 0, 0);
+    if (left == "half of it in a mix") {
+        scene::ParamSet p;
+        p.set("first", {.type = RESTAGE_MATERIAL, .material = material});
+        p.set("second", {.type = RESTAGE_MATERIAL, .material = b.material("interface")});
+        p.set("amount", scene::Value::number(0.5f));
+        material = b.material("mix", p);
+    }
+    const auto id = b.instance(b.quad({-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}), material, glm::dmat4(1),
+                               scene::Emission{glm::vec3(2)});
+    auto lamp = b.scene.instances[id];
+    if (left == "half of it by alpha") lamp.alpha = 0.5f;
+    b.scene.instances.set(id, lamp, ++b.scene.clock);
+    b.scene.settings.value.max_depth = 1;
+    const double k = 0.5 / std::sqrt(1.25), whole = 2 * 4 / (2 * pi) * 2 * k * std::atan(k);
+    check_mean(render_image(*make_renderer(tracer), b.scene, 1024), left == "interface" ? 0 : 0.5 * whole);
+}
+
 TEST_CASE("furnace: a white diffuse sphere from inside") {
     const auto tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;
