@@ -259,6 +259,7 @@ void Editor::presented(double frame_seconds) {
         // ImGui::GetTime() is that of the frame's begin.
         if (it->first == shown) {
             latency_.shown_asked = it->second;
+            ++latency_.count;
             keep(latency_.pixels, (ImGui::GetTime() + frame_seconds - it->second) * 1000);
         }
         it = latency_.asked.erase(it);

@@ -213,6 +213,7 @@ class Editor {
     } asked_;
     struct Latency { // the latest of each [ms]
         std::map<std::uint64_t, double> asked; // request of the live picture: when it was asked for
+        std::uint64_t count = 0; // of `pixels`, with those that were dropped
         std::deque<double> pixels; // from the begin of the frame that asked, to the picture of it on the screen
         std::deque<double> frames; // of the window
         double shown_asked = 0; // when what is shown was asked for [s]

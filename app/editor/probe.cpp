@@ -69,7 +69,10 @@ std::string Editor::probe() const {
                  {"first_clean_seconds", latency_.clean_seconds},
                  {"denoised_seconds", clean ? clean->seconds : 0.0},
                  {"hovered", hovered.value}};
-    j["latency"] = {{"pixels", latency_.pixels}, {"frames", latency_.frames}};
+    j["latency"] = {{"count", latency_.count},
+                    {"nframes", ImGui::GetFrameCount()},
+                    {"pixels", latency_.pixels},
+                    {"frames", latency_.frames}};
     for (const auto& [name, mark] : marks_)
         j["marks"][name] = {mark.rect.x, mark.rect.y, mark.rect.z, mark.rect.w};
     for (const auto& line : notices.lines())

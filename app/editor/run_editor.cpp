@@ -57,7 +57,8 @@ Result<int> run_editor(const RunOptions& options) {
             editor.request_quit();
         }
         const auto begin = std::chrono::steady_clock::now();
-        if (!window->begin_frame()) continue;
+        RESTAGE_TRY(const bool visible, window->begin_frame());
+        if (!visible) continue;
         glm::vec2 where(0);
         if (const auto dropped = window->take_dropped(where); !dropped.empty())
             editor.drop(dropped, {where.x, where.y});

@@ -22,6 +22,7 @@ class Texture {
 
     // RGBA, row 0 on top. Shows from this frame on.
     void set(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> rgba);
+    void hide() { current_ = nullptr; } // until it is set again
     bool ready() const { return current_ != nullptr; }
     ImTextureRef ref() const { return current_->GetTexRef(); }
 

@@ -148,24 +148,11 @@ void Viewport::update_textures(Editor& e) {
     for (const InstanceId id : key.selected)
         if (id.value < mark.size()) mark[id.value] = 2;
     outlined_ = std::move(key);
-    const auto at = [&](int x, int y) -> std::uint8_t {
-        x = std::clamp(x, 0, int(image.width) - 1);
-        y = std::clamp(y, 0, int(image.height) - 1);
-        const std::uint32_t id = image.instance_id[std::size_t(y) * image.width + std::size_t(x)];
-        return id < mark.size() ? mark[id] : 0;
-    };
-    const std::uint32_t ring[3] = {0, ImGui::GetColorU32(colors::hover), ImGui::GetColorU32(colors::accent)};
-    const int width = frame->divider > 1 ? 1 : 2;
-    pixels_.assign(std::size_t(image.width) * image.height, 0);
-    for (int y = 0; y < int(image.height); ++y)
-        for (int x = 0; x < int(image.width); ++x) {
-            const std::uint8_t own = at(x, y);
-            std::uint8_t near = 0;
-            for (int d = 1; d <= width; ++d)
-                near = std::max({near, at(x - d, y), at(x + d, y), at(x, y - d), at(x, y + d)});
-            if (near > own) pixels_[std::size_t(y) * image.width + std::size_t(x)] = ring[near];
-        }
-    outline_.set(image.width, image.height, pixels_);
+    if (session::to_outlines(image, mark, frame->divider > 1 ? 1 : 2,
+                             {ImGui::GetColorU32(colors::hover), ImGui::GetColorU32(colors::accent)}, pixels_))
+        outline_.set(image.width, image.height, pixels_);
+    else
+        outline_.hide();
 }
 
 void Viewport::draw_overlays(Editor& e) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window.hpp"
 
+#include "canvas.hpp"
+#include "damage.hpp"
 #include "gpu/device.hpp"
 #include "theme.hpp"
 
@@ -10,6 +12,7 @@
 #include <imgui_impl_vulkan.h>
 #include <implot.h>
 #include <algorithm>
+#include <optional>
 
 // Of Dear ImGui's backend; not in its header.
 ImGuiKey ImGui_ImplGlfw_KeyToImGuiKey(int keycode, int scancode);
@@ -37,6 +40,8 @@ struct Window::Impl {
     std::unique_ptr<gpu::Device> device;
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     ImGui_ImplVulkanH_Window swap;
+    Canvas canvas;
+    Damage damage;
     std::string layout_path;
     std::vector<std::filesystem::path> dropped;
     glm::vec2 dropped_at{0};
@@ -53,6 +58,7 @@ struct Window::Impl {
             ImPlot::DestroyContext();
             ImGui::DestroyContext();
         }
+        canvas = {};
         if (swap.Swapchain) ImGui_ImplVulkanH_DestroyWindow(device->instance(), device->handle(), &swap, nullptr);
         if (surface) vkDestroySurfaceKHR(device->instance(), surface, nullptr);
         device.reset();
@@ -60,24 +66,53 @@ struct Window::Impl {
         glfwTerminate();
     }
 
-    void resize() {
+    Result<void> resize() {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window, &width, &height);
-        if (width <= 0 || height <= 0) return;
+        if (width <= 0 || height <= 0) return {};
         if (stale || swap.Width != width || swap.Height != height) {
             ImGui_ImplVulkanH_CreateOrResizeWindow(device->instance(), device->physical_device(), device->handle(),
-                                                   &swap, device->queue_family(), nullptr, width, height, 2, 0);
+                                                   &swap, device->queue_family(), nullptr, width, height, 2,
+                                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT);
             swap.FrameIndex = 0;
             stale = false;
+            damage.forget();
+            RESTAGE_TRY(canvas, Canvas::create(*device, swap.SurfaceFormat.format, std::uint32_t(swap.Width),
+                                               std::uint32_t(swap.Height)));
         }
+        return {};
+    }
+
+    // The part of the window that has to be drawn [pixel]; none when all of it is as it was.
+    std::optional<VkRect2D> take_damage(ImDrawData& draw) {
+        ImRect rect = damage.update(draw);
+        const bool textures = draw.Textures && std::ranges::any_of(*draw.Textures, [](const ImTextureData* texture) {
+                                  return texture->Status != ImTextureStatus_OK;
+                              });
+        const ImVec2 density = draw.FramebufferScale, corner = draw.DisplayPos;
+        if (rect.Min.x >= rect.Max.x) {
+            if (!textures) return {};
+            rect = {corner, {corner.x + 1, corner.y + 1}}; // the backend has textures to free: a pixel will do
+        }
+        Damage::clip(draw, rect);
+        const int x0 = std::clamp(int((rect.Min.x - corner.x) * density.x), 0, swap.Width - 1),
+                  y0 = std::clamp(int((rect.Min.y - corner.y) * density.y), 0, swap.Height - 1),
+                  x1 = std::clamp(int((rect.Max.x - corner.x) * density.x), x0 + 1, swap.Width),
+                  y1 = std::clamp(int((rect.Max.y - corner.y) * density.y), y0 + 1, swap.Height);
+        return VkRect2D{{x0, y0}, {std::uint32_t(x1 - x0), std::uint32_t(y1 - y0)}};
     }
 
     Result<void> present(ImDrawData* draw) {
+        const auto area = take_damage(*draw);
+        if (!area) return {};
         auto& semaphores = swap.FrameSemaphores[static_cast<int>(swap.SemaphoreIndex)];
         VkResult result = vkAcquireNextImageKHR(device->handle(), swap.Swapchain, UINT64_MAX,
                                                 semaphores.ImageAcquiredSemaphore, VK_NULL_HANDLE, &swap.FrameIndex);
         if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) stale = true;
-        if (result == VK_ERROR_OUT_OF_DATE_KHR) return {};
+        if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+            damage.forget();
+            return {};
+        }
         if (result < 0) return device->error(result, "drawing the window");
         auto& frame = swap.Frames[static_cast<int>(swap.FrameIndex)];
         note_failure(vkWaitForFences(device->handle(), 1, &frame.Fence, VK_TRUE, UINT64_MAX));
@@ -86,18 +121,12 @@ struct Window::Impl {
         const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                              .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
         note_failure(vkBeginCommandBuffer(frame.CommandBuffer, &begin));
-        const VkRenderPassBeginInfo pass{
-            .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-            .renderPass = swap.RenderPass,
-            .framebuffer = frame.Framebuffer,
-            .renderArea = {.extent = {static_cast<std::uint32_t>(swap.Width), static_cast<std::uint32_t>(swap.Height)}},
-            .clearValueCount = 1,
-            .pClearValues = &swap.ClearValue};
-        vkCmdBeginRenderPass(frame.CommandBuffer, &pass, VK_SUBPASS_CONTENTS_INLINE);
+        canvas.begin(frame.CommandBuffer, *area);
         ImGui_ImplVulkan_RenderDrawData(draw, frame.CommandBuffer);
-        vkCmdEndRenderPass(frame.CommandBuffer);
+        canvas.end(frame.CommandBuffer);
+        canvas.copy_to(frame.CommandBuffer, frame.Backbuffer);
         note_failure(vkEndCommandBuffer(frame.CommandBuffer));
-        const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+        const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
         const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                                   .waitSemaphoreCount = 1,
                                   .pWaitSemaphores = &semaphores.ImageAcquiredSemaphore,
@@ -148,6 +177,10 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
             self.dropped.emplace_back(paths[i]);
     });
 
+    // What was covered has to be shown again.
+    glfwSetWindowRefreshCallback(impl->window, [](GLFWwindow* window) {
+        static_cast<Impl*>(glfwGetWindowUserPointer(window))->damage.forget();
+    });
     // Dear ImGui's own callback, set later, calls this one.
     glfwSetKeyCallback(impl->window, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
         if (action != GLFW_PRESS) return;
@@ -185,7 +218,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     // MAILBOX does not wait for the screen, so a frame that waits never delays input; FIFO is always there.
     const VkPresentModeKHR modes[] = {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_FIFO_KHR};
     impl->swap.PresentMode = ImGui_ImplVulkanH_SelectPresentMode(device.physical_device(), impl->surface, modes, 2);
-    impl->resize();
+    RESTAGE_CHECK(impl->resize());
 
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
@@ -225,8 +258,8 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
 void Window::wait(double seconds) { glfwWaitEventsTimeout(std::max(seconds, 1e-3)); }
 void Window::wake() { glfwPostEmptyEvent(); }
 
-bool Window::begin_frame() {
-    impl_->resize();
+Result<bool> Window::begin_frame() {
+    RESTAGE_CHECK(impl_->resize());
     if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return false;
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();

@@ -40,7 +40,7 @@ class Window {
     void wait(double seconds);
     static void wake();
 
-    bool begin_frame(); // false = there is nothing to draw on (minimised)
+    Result<bool> begin_frame(); // false = there is nothing to draw on (minimised)
     Result<void> end_frame();
 
     // Keys pressed since the last call, each with the modifiers it was pressed with. Dear ImGui sees modifiers as they

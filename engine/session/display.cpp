@@ -113,4 +113,35 @@ void to_display(const render::FilmImage& image, const DisplaySettings& settings,
     }
 }
 
+bool to_outlines(const render::FilmImage& image, std::span<const std::uint8_t> marks, int width,
+                 std::array<std::uint32_t, 2> colors, std::vector<std::uint32_t>& rgba) {
+    const int w = int(image.width), h = int(image.height), stride = w + 2 * width;
+    rgba.clear();
+    // With a margin, so that neighbours need no bounds.
+    std::vector<std::uint8_t> own(std::size_t(stride) * (h + 2 * width), 0);
+    bool any = false;
+    for (int y = 0; y < h; ++y) {
+        const std::uint32_t* ids = image.instance_id.data() + std::size_t(y) * w;
+        std::uint8_t* row = own.data() + std::size_t(y + width) * stride + width;
+        for (int x = 0; x < w; ++x) {
+            row[x] = ids[x] < marks.size() ? marks[ids[x]] : 0;
+            any |= row[x] != 0;
+        }
+    }
+    if (!any) return false;
+    rgba.resize(std::size_t(w) * h);
+    const std::uint32_t ring[3] = {0, colors[0], colors[1]};
+    std::vector<std::uint8_t> near(std::size_t(w), 0);
+    for (int y = 0; y < h; ++y) {
+        const std::uint8_t* row = own.data() + std::size_t(y + width) * stride + width;
+        std::ranges::fill(near, std::uint8_t(0));
+        for (int d = 1; d <= width; ++d)
+            for (int x = 0; x < w; ++x)
+                near[x] = std::max({near[x], row[x - d], row[x + d], row[x - d * stride], row[x + d * stride]});
+        for (int x = 0; x < w; ++x)
+            rgba[std::size_t(y) * w + x] = near[x] > row[x] ? ring[near[x]] : 0;
+    }
+    return true;
+}
+
 } // namespace restage::session

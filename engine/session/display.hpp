@@ -5,7 +5,9 @@
 
 #include "render/film.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace restage::session {
@@ -26,5 +28,10 @@ struct DisplaySettings {
 
 // width * height RGBA, row 0 on top. 1280x720 takes some 5 ms on one thread. [any]
 void to_display(const render::FilmImage&, const DisplaySettings&, std::vector<std::uint32_t>& rgba);
+
+// Rings, `width` pixels thick, around what is marked: marks[instance id] is 0 (not; ids beyond the end too), 1 or 2
+// (wins over 1), colors[mark - 1] the ring's RGBA; else 0. False, and `rgba` empty: nothing marked is seen. [any]
+bool to_outlines(const render::FilmImage&, std::span<const std::uint8_t> marks, int width,
+                 std::array<std::uint32_t, 2> colors, std::vector<std::uint32_t>& rgba);
 
 } // namespace restage::session

@@ -20,10 +20,10 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double coarse_budget = 0.08;   // for the first picture after a change [s]
+constexpr double coarse_budget = 0.05;   // for the first picture after a change [s]
 constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
 constexpr double still_close = 0.5;      // a denoised picture of an earlier request is shown so long [s]
-constexpr std::uint32_t coarsest = 16;
+constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 6, 8, 12, 16}; // each halved (rounded down) is another, or 1
 
 struct Request {
     scene::Scene scene;
@@ -179,8 +179,10 @@ struct LiveView::Impl {
         work.divider = 1;
         const double pixels = double(size.x) * size.y;
         const double rate = work.rate > 0 ? work.rate : 1e5; // not known yet: be careful
-        while (work.divider < coarsest && pixels / (work.divider * work.divider) > rate * coarse_budget)
-            work.divider *= 2;
+        for (const std::uint32_t d : dividers) {
+            work.divider = d;
+            if (pixels / (d * d) <= rate * coarse_budget) break;
+        }
         if (work.document != request.options.document) {
             work.document = request.options.document;
             work.renderer->forget_scene();

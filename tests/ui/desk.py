@@ -38,6 +38,11 @@ class Desk:
     def xdotool(self, *arguments):
         subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, timeout=30)
 
+    def resize(self, title, size):
+        """The window whose title has this in it."""
+        found = subprocess.run(["xdotool", "search", "--name", title], env=self.environment, check=True, capture_output=True, text=True)
+        self.xdotool("windowsize", found.stdout.split()[-1], *size)
+
     def screenshot(self):
         """height x width x 3, uint8. The file is XWD version 7: a header of 32-bit big-endian words, a colour map, pixels."""
         data = (self.folder / "Xvfb_screen0").read_bytes()

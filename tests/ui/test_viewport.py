@@ -2,6 +2,7 @@
 """The viewport with a real mouse and real keys: pick, drag, copy, delete, navigate, undo; each step on the document and on
 the picture."""
 import pathlib
+import time
 
 import numpy as np
 import pytest
@@ -135,6 +136,30 @@ def test_what_is_shown_restarts_nothing(editor):
     assert editor.state()["view"]["request"] == request
     editor.key("Tab")
     editor.wait(lambda s: s["view"]["request"] != request, "a larger picture once the panels are gone")
+
+
+def test_what_is_drawn_again_in_parts_is_what_is_drawn_at_once(editor):
+    """Menus, tips, handles and panels come and go; afterwards the window has the pixels of one drawn anew."""
+    editor.click(CHAIR)
+    editor.wait(lambda s: s["selection"], "a selection")
+    for menu in ("menu.edit", "menu.panels"):
+        editor.click(menu)
+        editor.key("Escape")
+    editor.drag("gizmo.x", ("picture", 0.8, 0.9))
+    editor.move("material.type")
+    time.sleep(1.5)  # its tip
+    editor.key("question")
+    editor.key("Escape")
+    editor.move(("picture", 0.3, 0.3))
+    time.sleep(1)
+    parts = editor.desk.screenshot()
+    for size in ((1200, 700), (1280, 720)):
+        editor.desk.resize("Restage", size)
+        time.sleep(1)
+    whole = editor.desk.screenshot()
+    x0, y0, x1, y1 = (int(v) for v in editor.state()["marks"]["picture"])  # it gathers samples meanwhile
+    parts[y0:y1, x0:x1] = whole[y0:y1, x0:x1]
+    assert np.array_equal(parts, whole)
 
 
 def test_hiding_is_a_change_and_shows(editor):

@@ -232,7 +232,8 @@ void material_section(Editor& e, MaterialId id) {
 
     const plugin::MaterialEntry* plugin = e.registry().find_material(material->type);
     form_row("Type", plugin ? plugin->table->tooltip : "What kind of surface it is");
-    if (ImGui::BeginCombo("##type", plugin ? plugin->table->label : material->type.c_str())) {
+    if (ImGui::BeginCombo("##type", plugin ? plugin->table->label : material->type.c_str(),
+                          ImGuiComboFlags_HeightLargest)) {
         for (const auto& choice : e.registry().materials()) {
             if (ImGui::Selectable(choice.table->label, material->type == choice.table->type) &&
                 material->type != choice.table->type)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Canvas: the image in which the window's content is kept from frame to frame, so that a part of it can be drawn anew.
+#pragma once
+
+#include "gpu/device.hpp"
+
+#include <volk.h>
+#include <cstdint>
+
+struct VmaAllocation_T;
+
+namespace restage::editor {
+
+class Canvas {
+  public:
+    // width, height [pixel] > 0.
+    static Result<Canvas> create(gpu::Device& device, VkFormat format, std::uint32_t width, std::uint32_t height);
+    Canvas() = default;
+    Canvas(Canvas&& other) noexcept { swap(other); }
+    Canvas& operator=(Canvas&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~Canvas();
+
+    std::uint32_t width() const { return width_; }
+    std::uint32_t height() const { return height_; }
+
+    // Between both, what is drawn goes to `area`; it was cleared to black.
+    void begin(VkCommandBuffer commands, VkRect2D area);
+    void end(VkCommandBuffer commands) const;
+    // All of it into an image of the same size and format, which is ready to be presented then.
+    void copy_to(VkCommandBuffer commands, VkImage target) const;
+
+  private:
+    void swap(Canvas& other) noexcept;
+    gpu::Device* device_ = nullptr;
+    VkImage image_ = VK_NULL_HANDLE;
+    VmaAllocation_T* allocation_ = nullptr;
+    VkImageView view_ = VK_NULL_HANDLE;
+    VkRenderPass pass_ = VK_NULL_HANDLE; // compatible with Dear ImGui's: same format, one sample
+    VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
+    std::uint32_t width_ = 0, height_ = 0;
+    bool fresh_ = true; // never drawn to
+};
+
+} // namespace restage::editor

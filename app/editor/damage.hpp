@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damage: the part of the window that differs from the frame before, so that only that is drawn again. Most frames
+// change the picture and a few numbers; without a GPU, drawing all panels each time took more than half of the
+// machine from the renderer.
+#pragma once
+
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <cstdint>
+#include <vector>
+
+namespace restage::editor {
+
+class Damage {
+  public:
+    // What differs from the draw data of the last call, in Dear ImGui's coordinates; Min >= Max: nothing. Comes before
+    // the backend has uploaded the textures: those it still has to are what changed.
+    ImRect update(const ImDrawData& data);
+    // All of it differs, next time: the window's content is lost.
+    void forget() { forgotten_ = true; }
+
+    // Restricts drawing to a rectangle.
+    static void clip(ImDrawData& data, const ImRect& rect);
+
+  private:
+    struct Item { // a draw command
+        std::uint64_t hash = 0; // of all it draws, wherever it lies in its buffers
+        ImRect bounds; // of its visible triangles
+        bool texture_changed = false;
+    };
+    std::vector<Item> last_, items_;
+    bool forgotten_ = true;
+};
+
+} // namespace restage::editor
