@@ -23,8 +23,7 @@ class Canvas {
     }
     ~Canvas();
 
-    std::uint32_t width() const { return width_; }
-    std::uint32_t height() const { return height_; }
+    VkRenderPass render_pass() const { return pass_; } // those of any two canvases of a format are compatible
 
     // Between both, what is drawn goes to `area`; it was cleared to black.
     void begin(VkCommandBuffer commands, VkRect2D area);
@@ -38,7 +37,7 @@ class Canvas {
     VkImage image_ = VK_NULL_HANDLE;
     VmaAllocation_T* allocation_ = nullptr;
     VkImageView view_ = VK_NULL_HANDLE;
-    VkRenderPass pass_ = VK_NULL_HANDLE; // compatible with Dear ImGui's: same format, one sample
+    VkRenderPass pass_ = VK_NULL_HANDLE;
     VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
     std::uint32_t width_ = 0, height_ = 0;
     bool fresh_ = true; // never drawn to

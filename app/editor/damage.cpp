@@ -54,8 +54,7 @@ ImRect Damage::update(const ImDrawData& data) {
             }
             item.bounds.ClipWith({clip.x, clip.y, clip.z, clip.w});
             item.hash = hash.value();
-            item.texture_changed =
-                command.TexRef._TexData && command.TexRef._TexData->Status != ImTextureStatus_OK;
+            item.texture_changed = command.TexRef._TexData && command.TexRef._TexData->Status != ImTextureStatus_OK;
             items_.push_back(item);
         }
 

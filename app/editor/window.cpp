@@ -246,7 +246,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     init.MinImageCount = 2;
     init.ImageCount = std::max(2u, impl->swap.ImageCount);
     init.PipelineCache = device.pipeline_cache();
-    init.PipelineInfoMain.RenderPass = impl->swap.RenderPass;
+    init.PipelineInfoMain.RenderPass = impl->canvas.render_pass();
     init.PipelineInfoMain.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     init.CheckVkResultFn = note_failure;
     init.MinAllocationSize = 1024 * 1024;

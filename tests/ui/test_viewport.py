@@ -138,6 +138,18 @@ def test_what_is_shown_restarts_nothing(editor):
     editor.wait(lambda s: s["view"]["request"] != request, "a larger picture once the panels are gone")
 
 
+def test_the_validation_layers_are_silent(launch):
+    editor = launch(DEMO, "--validation")
+    editor.settled(1, 150)
+    editor.click(CHAIR)
+    editor.click("menu.edit")
+    editor.key("Escape")
+    for size in ((1000, 600), (1280, 720)):
+        editor.desk.resize("Restage", size)
+        time.sleep(1)
+    assert not [line for line in editor.state()["log"] if "alidation" in line][:3]
+
+
 def test_what_is_drawn_again_in_parts_is_what_is_drawn_at_once(editor):
     """Menus, tips, handles and panels come and go; afterwards the window has the pixels of one drawn anew."""
     editor.click(CHAIR)
