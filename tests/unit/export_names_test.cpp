@@ -16,22 +16,9 @@ namespace fs = std::filesystem;
 using namespace restage;
 using namespace restage::scene;
 using Catch::Matchers::ContainsSubstring;
-using test::Everything, test::Folder, test::Plugins, test::place;
+using test::Everything, test::Folder, test::joined, test::Plugins, test::place, test::version;
 
 namespace {
-
-io::ExportOptions version(const char* v) {
-    io::ExportOptions options;
-    options.values.set("version", Value::choice(v));
-    return options;
-}
-
-std::string joined(const std::vector<std::string>& list) {
-    std::string all;
-    for (const auto& line : list)
-        all += line + "\n";
-    return all;
-}
 
 // Everything, with names that are hard to keep: repeated with a number, quoted, of other alphabets, numbered by
 // programs.
@@ -145,13 +132,13 @@ Shape "disk"
         return all;
     };
     const std::string first = text();
-    for (const char* part :
-         {"\"blackbody I\" [ 4500 ]", "\"spectrum L\" [ \"textures/lamp.spd\" ] \"float scale\" [ 0.5 ]",
-          "LightSource \"goniometric\" \"blackbody I\" [ 3000 ] \"string filename\" [ \"textures/lamp.spd\" ] \"float "
-          "power\" [ 5 ]",
-          "\"spectrum L\" [ \"stdillum-D65\" ] \"float scale\" [ 0.1 ]",
-          "\"blackbody L\" [ 2700 ] \"float scale\" [ 7 ] \"bool twosided\" [ true ]",
-          "\"string filename\" [ \"textures/lamp.spd\" ] \"float power\" [ 3 ]"})
+    for (
+        const char* part :
+        {"\"blackbody I\" [ 4500 ]", "\"spectrum L\" [ \"textures/lamp.spd\" ] \"float scale\" [ 0.5 ]",
+         R"(LightSource "goniometric" "blackbody I" [ 3000 ] "string filename" [ "textures/lamp.spd" ] "float power" [ 5 ])",
+         "\"spectrum L\" [ \"stdillum-D65\" ] \"float scale\" [ 0.1 ]",
+         "\"blackbody L\" [ 2700 ] \"float scale\" [ 7 ] \"bool twosided\" [ true ]",
+         "\"string filename\" [ \"textures/lamp.spd\" ] \"float power\" [ 3 ]"})
         CHECK_THAT(first, ContainsSubstring(part));
     CHECK(fs::exists(folder.path / "textures/lamp.spd"));
     const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);

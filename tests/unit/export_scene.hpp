@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/file.hpp"
+#include "io/export.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
 #include "scene/tables.hpp"
@@ -45,6 +46,19 @@ struct Folder {
         return all;
     }
 };
+
+inline io::ExportOptions version(const char* v) { // of pbrt
+    io::ExportOptions options;
+    options.values.set("version", scene::Value::choice(v));
+    return options;
+}
+
+inline std::string joined(const std::vector<std::string>& lines) {
+    std::string all;
+    for (const auto& line : lines)
+        all += line + "\n";
+    return all;
+}
 
 glm::dmat4 place(double x, double turn, glm::dvec3 scale = glm::dvec3(1));
 

@@ -23,24 +23,7 @@ namespace fs = std::filesystem;
 using namespace restage;
 using namespace restage::scene;
 using Catch::Matchers::ContainsSubstring;
-using test::Everything, test::Folder, test::Plugins, test::place;
-
-namespace {
-
-io::ExportOptions version(const char* v) {
-    io::ExportOptions options;
-    options.values.set("version", Value::choice(v));
-    return options;
-}
-
-std::string joined(const std::vector<std::string>& list) {
-    std::string all;
-    for (const auto& line : list)
-        all += line + "\n";
-    return all;
-}
-
-} // namespace
+using test::Everything, test::Folder, test::joined, test::Plugins, test::place, test::version;
 
 TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
     Plugins plugins;
