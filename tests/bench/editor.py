@@ -55,6 +55,8 @@ def measure(binary, scene, picture_of_object):
         editor = start()
         try:
             editor.settled(1, 180)
+            editor.key("ctrl+q")  # caches are written at the end
+            editor.process.wait(60)
             editor.close()
             started = time.monotonic()
             editor = start()

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// LiveView: the newest scene wins, what shows nothing new restarts nothing, and targets end the work.
+#include "render/fixture.hpp"
+#include "render/scene_builder.hpp"
+#include "session/live_view.hpp"
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+using namespace restage;
+using namespace restage::tests;
+using session::LiveView, session::ViewOptions, session::ViewState, session::ViewStatus;
+
+namespace {
+
+// A white floor under a white sky: the picture's mean is the sky's radiance.
+struct Floor : SceneBuilder {
+    scene::Id<scene::Instance> floor;
+    Floor() {
+        set_camera({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 20);
+        floor = instance(quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}), diffuse(1, 1, 1));
+        shine(1);
+    }
+    void shine(float radiance) { environment(glm::vec3(radiance)); }
+};
+
+struct View {
+    LiveView live;
+    View()
+        : live(plugins().registry, plugins().log,
+               {.tracer = "embree", .shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"}, [] {}) {}
+    bool wait(const std::function<bool(const ViewStatus&)>& done) {
+        for (int i = 0; i < 6000; ++i) {
+            const ViewStatus status = live.status();
+            if (status.state == ViewState::failed) FAIL(status.text);
+            if (done(status)) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    }
+    bool finished() {
+        return wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.compiling.empty(); });
+    }
+};
+
+double mean(const session::Frame& frame) { return mean_luminance(frame.image).value; }
+
+} // namespace
+
+TEST_CASE("live view: a picture to its target, then another scene") {
+    View view;
+    Floor b;
+    CHECK_FALSE(view.live.frame());
+    const auto first = view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 8});
+    REQUIRE(view.finished());
+    const auto frame = view.live.frame();
+    REQUIRE(frame);
+    CHECK(frame->request == first);
+    CHECK(frame->divider == 1);
+    CHECK((frame->image.width == 64 && frame->image.height == 48));
+    CHECK(frame->image.samples == 8);
+    CHECK(std::abs(mean(*frame) - 1) < 0.02);
+
+    b.shine(3);
+    const auto second = view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 4});
+    REQUIRE(view.finished());
+    CHECK(view.live.frame()->request == second);
+    CHECK(std::abs(mean(*view.live.frame()) - 3) < 0.06);
+    CHECK(std::abs(mean(*frame) - 1) < 0.02); // what was handed out stays as it was
+}
+
+TEST_CASE("live view: of many requests the last is shown in the end, and none is of a mixture") {
+    View view;
+    Floor b;
+    std::uint64_t last = 0;
+    for (int i = 1; i <= 40; ++i) {
+        b.shine(float(i));
+        last = view.live.show(b.scene, {.size = {320, 240}, .denoise = false, .samples = 1});
+        if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+        if (const auto frame = view.live.frame()) {
+            const double radiance = mean(*frame);
+            INFO("request " << frame->request << " shows " << radiance);
+            CHECK(std::abs(radiance - double(frame->request)) < 0.05 * double(frame->request)); // numbered from 1
+        }
+    }
+    REQUIRE(view.finished());
+    CHECK(view.live.frame()->request == last);
+    CHECK(std::abs(mean(*view.live.frame()) - 40) < 1);
+}
+
+TEST_CASE("live view: what does not show goes on with the picture that is there") {
+    View view;
+    Floor b;
+    const auto first = view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 6});
+    REQUIRE(view.finished());
+    auto renamed = b.scene.instances[b.floor];
+    renamed.name = "parquet";
+    b.scene.instances.set(b.floor, renamed, ++b.scene.clock);
+    SECTION("a bookmark") {
+        scene::Camera other = b.scene.cameras[b.scene.active_camera.value];
+        b.scene.cameras.set(b.scene.cameras.next(), other, ++b.scene.clock);
+    }
+    view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 12});
+    REQUIRE(view.wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.samples == 12; }));
+    CHECK(view.live.frame()->image.samples == 12);
+    CHECK(view.live.frame()->request == first); // it was not begun again
+}
+
+TEST_CASE("live view: paused, it keeps the picture; resumed, it goes on") {
+    View view;
+    Floor b;
+    view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .paused = true});
+    REQUIRE(view.finished());
+    const auto samples = view.live.frame()->image.samples;
+    CHECK(samples == 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    CHECK(view.live.frame()->image.samples == samples);
+    view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 16});
+    REQUIRE(view.wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.samples == 16; }));
+}
+
+TEST_CASE("live view: a large picture begins coarse and ends whole") {
+    View view;
+    Floor b;
+    view.live.show(b.scene, {.size = {1600, 1200}, .denoise = false, .samples = 1});
+    REQUIRE(view.wait([](const ViewStatus& s) { return s.current; }));
+    const auto first = view.live.frame();
+    CHECK(first->divider > 1);
+    CHECK(first->image.width == 1600 / first->divider);
+    REQUIRE(view.finished());
+    CHECK(view.live.frame()->divider == 1);
+    CHECK(view.live.frame()->image.width == 1600);
+}
+
+TEST_CASE("live view: another tracer shows the same scene") {
+    View view;
+    Floor b;
+    view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 4});
+    REQUIRE(view.finished());
+    CHECK(view.live.status().tracer == "embree");
+    view.live.configure({.tracer = "vulkan", .shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"});
+    REQUIRE(view.wait([](const ViewStatus& s) { return s.tracer == "vulkan" && s.current && s.state == ViewState::done; }));
+    CHECK(std::abs(mean(*view.live.frame()) - 1) < 0.02);
+    view.live.configure({.tracer = "none"});
+    bool failed = false;
+    for (int i = 0; i < 500 && !failed; ++i) {
+        failed = view.live.status().state == ViewState::failed;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    CHECK(failed);
+    CHECK_FALSE(view.live.status().text.empty());
+}
