@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GpuArray<T>: a host vector and its buffer on the device. Change the vector, name what changed, flush().
+// GpuArray<T>: a host vector and its buffer on the device. Change the vector, flush(): only what differs is uploaded.
 #pragma once
 
 #include "gpu/device.hpp"
@@ -22,6 +22,7 @@ class GpuArray {
     std::uint64_t address() const { return buffer_.address(); }
 
     void assign(std::vector<T> values) {
+        if (values.size() == host_.size() && same(values.data(), host_.data(), values.size())) return;
         host_ = std::move(values);
         touch(0, host_.size());
     }
@@ -31,6 +32,7 @@ class GpuArray {
         touch(std::min(old, n), n);
     }
     void set(std::size_t i, const T& value) {
+        if (same(&value, &host_[i], 1)) return;
         host_[i] = value;
         touch(i, i + 1);
     }
@@ -54,6 +56,7 @@ class GpuArray {
     std::size_t uploaded_bytes() const { return uploaded_bytes_; } // in all, ever: tests hold edits to it
 
   private:
+    static bool same(const T* a, const T* b, std::size_t n) { return n == 0 || std::memcmp(a, b, n * sizeof(T)) == 0; }
     void touch(std::size_t first, std::size_t last) {
         if (first_ == last_) {
             first_ = first;

@@ -33,6 +33,7 @@ const GpuMesh* GpuScene::mesh(Id<scene::Mesh> id) const {
 
 Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     SceneChanges changes;
+    const std::size_t uploaded_before = uploaded_bytes();
     if (!have_origin_) {
         if (const auto* camera = scene.cameras.find(scene.active_camera.value))
             origin_ = glm::dvec3(camera->camera_to_world[3]);
@@ -52,8 +53,10 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
     if (lights || !changes.instances.empty()) RESTAGE_CHECK(sync_lights(scene, changes));
     RESTAGE_CHECK(sync_root(scene, changes));
-    changes.image = first_ || scene.clock != seen_.settings || changes.image;
     changes.film = first_ || scene.film.version != seen_.film;
+    // A name, a group, a further camera: nothing of them is on the device, and nothing shows.
+    changes.image = changes.image || changes.film || changes.shaders || !changes.meshes.empty() ||
+                    !changes.instances.empty() || uploaded_bytes() != uploaded_before;
     seen_ = {.meshes = scene.meshes.version(),
              .images = scene.images.version(),
              .textures = scene.textures.version(),
@@ -64,8 +67,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
              .cameras = scene.cameras.version(),
              .environment = scene.environment.version,
              .active_camera = scene.active_camera.version,
-             .film = scene.film.version,
-             .settings = scene.clock};
+             .film = scene.film.version};
     first_ = false;
     return changes;
 }
@@ -117,6 +119,7 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
 }
 
 Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out, SceneChanges& changes) {
+    changes.image = true;
     out.clean = image.data;
     float largest = 0;
     std::size_t bad = 0;

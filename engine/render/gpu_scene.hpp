@@ -131,7 +131,7 @@ class GpuScene {
 
     struct Versions {
         scene::Version meshes = 0, images = 0, textures = 0, materials = 0, instances = 0, lights = 0, media = 0,
-                       cameras = 0, environment = 0, active_camera = 0, film = 0, settings = 0;
+                       cameras = 0, environment = 0, active_camera = 0, film = 0;
     } seen_;
     bool first_ = true;
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace restage::render {
 
@@ -177,17 +178,20 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         const bool there = in && !in->hidden && mesh(in->mesh);
         const bool traced = there && !nothing;
         const bool border = there && (gaps || !traced) && in->media && in->media->interior != in->media->exterior;
-        const bool changed = i >= old || scene.instances.version(id) > seen_.instances || traced != (traced_[i] != 0) ||
-                             border != (border_[i] != 0) || instances_[i].material != (nothing ? 0 : m) ||
-                             gaps != ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0) ||
-                             (in && replaced[in->mesh.value]);
-        if (!changed) continue;
+        const bool moved_in_or_out =
+            i >= old || traced != (traced_[i] != 0) || border != (border_[i] != 0) || (in && replaced[in->mesh.value]);
+        if (!moved_in_or_out && scene.instances.version(id) <= seen_.instances &&
+            instances_[i].material == (nothing ? 0 : m) && gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
+            continue; // the usual case, cheaply
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
+        const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
+        if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
+            continue; // another name
         instances_.set(i, record);
         traced_[i] = traced;
         border_[i] = border;
-        mesh_of_[i] = in ? in->mesh : Id<scene::Mesh>{};
+        mesh_of_[i] = its_mesh;
         changes.instances.push_back(id);
     }
     return instances_.flush(*device_);

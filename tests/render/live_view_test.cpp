@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // LiveView: the newest scene wins, what shows nothing new restarts nothing, and targets end the work.
+#include "session/live_view.hpp"
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
-#include "session/live_view.hpp"
 
 #include <chrono>
 #include <functional>
@@ -97,6 +97,9 @@ TEST_CASE("live view: what does not show goes on with the picture that is there"
     auto renamed = b.scene.instances[b.floor];
     renamed.name = "parquet";
     b.scene.instances.set(b.floor, renamed, ++b.scene.clock);
+    auto material = b.scene.materials[renamed.material];
+    material.name = "oak";
+    b.scene.materials.set(renamed.material, material, ++b.scene.clock);
     SECTION("a bookmark") {
         scene::Camera other = b.scene.cameras[b.scene.active_camera.value];
         b.scene.cameras.set(b.scene.cameras.next(), other, ++b.scene.clock);
@@ -105,6 +108,64 @@ TEST_CASE("live view: what does not show goes on with the picture that is there"
     REQUIRE(view.wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.samples == 12; }));
     CHECK(view.live.frame()->image.samples == 12);
     CHECK(view.live.frame()->request == first); // it was not begun again
+}
+
+TEST_CASE("live view: what shows begins again") {
+    View view;
+    Floor b;
+    const auto ball = b.instance(b.sphere(8, 16), b.diffuse(0.5f, 0.1f, 0.1f));
+    const ViewOptions options{.size = {64, 48}, .denoise = false, .samples = 2};
+    view.live.show(b.scene, options);
+    REQUIRE(view.finished());
+    const auto change = [&](const char* what, const std::function<void()>& edit) {
+        INFO(what);
+        edit();
+        const auto request = view.live.show(b.scene, options);
+        REQUIRE(view.finished());
+        CHECK(view.live.frame()->request == request);
+    };
+    auto& s = b.scene;
+    change("moved", [&] {
+        auto i = s.instances[ball];
+        i.object_to_world[3].x += 0.25;
+        s.instances.set(ball, i, ++s.clock);
+    });
+    change("hidden", [&] {
+        auto i = s.instances[ball];
+        i.hidden = true;
+        s.instances.set(ball, i, ++s.clock);
+    });
+    change("shown", [&] {
+        auto i = s.instances[ball];
+        i.hidden = false;
+        s.instances.set(ball, i, ++s.clock);
+    });
+    change("a value of its material", [&] {
+        auto m = s.materials[s.instances[ball].material];
+        m.params.set("reflectance", scene::Value::color(0.1f, 0.5f, 0.1f));
+        s.materials.set(s.instances[ball].material, m, ++s.clock);
+    });
+    change("the type of its material", [&] {
+        s.materials.set(s.instances[ball].material, scene::Material{.name = "gold", .type = "conductor"}, ++s.clock);
+    });
+    change("another material", [&] {
+        auto i = s.instances[ball];
+        i.material = b.diffuse(0.2f, 0.2f, 0.9f);
+        s.instances.set(ball, i, ++s.clock);
+    });
+    change("a lamp", [&] {
+        auto i = s.instances[ball];
+        i.emission = scene::Emission{glm::vec3(2)};
+        s.instances.set(ball, i, ++s.clock);
+    });
+    change("the sky", [&] { b.shine(2); });
+    change("a light", [&] { b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(5)}); });
+    change("depth", [&] {
+        s.settings.value.max_depth = 2;
+        s.settings.version = ++s.clock;
+    });
+    change("the camera", [&] { b.set_camera({0, 1, 10}, {0, 0, 0}, {0, 1, 0}, 20); });
+    change("deleted", [&] { s.instances.set(ball, {}, ++s.clock); });
 }
 
 TEST_CASE("live view: paused, it keeps the picture; resumed, it goes on") {
@@ -140,7 +201,8 @@ TEST_CASE("live view: another tracer shows the same scene") {
     REQUIRE(view.finished());
     CHECK(view.live.status().tracer == "embree");
     view.live.configure({.tracer = "vulkan", .shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"});
-    REQUIRE(view.wait([](const ViewStatus& s) { return s.tracer == "vulkan" && s.current && s.state == ViewState::done; }));
+    REQUIRE(
+        view.wait([](const ViewStatus& s) { return s.tracer == "vulkan" && s.current && s.state == ViewState::done; }));
     CHECK(std::abs(mean(*view.live.frame()) - 1) < 0.02);
     view.live.configure({.tracer = "none"});
     bool failed = false;
