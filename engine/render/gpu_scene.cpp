@@ -156,7 +156,7 @@ Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out, Scen
                 const std::uint32_t h[2] = {glm::packHalf2x16({c.x, c.y}), glm::packHalf2x16({c.z, c.w})};
                 std::memcpy(target + i * 8, h, 8);
             } else {
-                std::memcpy(target + i * 16, &c, 16);
+                std::memcpy(target + i * 16, &c.x, 16);
             }
         }
     });

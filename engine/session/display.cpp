@@ -34,7 +34,7 @@ class Curve {
     static std::uint8_t encode(float x) { // IEC 61966-2-1
         x = std::clamp(x, 0.f, 1.f);
         const float y = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-        return std::uint8_t(y * 255 + 0.5f);
+        return std::uint8_t(std::lround(y * 255));
     }
     std::vector<std::uint8_t> table_;
 };
