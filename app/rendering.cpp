@@ -2,6 +2,7 @@
 #include "rendering.hpp"
 
 #include "progress.hpp"
+#include "session/session.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -74,7 +75,14 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
         bar.show(done, std::string(what));
         return !interrupted();
     };
-    RESTAGE_TRY(auto imported, io::import_scene(path, context.registry(), options));
+    io::ImportedScene imported;
+    if (session::is_project(path)) { // as the editor saves them: the scene they began with, and the changes
+        session::Session session(context.registry());
+        RESTAGE_CHECK(session.open(path, {.progress = options.progress}));
+        imported = {.scene = session.scene(), .report = session.report(), .importer = session.base().format};
+    } else {
+        RESTAGE_TRY(imported, io::import_scene(path, context.registry(), options));
+    }
     bar.finish();
     const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
                dropped = imported.report.count(RESTAGE_DROPPED);

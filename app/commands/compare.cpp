@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage compare A B: how far picture A is from reference B, as text or JSON on stdout.
+// restage compare A B: how far picture A is from reference B, as text or JSON on stdout; of two scenes: what differs.
 
 #include "commands/commands.hpp"
 #include "io/exr.hpp"
@@ -174,8 +174,10 @@ Result<int> run(const Options& options, Log& log) {
 
 void add_compare(CLI::App& program, Context& context) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = program.add_subcommand("compare", "Measure how far picture A is from reference B");
-    command->add_option("A", options->a, "Picture (EXR, HDR, PFM; PNG, JPG, TGA, BMP as sRGB)")->required();
+    CLI::App* command = program.add_subcommand(
+        "compare", "Measure how far picture A is from reference B, or say what differs between two scenes");
+    command->add_option("A", options->a, "Picture (EXR, HDR, PFM; PNG, JPG, TGA, BMP as sRGB), or a scene or project")
+        ->required();
     auto* b = command->add_option("B", options->b, "Reference");
     auto* halves = command->add_option("--reference-halves", options->halves,
                                        "Two independent halves instead of B: their mean is the reference, their "
@@ -197,7 +199,11 @@ void add_compare(CLI::App& program, Context& context) {
     command->add_option("--exposure", options->compare.exposure, "Stops, before FLIP looks at the pictures");
     command->callback([options, b, halves, &context] {
         if (b->count() + halves->count() == 0) throw CLI::RequiredError("B or --reference-halves");
-        context.choose([options, &context] { return run(*options, context.log); });
+        context.choose([options, &context] {
+            return is_scene_file(options->a) && is_scene_file(options->b)
+                       ? compare_scenes(context, options->a, options->b, options->json)
+                       : run(*options, context.log);
+        });
     });
 }
 

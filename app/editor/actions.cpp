@@ -3,9 +3,11 @@
 
 #include "editor.hpp"
 #include "final_render.hpp"
+#include "panels/outliner.hpp"
 #include "saving.hpp"
 #include "session/navigation.hpp"
-#include "session/raycast.hpp"
+#include "session/support.hpp"
+#include "session/touching.hpp"
 
 #include <imgui_internal.h>
 #include <algorithm>
@@ -84,27 +86,33 @@ void next_bookmark(Editor& e) {
 }
 
 void drop_to_floor(Editor& e) {
-    // Down from the lowest point of what is selected, all of it as one.
     const auto ids = e.selection.instances();
-    const scene::Bounds bounds = e.selection.bounds(e.scene());
-    if (bounds.empty()) return;
-    const glm::dvec3 up = e.up();
-    const double lowest = std::min(glm::dot(bounds.lower, up), glm::dot(bounds.upper, up));
-    const glm::dvec3 c = bounds.center();
-    const double height = std::abs(glm::dot(bounds.size(), up));
-    const glm::dvec3 from = c + up * (lowest - glm::dot(c, up) + 1e-3 * height);
-    const auto hits =
-        session::raycast_all(e.scene(), from, -up, [&](InstanceId id) { return e.selection.contains(id); });
-    if (hits.empty()) {
+    const auto distance = session::fall_distance(e.scene(), ids, e.up());
+    if (!distance) {
         e.notices.add(LogLevel::info, "There is nothing below to stand on");
         return;
     }
-    const glm::dmat4 move = glm::translate(glm::dmat4(1), -up * (hits[0].t - 1e-3 * height));
+    const glm::dmat4 move = glm::translate(glm::dmat4(1), -e.up() * *distance);
     e.edit([ids, move](const scene::Scene& s) {
         auto edit = scene::move_instances(s, ids, move);
         if (edit) edit->label = "Drop to floor";
         return edit;
     });
+}
+
+void select_touching(Editor& e) {
+    std::vector<InstanceId> more = session::touching(e.scene(), e.selection.instances(),
+                                                     [&](InstanceId id) { return e.locked.contains(id.value); });
+    e.notices.add(LogLevel::info, more.empty() ? "Nothing of its size touches it"
+                                               : std::to_string(more.size()) + " more objects touch it");
+    if (more.empty()) return;
+    more.push_back(e.selection.active()); // stays the active one
+    e.selection.set(more, Selection::Mode::add);
+}
+
+GroupId group_of_selection(const Editor& e) {
+    const scene::Instance* active = e.scene().instances.find(e.selection.active());
+    return active ? e.selection.click_group(e.scene(), e.selection.active()) : GroupId{};
 }
 
 void set_hidden(Editor& e, bool hidden) {
@@ -183,6 +191,11 @@ constexpr auto actions = std::to_array<Action>({
     {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
      "Copy the selected objects; copies share geometry and material", has_objects, duplicate_selected},
     {"edit.delete", "Delete", ImGuiKey_Delete, ImGuiKey_X, "Remove what is selected", has_selection, remove_selected},
+    {"edit.group", "Group", ImGuiMod_Ctrl | ImGuiKey_G, 0, "From now on a click picks all of what is selected now",
+     has_objects, group_selected},
+    {"edit.ungroup", "Ungroup", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_G, 0,
+     "A click picks single objects of the selected group again",
+     [](const Editor& e) { return bool(group_of_selection(e)); }, [](Editor& e) { ungroup(e, group_of_selection(e)); }},
     {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Let the selected objects fall onto what is below", has_objects,
      drop_to_floor},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
@@ -193,6 +206,10 @@ constexpr auto actions = std::to_array<Action>({
          e.selection.clear();
          e.selection.enter({});
      }},
+    {"select.touching", "What touches it", ImGuiKey_C, 0,
+     "Add the parts that the selected objects touch, and what these touch: a whole chair, or a table and what is on it. "
+     "Much larger things, like the floor, are left out",
+     has_objects, select_touching},
     {"select.hide", "Hide", ImGuiKey_H, 0, "Hide the selected objects", has_objects,
      [](Editor& e) { set_hidden(e, true); }},
     {"select.isolate", "Isolate", ImGuiMod_Shift | ImGuiKey_H, 0, "Hide all others (lamps stay)", has_objects, isolate},
@@ -230,7 +247,7 @@ constexpr auto actions = std::to_array<Action>({
      [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const Editor& e) { return e.view.local_axes; }},
     {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
      [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const Editor& e) { return e.view.denoise; }},
-    {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles and notes over the picture", nullptr,
+    {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles, numbers and messages over the picture", nullptr,
      [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
      [](const Editor& e) { return e.view.show_overlays; }},
     {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and depth of the pixel under the mouse",

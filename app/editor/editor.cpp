@@ -328,6 +328,15 @@ void Editor::draw_menu() {
 
 namespace {
 
+// Dear ImGui finds the size and place of a window in its first frames: what is in it is not where a click would find
+// it.
+bool settled(const ImGuiWindow* window) {
+    for (; window; window = window->ParentWindow)
+        if (window->Appearing || window->Hidden || window->AutoFitFramesX > 0 || window->AutoFitFramesY > 0)
+            return false;
+    return true;
+}
+
 // Where panels are when no layout file says otherwise.
 void first_layout(ImGuiID space, ImVec2 size) {
     ImGui::DockBuilderRemoveNode(space);
@@ -383,6 +392,9 @@ void Editor::draw_panels() {
             ImGui::Begin(panel.title, picture ? nullptr : &open,
                          picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
         if (picture) ImGui::PopStyleVar();
+        const ImGuiWindow* window = ImGui::GetCurrentWindow();
+        if (const ImRect tab = window->DC.DockTabItemRect; window->DockNode && settled(window->DockNode->HostWindow))
+            marks_[std::string("tab.") + panel.title] = {{tab.Min.x, tab.Min.y, tab.Max.x, tab.Max.y}};
         if (visible) panel.draw(*this);
         ImGui::End();
     }
@@ -416,10 +428,13 @@ void Editor::draw_modals() {
 }
 
 void Editor::mark(const std::string& name) {
+    if (!settled(ImGui::GetCurrentWindow())) return;
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
     marks_[name] = {{a.x, a.y, b.x, b.y}, ImGui::GetItemID()};
 }
 
-void Editor::mark(const std::string& name, ImVec2 point) { marks_[name] = {{point.x, point.y, point.x, point.y}}; }
+void Editor::mark(const std::string& name, ImVec2 lower, ImVec2 upper) {
+    if (settled(ImGui::GetCurrentWindow())) marks_[name] = {{lower.x, lower.y, upper.x, upper.y}};
+}
 
 } // namespace restage::editor

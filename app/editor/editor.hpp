@@ -149,9 +149,11 @@ class Editor {
     void configure_renderer(const render::RendererOptions& renderer); // another device, tracer, number of threads
     const std::optional<scene::Scene>& original() const { return original_; } // as opened
 
-    // Names the last item for tests that drive the program from outside: see probe().
+    // Names the last item for tests that drive the program from outside: see probe(). Not while its window has no
+    // settled place yet.
     void mark(const std::string& name);
-    void mark(const std::string& name, ImVec2 point);
+    void mark(const std::string& name, ImVec2 point) { mark(name, point, point); }
+    void mark(const std::string& name, ImVec2 lower, ImVec2 upper);
     struct Mark {
         ImVec4 rect; // min.x min.y max.x max.y
         ImGuiID item = 0;

@@ -5,6 +5,8 @@
 #include "session/navigation.hpp"
 
 #include <ImGuizmo.h>
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -13,7 +15,7 @@ namespace restage::editor {
 
 namespace {
 
-constexpr float handle_size = 0.16f; // of the picture's half width
+constexpr float handle_pixels = 90; // of one across the view; those that point at the viewer are shorter
 
 glm::dmat3 rotation_of(const glm::dmat4& m) {
     glm::dmat3 r(m);
@@ -39,6 +41,43 @@ Result<scene::Edit> place(const scene::Scene& s, const GizmoDrag& d, const glm::
 }
 
 } // namespace
+
+void begin_drag(Editor& e, GizmoDrag& drag, bool copy) {
+    const scene::Scene& s = e.scene();
+    const scene::Light* light = s.lights.find(e.selection.light());
+    drag.active = true;
+    drag.copied = false;
+    drag.start.clear();
+    drag.light_start = light ? std::optional(light->light_to_world) : std::nullopt;
+    const auto ids = e.selection.instances();
+    if (copy && !light) {
+        // Copies stay where the originals are; they are what is dragged on.
+        if (auto made = scene::duplicate_instances(s, ids, glm::dmat4(1))) {
+            for (std::size_t i = 0; i < ids.size(); ++i)
+                drag.start.emplace_back(made->copies[i], s.instances[ids[i]].object_to_world);
+            drag.copied = true;
+            e.edit([edit = made->edit](const scene::Scene&) { return Result<scene::Edit>(edit); }, "gizmo");
+            e.later([&e, copies = made->copies] { e.selection.set(copies); });
+            return;
+        }
+    }
+    for (const InstanceId id : ids)
+        drag.start.emplace_back(id, s.instances[id].object_to_world);
+}
+
+void ask_drag(Editor& e, const GizmoDrag& drag, const glm::dmat4& by, const char* verb) {
+    if (drag.copied) verb = "Copy";
+    if (drag.light_start)
+        e.edit(
+            [id = e.selection.light(), m = by * *drag.light_start](const scene::Scene& now) {
+                scene::Light changed = now.lights[id];
+                changed.light_to_world = m;
+                return scene::set_light(now, id, changed, "Move light");
+            },
+            "gizmo");
+    else
+        e.edit([d = drag, by, verb](const scene::Scene& now) { return place(now, d, by, verb); }, "gizmo");
+}
 
 bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     GizmoDrag& drag = e.gizmo_drag;
@@ -80,6 +119,8 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     ImGuizmo::SetRect(corner.x, corner.y, size.x, size.y);
     ImGuizmo::SetOrthographic(false);
     ImGuizmo::AllowAxisFlip(false);
+    const float handle_size = // of the picture's half width
+        std::clamp(2 * handle_pixels * ImGui::GetStyle().FontScaleMain / size.x, 0.1f, 0.6f);
     ImGuizmo::SetGizmoSizeClipSpace(handle_size);
     const auto operation = e.view.gizmo == GizmoMode::move     ? ImGuizmo::TRANSLATE
                            : e.view.gizmo == GizmoMode::rotate ? ImGuizmo::ROTATE
@@ -88,66 +129,50 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
                        : e.view.gizmo == GizmoMode::rotate ? e.view.snap_angle
                                                            : e.view.snap_scale;
     const float snap[3] = {step, step, step};
+    // The knob in the middle would move in the plane of the screen, so that things end up in the air: there, as on the
+    // object itself, the viewport slides them over the floor (viewport_drag.cpp).
+    const glm::dvec3 middle = session::project(camera, drag.pivot, e.film_aspect());
+    const ImVec2 knob(corner.x + float(middle.x) * size.x, corner.y + float(middle.y) * size.y);
+    const bool on_knob = e.view.gizmo == GizmoMode::move && !ImGuizmo::IsUsing() &&
+                         std::abs(io.MousePos.x - knob.x) <= 10 && std::abs(io.MousePos.y - knob.y) <= 10;
+    bool& clicked = ImGui::GetIO().MouseClicked[ImGuiMouseButton_Left];
+    const bool was_clicked = clicked;
+    if (on_knob) clicked = false;
     const bool moved =
         ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation, ImGuizmo::LOCAL,
                              glm::value_ptr(drag.current), nullptr, io.KeyCtrl ? snap : nullptr);
 
-    for (int i = 0; i < 3; ++i) { // the middle of each handle, for tests
-        const glm::dvec3 a = session::project(camera, drag.pivot, e.film_aspect());
-        const glm::dvec3 b =
-            session::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * reach * 1e-3, e.film_aspect());
-        const glm::dvec2 on_screen = glm::dvec2(b - a) * glm::dvec2(size.x, size.y);
-        const glm::dvec2 tip =
-            glm::dvec2(a) * glm::dvec2(size.x, size.y) +
-            (glm::length(on_screen) > 0 ? glm::normalize(on_screen) : glm::dvec2(0)) * (0.6 * handle_size / 2 * size.x);
-        e.mark(i == 0 ? "gizmo.x" : i == 1 ? "gizmo.y" : "gizmo.z", {corner.x + float(tip.x), corner.y + float(tip.y)});
-    }
+    clicked = was_clicked;
 
-    if (ImGuizmo::IsUsing() && !drag.active) { // it begins
-        drag.active = true;
-        drag.copied = false;
-        drag.start.clear();
-        drag.light_start = light ? std::optional(light->light_to_world) : std::nullopt;
-        if (io.KeyAlt && !light) {
-            // Copies stay where the originals are; they are what is dragged on.
-            const auto ids = e.selection.instances();
-            auto made = scene::duplicate_instances(s, ids, glm::dmat4(1));
-            if (made) {
-                for (std::size_t i = 0; i < ids.size(); ++i)
-                    drag.start.emplace_back(made->copies[i], s.instances[ids[i]].object_to_world);
-                drag.copied = true;
-                e.edit([edit = made->edit](const scene::Scene&) { return Result<scene::Edit>(edit); }, "gizmo");
-                e.later([&e, copies = made->copies] { e.selection.set(copies); });
-            }
-        }
-        if (!drag.copied)
-            for (const InstanceId id : e.selection.instances())
-                drag.start.emplace_back(id, s.instances[id].object_to_world);
+    // A point on each handle, near its tip, for tests. Handles are as long in the world as makes one across the view
+    // that long on the screen.
+    const glm::dvec3 across =
+        session::project(camera, drag.pivot + glm::normalize(glm::dvec3(camera.camera_to_world[0])), e.film_aspect());
+    const double length = handle_size / 2 / std::max(std::abs(across.x - middle.x), 1e-9);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 tip =
+            session::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * (0.85 * length), e.film_aspect());
+        e.mark(i == 0   ? "gizmo.x"
+               : i == 1 ? "gizmo.y"
+                        : "gizmo.z",
+               {corner.x + float(tip.x) * size.x, corner.y + float(tip.y) * size.y});
     }
+    e.mark("gizmo.center", knob);
+
+    if (ImGuizmo::IsUsing() && !drag.active) begin_drag(e, drag, io.KeyAlt);
     if (drag.active && moved) {
         // What the handles did since the start, about the pivot.
         const glm::dmat4 there = glm::translate(glm::dmat4(1), drag.pivot);
-        const glm::dmat4 by = there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there);
-        const char* verb = drag.copied                         ? "Copy"
-                           : e.view.gizmo == GizmoMode::move   ? "Move"
-                           : e.view.gizmo == GizmoMode::rotate ? "Rotate"
-                                                               : "Scale";
-        if (drag.light_start)
-            e.edit(
-                [id = e.selection.light(), m = by * *drag.light_start](const scene::Scene& now) {
-                    scene::Light changed = now.lights[id];
-                    changed.light_to_world = m;
-                    return scene::set_light(now, id, changed, "Move light");
-                },
-                "gizmo");
-        else
-            e.edit([d = drag, by, verb](const scene::Scene& now) { return place(now, d, by, verb); }, "gizmo");
+        ask_drag(e, drag, there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there),
+                 e.view.gizmo == GizmoMode::move     ? "Move"
+                 : e.view.gizmo == GizmoMode::rotate ? "Rotate"
+                                                     : "Scale");
     }
     if (drag.active && !ImGuizmo::IsUsing()) {
         drag.active = false;
         e.end_gesture();
     }
-    return ImGuizmo::IsUsing() || ImGuizmo::IsOver();
+    return ImGuizmo::IsUsing() || (ImGuizmo::IsOver() && !on_knob);
 }
 
 } // namespace restage::editor

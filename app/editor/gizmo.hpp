@@ -25,6 +25,11 @@ struct GizmoDrag {
     glm::dvec3 pivot{0};
 };
 
+// For drags of the handles and of the object itself: notes what is dragged, or copies of it, and where it is; and asks
+// that it is where `by` brings it from there. Editor::end_gesture() ends it.
+void begin_drag(Editor& editor, GizmoDrag& drag, bool copy);
+void ask_drag(Editor& editor, const GizmoDrag& drag, const glm::dmat4& by, const char* verb);
+
 // Draws the handles over the picture (its rectangle on screen) and asks for the moves. True while they want the mouse.
 bool draw_gizmo(Editor& editor, ImVec2 corner, ImVec2 size);
 

@@ -6,6 +6,17 @@
 
 namespace restage::editor {
 
+InstanceId picked_at(const Editor& e, ImVec2 screen) {
+    const auto frame = e.shown_frame();
+    if (frame && frame->divider == 1 && e.live().status().current && frame->request == e.viewport.shown_request())
+        return e.viewport.instance_at(e, screen);
+    const glm::dvec2 film = e.viewport.film_point(screen);
+    if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1) return {};
+    const session::ViewRay ray = session::view_ray(e.camera(), film, e.film_aspect());
+    const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+    return hits.empty() ? InstanceId{} : hits[0].instance;
+}
+
 bool run_pick_tool(Editor& e, bool over) {
     if (!e.pick_tool) return false;
     if (ImGui::IsKeyPressed(ImGuiKey_Escape) || ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
@@ -20,7 +31,7 @@ bool run_pick_tool(Editor& e, bool over) {
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         const PickTool tool = *e.pick_tool; // done() may take up another
         e.pick_tool.reset();
-        tool.done(e, e.hovered, at);
+        tool.done(e, picked_at(e, at), at);
     }
     return true;
 }

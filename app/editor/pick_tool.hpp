@@ -8,6 +8,10 @@ namespace restage::editor {
 
 // By the viewport, before it picks. True while a tool is in hand: the click is its own. `over`: the mouse is free
 // there.
+// The object a click there means. Asked of the picture, which knows cut-outs, when a sharp one of the scene as it is
+// now is shown; else of the scene: a coarse picture would miss what is thin.
+InstanceId picked_at(const Editor& editor, ImVec2 screen);
+
 bool run_pick_tool(Editor& editor, bool over);
 
 // The material of what is clicked goes to the objects that are selected now.

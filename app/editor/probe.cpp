@@ -36,19 +36,34 @@ std::string Editor::probe() const {
                    {"textures", scene().textures.live()},
                    {"lights", scene().lights.live()}};
     j["selection"] = json::array();
+    j["selected"] = selection.instances().size();
     for (const InstanceId id : selection.instances()) {
         const scene::Instance* instance = scene().instances.find(id);
         if (!instance) continue;
+        if (j["selection"].size() >= 100) break; // enough for any test, and quick to write
+        const scene::Bounds box = scene::world_bounds(scene(), id);
         const glm::dvec3 p(instance->object_to_world[3]);
         const scene::Material* material = scene().materials.find(instance->material);
         j["selection"].push_back({{"id", id.value},
                                   {"name", instance->name},
                                   {"position", {p.x, p.y, p.z}},
+                                  {"lower", {box.lower.x, box.lower.y, box.lower.z}},
+                                  {"upper", {box.upper.x, box.upper.y, box.upper.z}},
                                   {"material", material ? material->name : ""},
                                   {"type", material ? material->type : ""}});
     }
+    if (const scene::Instance* active = scene().instances.find(selection.active()))
+        if (const scene::Material* material = scene().materials.find(active->material))
+            for (const auto& [name, value] : material->params.entries()) {
+                const scene::Texture* texture = scene().textures.find(value.texture);
+                j["material"][name] = {{"value", value.v}, {"texture", texture ? texture->name : ""}};
+            }
     const auto& sky = scene().environment.value;
     j["sky"] = sky ? sky->name : "";
+    if (sky) {
+        const glm::dvec3 x(sky->light_to_world[0]);
+        j["sky_x"] = {x.x, x.y, x.z}; // where its own x axis points
+    }
     const glm::dvec3 eye(camera().camera_to_world[3]);
     j["camera"] = {eye.x, eye.y, eye.z};
     const session::ViewStatus status = live_->status();

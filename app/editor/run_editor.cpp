@@ -51,7 +51,8 @@ Result<int> run_editor(const RunOptions& options) {
 
     std::string title, probe;
     while (!editor.quit_confirmed()) {
-        window->wait(editor.animating() || editor.viewport.navigating() ? 0.016 : 0.5);
+        const bool busy = editor.animating() || editor.viewport.navigating() || window->unsettled();
+        window->wait(busy ? 0.016 : 0.5);
         if (window->close_requested()) {
             window->refuse_close();
             editor.request_quit();

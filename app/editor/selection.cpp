@@ -3,41 +3,39 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <unordered_set>
 
 namespace restage::editor {
 
-bool Selection::contains(InstanceId id) const {
-    return std::find(instances_.begin(), instances_.end(), id) != instances_.end();
-}
-
 void Selection::set(std::span<const InstanceId> ids, Mode mode) {
     light_ = {};
-    if (mode == Mode::replace) instances_.clear();
-    const std::unordered_set<InstanceId> had(instances_.begin(), instances_.end()), given(ids.begin(), ids.end());
-    const bool all_there = std::all_of(given.begin(), given.end(), [&](InstanceId id) { return had.contains(id); });
-    std::erase_if(instances_, [&](InstanceId id) { return given.contains(id); });
+    if (mode == Mode::replace) {
+        instances_.clear();
+        members_.clear();
+    }
+    const bool all_there = std::all_of(ids.begin(), ids.end(), [&](InstanceId id) { return members_.contains(id); });
+    const std::unordered_set<InstanceId> given(ids.begin(), ids.end());
+    std::erase_if(instances_, [&](InstanceId id) { return given.contains(id) && members_.erase(id) > 0; });
     if (mode == Mode::toggle && all_there) return;
     // Each once; of repeated ones the last place counts, as the last of all is the active one.
-    std::unordered_set<InstanceId> seen;
     const std::size_t before = instances_.size();
     for (auto id = ids.rbegin(); id != ids.rend(); ++id)
-        if (seen.insert(*id).second) instances_.push_back(*id);
+        if (members_.insert(*id).second) instances_.push_back(*id);
     std::reverse(instances_.begin() + std::ptrdiff_t(before), instances_.end());
 }
 
 void Selection::set_light(scene::Id<scene::Light> light) {
-    instances_.clear();
+    clear();
     light_ = light;
 }
 
 void Selection::clear() {
     instances_.clear();
+    members_.clear();
     light_ = {};
 }
 
 void Selection::prune(const scene::Scene& scene) {
-    std::erase_if(instances_, [&](InstanceId id) { return !scene.instances.find(id); });
+    std::erase_if(instances_, [&](InstanceId id) { return !scene.instances.find(id) && members_.erase(id) > 0; });
     if (!scene.lights.find(light_)) light_ = {};
     if (!scene.groups.find(entered_)) entered_ = {};
 }

@@ -7,6 +7,7 @@
 #include "scene/scene.hpp"
 
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 namespace restage::editor {
@@ -19,7 +20,7 @@ class Selection {
     // In the order of picking; the last one is the active one, whose values panels show.
     const std::vector<InstanceId>& instances() const { return instances_; }
     bool empty() const { return instances_.empty() && !light_; }
-    bool contains(InstanceId id) const;
+    bool contains(InstanceId id) const { return members_.contains(id); }
     InstanceId active() const { return instances_.empty() ? InstanceId{} : instances_.back(); }
     // A light without a surface; picking one drops the objects.
     scene::Id<scene::Light> light() const { return light_; }
@@ -43,6 +44,7 @@ class Selection {
 
   private:
     std::vector<InstanceId> instances_;
+    std::unordered_set<InstanceId> members_; // the same
     scene::Id<scene::Light> light_;
     GroupId entered_;
 };

@@ -63,7 +63,7 @@ void Viewport::draw(Editor& e) {
     // The scene as it was opened, while O is held.
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_status(e);
-    e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
+    if (e.view.show_overlays) e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
 }
 
 glm::dvec2 Viewport::film_point(ImVec2 screen) const {
@@ -174,6 +174,18 @@ void Viewport::draw_overlays(Editor& e) {
         }
     });
     draw->PopClipRect();
+    if (const scene::Bounds box = e.selection.bounds(e.scene()); !box.empty()) { // for tests
+        glm::dvec2 lo(1e9), hi(-1e9);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 at(i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
+                                i & 4 ? box.upper.z : box.lower.z);
+            const glm::dvec3 p = session::project(e.camera(), at, e.film_aspect());
+            lo = glm::min(lo, glm::dvec2(p));
+            hi = glm::max(hi, glm::dvec2(p));
+        }
+        e.mark("selection", {corner.x + float(lo.x) * size.x, corner.y + float(lo.y) * size.y},
+               {corner.x + float(hi.x) * size.x, corner.y + float(hi.y) * size.y});
+    }
 }
 
 void Viewport::draw_status(Editor& e) {
@@ -189,7 +201,7 @@ void Viewport::draw_status(Editor& e) {
             fmt::format("{}x{}  {} spp{}  {:.1f} % error  {:.2f} Msamples/s", drawn_->image.width, drawn_->image.height,
                         std::max(status.divider > 1 ? 1u : status.samples, 1u), drawn_->denoised ? " denoised" : "",
                         std::min(drawn_->relative_error * 100, 999.0), status.samples_per_second * 1e-6);
-    if (!text.empty()) {
+    if (!text.empty() && (e.view.show_overlays || status.state == session::ViewState::failed)) {
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
         const ImVec2 a(corner.x + 6 * scale, end.y - extent.y - 10 * scale);
         draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale},
@@ -212,6 +224,38 @@ void Viewport::draw_status(Editor& e) {
 // --- picking
 // -----------------------------------------------------------------------------------------------------------
 
+// Dragged to the right, a box takes what is seen in it and nowhere else, so that neither the floor nor the wall behind
+// comes with it; dragged to the left, all that is seen in it. As CAD programs have it.
+std::vector<InstanceId> Viewport::in_box(const Editor& e, ImVec2 from, ImVec2 to) const {
+    std::vector<InstanceId> ids;
+    if (!drawn_) return ids;
+    const glm::dvec2 a = film_point(from), b = film_point(to);
+    const auto& image = drawn_->image;
+    const glm::dvec2 shape(image.width, image.height);
+    const glm::uvec2 lo(glm::clamp(glm::min(a, b), 0.0, 1.0) * shape), hi(glm::clamp(glm::max(a, b), 0.0, 1.0) * shape);
+    std::vector<std::uint8_t> seen(e.scene().instances.size() + 1, 0); // 1 in the box, 2 outside
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const std::uint32_t id = image.instance_id[std::size_t(y) * image.width + x];
+            const bool inside = x >= lo.x && x < hi.x && y >= lo.y && y < hi.y;
+            if (id < seen.size()) seen[id] |= inside ? 1 : 2;
+        }
+    const bool whole = to.x >= from.x;
+    std::set<std::uint32_t> taken; // groups, each looked at once
+    for (std::uint32_t value = 0; value < seen.size(); ++value) {
+        const InstanceId id{value};
+        if (!(seen[value] & 1) || e.locked.contains(value) || !e.scene().instances.find(id)) continue;
+        const GroupId group = e.selection.click_group(e.scene(), id);
+        if (group && !taken.insert(group.value).second) continue;
+        const std::vector<InstanceId> parts = e.selection.click_target(e.scene(), id);
+        if (whole && std::any_of(parts.begin(), parts.end(),
+                                 [&](InstanceId part) { return part.value < seen.size() && (seen[part.value] & 2); }))
+            continue;
+        ids.insert(ids.end(), parts.begin(), parts.end());
+    }
+    return ids;
+}
+
 void Viewport::pick(Editor& e, bool over, bool gizmo) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
@@ -221,7 +265,7 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
 
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         // Into the group; on nothing, or a single object: what is there becomes the centre of orbits.
-        const InstanceId id = pickable(instance_at(e, io.MousePos));
+        const InstanceId id = pickable(picked_at(e, io.MousePos));
         if (const GroupId group = e.selection.click_group(e.scene(), id)) {
             e.selection.enter(group);
             const InstanceId ids[] = {id};
@@ -239,6 +283,12 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
     }
     if (!pressed_) return;
     const bool far = std::abs(io.MousePos.x - press_.x) + std::abs(io.MousePos.y - press_.y) > 6;
+    if (far && !boxing_ && !grabbed_ && can_drag(e, press_)) start_sliding(e, press_);
+    if (grabbed_) {
+        slide(e);
+        pressed_ = bool(grabbed_);
+        return;
+    }
     boxing_ = boxing_ || far;
     const Selection::Mode mode = io.KeyCtrl    ? Selection::Mode::toggle
                                  : io.KeyShift ? Selection::Mode::add
@@ -247,25 +297,14 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
         ImDrawList* draw = ImGui::GetWindowDrawList();
         draw->AddRectFilled(press_, io.MousePos, ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.12f}));
         draw->AddRect(press_, io.MousePos, ImGui::GetColorU32(colors::accent));
+        ImGui::SetTooltip(io.MousePos.x >= press_.x
+                              ? "What is wholly in the box (to the left: all it touches)"
+                              : "All that the box touches (to the right: only what is wholly in it)");
     }
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
     pressed_ = false;
     if (std::exchange(boxing_, false)) {
-        // Everything that is seen in the box.
-        std::set<std::uint32_t> seen;
-        if (drawn_) {
-            const glm::dvec2 a = film_point(press_), b = film_point(io.MousePos);
-            const glm::dvec2 lo = glm::clamp(glm::min(a, b), 0.0, 1.0), hi = glm::clamp(glm::max(a, b), 0.0, 1.0);
-            const auto& image = drawn_->image;
-            for (auto y = std::uint32_t(lo.y * image.height); y < std::uint32_t(hi.y * image.height); ++y)
-                for (auto x = std::uint32_t(lo.x * image.width); x < std::uint32_t(hi.x * image.width); ++x)
-                    seen.insert(image.instance_id[std::size_t(y) * image.width + x]);
-        }
-        std::vector<InstanceId> ids;
-        for (const std::uint32_t value : seen)
-            if (const InstanceId id = pickable({value}); e.scene().instances.find(id))
-                for (const InstanceId part : e.selection.click_target(e.scene(), id))
-                    if (std::find(ids.begin(), ids.end(), part) == ids.end()) ids.push_back(part);
+        const std::vector<InstanceId> ids = in_box(e, press_, io.MousePos);
         e.selection.set(ids, mode);
         return;
     }
@@ -284,7 +323,7 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
         e.selection.set_light(light);
         return;
     }
-    InstanceId id = pickable(instance_at(e, io.MousePos));
+    InstanceId id = pickable(picked_at(e, io.MousePos));
     // The same place again: what is behind.
     const bool again = std::abs(io.MousePos.x - last_click_.x) + std::abs(io.MousePos.y - last_click_.y) < 3;
     behind_ = again && mode == Selection::Mode::replace ? behind_ + 1 : 0;

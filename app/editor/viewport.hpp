@@ -3,6 +3,7 @@
 // drop.
 #pragma once
 
+#include "gizmo.hpp"
 #include "selection.hpp"
 #include "session/display.hpp"
 #include "session/live_view.hpp"
@@ -39,6 +40,10 @@ class Viewport {
     void draw_status(Editor& editor);
     void navigate(Editor& editor, bool over);
     void pick(Editor& editor, bool over, bool gizmo);
+    bool can_drag(const Editor& editor, ImVec2 screen) const; // something selected is there
+    void start_sliding(Editor& editor, ImVec2 screen);
+    void slide(Editor& editor);
+    std::vector<InstanceId> in_box(const Editor& editor, ImVec2 from, ImVec2 to) const;
     void stick(Editor& editor, bool over); // T held: the selection follows the surface under the mouse
     void inspect_pixel(Editor& editor, bool over);
     void set_camera(Editor& editor, const scene::Camera& camera, const char* gesture);
@@ -58,6 +63,8 @@ class Viewport {
     Navigation navigation_ = Navigation::none;
     std::optional<glm::dvec3> orbit_center_; // set by a double click
     double wheel_time_ = 0;                  // of the last turn
+    std::optional<glm::dvec3> grabbed_; // where what slides over the floor was taken up
+    GizmoDrag slide_;
     ImVec2 press_{0, 0};
     bool pressed_ = false, boxing_ = false, sticking_ = false;
     ImVec2 last_click_{-1, -1};

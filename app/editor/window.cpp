@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
+#include <imgui_internal.h>
 #include <implot.h>
 #include <algorithm>
 #include <optional>
@@ -49,6 +50,7 @@ struct Window::Impl {
     float scale = 1;
     bool imgui = false, imgui_glfw = false, imgui_vulkan = false;
     bool stale = false; // the swapchain does not fit the window any more
+    int settling = 0;   // frames that should follow soon
 
     ~Impl() {
         if (device) static_cast<void>(device->wait_idle());
@@ -268,9 +270,16 @@ Result<bool> Window::begin_frame() {
 }
 
 Result<void> Window::end_frame() {
+    // Dear ImGui spreads what came at once (a press and its release) over frames, and what a click opens finds its size
+    // and place in the frames after it.
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    const bool input = !context.InputEventsQueue.empty() || !context.InputEventsTrail.empty();
+    impl_->settling = input ? 3 : std::max(impl_->settling - 1, 0);
     ImGui::Render();
     return impl_->present(ImGui::GetDrawData());
 }
+
+bool Window::unsettled() const { return impl_->settling > 0; }
 
 std::vector<ImGuiKeyChord> Window::take_keys() { return std::exchange(impl_->keys, {}); }
 

@@ -42,6 +42,8 @@ class Window {
 
     Result<bool> begin_frame(); // false = there is nothing to draw on (minimised)
     Result<void> end_frame();
+    // More frames should follow soon: input waits for one, or what came has not had all its effects yet.
+    bool unsettled() const;
 
     // Keys pressed since the last call, each with the modifiers it was pressed with. Dear ImGui sees modifiers as they
     // are a frame later, which loses "Ctrl+Z" typed fast while a frame is slow.

@@ -49,7 +49,7 @@ Result<Edit> modify_each(const Scene& scene, std::span<const Id<Instance>> ids, 
 
 } // namespace
 
-std::string next_name(std::string name, std::set<std::string>& taken) {
+std::string next_name(std::string name, std::set<std::string>& taken, TriedNumbers* tried) {
     std::size_t digits = name.size();
     while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1])))
         --digits;
@@ -58,10 +58,16 @@ std::string next_name(std::string name, std::set<std::string>& taken) {
         number = std::stoul(name.substr(digits));
         name.resize(digits - 1);
     }
+    // Who copies "oak 1" to "oak 20000" would else ask 20000 times for each.
+    auto* known = tried ? &(*tried)[name] : nullptr;
+    const unsigned long first = number;
+    const bool inside = known && first >= known->first && first <= known->second;
+    if (inside) number = known->second;
     std::string result;
     do
         result = name + " " + std::to_string(++number);
     while (!taken.insert(result).second);
+    if (known) *known = {inside ? known->first : first, number};
     return result;
 }
 
@@ -178,6 +184,7 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
     std::set<std::string> instance_names, group_names;
     scene.instances.each([&](auto, const Instance& i) { instance_names.insert(i.name); });
     scene.groups.each([&](auto, const Group& g) { group_names.insert(g.name); });
+    TriedNumbers tried, tried_groups;
     std::unordered_map<std::uint32_t, Id<Group>> copy_of;
     std::uint32_t next_group = scene.groups.next().value;
     scene.groups.each([&](Id<Group> id, const Group&) {
@@ -190,14 +197,14 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
     scene.groups.each([&](Id<Group> id, const Group& group) {
         if (!copy_of.contains(id.value)) return;
         Group copy = group;
-        copy.name = next_name(group.name, group_names);
+        copy.name = next_name(group.name, group_names, &tried_groups);
         copy.parent = mapped(group.parent);
         result.edit.changes.push_back(Change<Group>{copy_of[id.value], std::nullopt, std::move(copy)});
     });
     std::uint32_t next = scene.instances.next().value;
     for (const Id<Instance> id : ids) {
         Instance copy = scene.instances[id];
-        copy.name = next_name(copy.name, instance_names);
+        copy.name = next_name(copy.name, instance_names, &tried);
         copy.object_to_world = move * copy.object_to_world;
         copy.group = mapped(copy.group);
         result.copies.push_back({next});

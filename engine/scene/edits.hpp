@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 
 namespace restage::scene {
 
@@ -34,8 +36,10 @@ Result<Edit> modify(const Scene& scene, Id<T> id, std::string label, F&& f) {
     return edit;
 }
 
-// "chair" -> "chair 2", "chair 2" -> "chair 3", past every name that is taken; it is taken then.
-std::string next_name(std::string name, std::set<std::string>& taken);
+// "chair" -> "chair 2", "chair 2" -> "chair 3", past every name that is taken; it is taken then. `tried` makes a long
+// row of names quick: the numbers of each stem, after the first and up to the last, that are known to be taken.
+using TriedNumbers = std::unordered_map<std::string, std::pair<unsigned long, unsigned long>>;
+std::string next_name(std::string name, std::set<std::string>& taken, TriedNumbers* tried = nullptr);
 
 template <class T>
 Result<Edit> rename(const Scene& scene, Id<T> id, std::string name) {

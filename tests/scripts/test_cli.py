@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import time
@@ -145,6 +146,17 @@ def test_convert_there_and_back_renders_the_same(version, tmp_path):
         assert done.returncode == 0, done.stderr
     z = json.loads(restage("compare", tmp_path / "a.exr", tmp_path / "b.exr", "--json").stdout)["z_test"]
     assert z["share_passing"] > 0.95
+
+
+def test_compare_says_what_differs_between_two_scenes(tmp_path):
+    out = tmp_path / "out.pbrt"
+    assert restage("convert", CORNELL, out).returncode == 0
+    done = restage("compare", CORNELL, out, "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["same"] is True
+    out.write_text(re.sub(r"\bfov\b(.*?)[0-9.]+", r"fov\g<1>12", out.read_text(), count=1))
+    done = restage("compare", CORNELL, out)
+    assert done.returncode == 0 and "differ" in done.stdout and "camera" in done.stdout.lower(), done.stdout
 
 
 def test_demo_runs_the_main_job(tmp_path):

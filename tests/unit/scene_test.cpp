@@ -8,7 +8,9 @@
 #include <array>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <chrono>
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 using namespace restage;
 using namespace restage::scene;
@@ -160,4 +162,25 @@ TEST_CASE("bounds follow the transform", "[scene]") {
     CHECK(world_bounds(r.scene).upper.z == 0);
     CHECK(world_bounds(Scene{}).empty());
     CHECK(world_bounds(Scene{}).radius() == 0);
+}
+
+TEST_CASE("names of many copies are found quickly, and are the ones that are free", "[edits]") {
+    std::set<std::string> taken, again;
+    TriedNumbers tried;
+    for (int i = 1; i <= 20000; ++i)
+        taken.insert("oak " + std::to_string(i));
+    taken.insert("elm 3");
+    again = taken;
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 1; i <= 20000; ++i)
+        CHECK_FALSE(next_name("oak " + std::to_string(i), taken, &tried).empty());
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2)); // 200 million questions took a minute
+    CHECK(taken.size() == 40001);
+    CHECK(taken.contains("oak 40000"));
+    // The same names with and without the memory.
+    tried.clear();
+    for (const char* name : {"elm", "elm", "elm 2", "elm 3", "elm", "elm 9", "elm 4", "elm"}) {
+        std::set<std::string> plain = again;
+        CHECK(next_name(name, again, &tried) == next_name(name, plain));
+    }
 }

@@ -26,6 +26,8 @@ constexpr Gesture mouse[] = {
     {"Middle drag", "Pan", "Shift + middle drag"},
     {"Wheel", "Zoom to what is under the mouse", nullptr},
     {"Right drag", "Look around; with W A S D Q E: fly. Wheel: speed, Shift: faster", nullptr},
+    {"Drag what is selected", "It slides over the floor, at its height. Ctrl: in steps, Shift: a copy", nullptr},
+    {"Drag a box", "To the right: select what is wholly in it. To the left: all that it touches", nullptr},
     {"Drag a handle", "Move, turn or stretch. Ctrl: in steps, Alt: a copy", nullptr},
     {"Right click on a value", "Back to its default", nullptr},
     {"Ctrl + click on a value", "Type a number", nullptr},

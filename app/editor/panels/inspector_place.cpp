@@ -81,6 +81,15 @@ void ask_transform(Editor& e, InstanceId id, const glm::dmat4& m, const char* ve
         gesture);
 }
 
+void uniform_button(Editor& e) { // after the fields of a scale
+    InspectorState& state = e.panel_state->inspector;
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (icon_button("##uniform", state.uniform_scale ? Icon::lock : Icon::lock_open, state.uniform_scale,
+                    "Locked: all three change together"))
+        state.uniform_scale = !state.uniform_scale;
+    e.mark("inspector.uniform");
+}
+
 void one_object(Editor& e, InstanceId id) {
     InspectorState& state = e.panel_state->inspector;
     const scene::Scene& s = e.scene();
@@ -128,11 +137,7 @@ void one_object(Editor& e, InstanceId id) {
         }
     }
     e.mark("inspector.scale");
-    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    if (icon_button("##uniform", state.uniform_scale ? Icon::lock : Icon::lock_open, state.uniform_scale,
-                    "Locked: all three change together"))
-        state.uniform_scale = !state.uniform_scale;
-    e.mark("inspector.uniform");
+    uniform_button(e);
 
     if (!bounds.empty()) {
         form_row("Size", "Of the box along the world's axes, in scene units");
@@ -165,7 +170,7 @@ void several_objects(Editor& e) {
     bool changed = false, active = false;
     const auto field = [&](const char* label, const char* id, const char* tooltip, glm::dvec3& v, double speed,
                            const char* format, const char* mark) {
-        form_row(label, tooltip);
+        form_row(label, tooltip, &v == &r.scale ? ImGui::GetFrameHeight() : 0);
         const bool dragged = three(id, v, speed, format);
         if (ImGui::IsItemActivated()) { // it begins: from here on changes count
             r.start.clear();
@@ -183,6 +188,7 @@ void several_objects(Editor& e) {
     field("Turn by", "##turn", "About the middle of all, about x, then y, then z [degrees]", r.turn, 0.5, "%.1f",
           "inspector.turn_by");
     field("Scale by", "##scale", "About the middle of all", r.scale, 0.005, "%.3f", "inspector.scale_by");
+    uniform_button(e);
     if (e.panel_state->inspector.uniform_scale)
         for (int i = 0; i < 3; ++i)
             if (r.scale[i] != before_scale[i]) {

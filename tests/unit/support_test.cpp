@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far things fall until they stand on something, and what touches what.
+#include "session/support.hpp"
+#include "scene_room.hpp"
+#include "session/touching.hpp"
+
+#include <algorithm>
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace restage;
+using namespace restage::scene;
+using Catch::Approx;
+
+namespace {
+
+using Ids = std::vector<Id<Instance>>;
+
+struct Boxes {
+    Scene scene;
+    Id<Mesh> cube;
+    glm::dmat4 turned{1}; // of everything, so that up can be any direction
+
+    template <class T>
+    Id<T> add(T item) {
+        const Id<T> id = table<T>(scene).next();
+        apply(scene, insert(scene, std::move(item), "add"));
+        return id;
+    }
+    Boxes() {
+        auto data = std::make_shared<MeshData>();
+        for (int i = 0; i < 8; ++i)
+            data->positions.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+        data->triangles = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                           {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+        compute_bounds(*data);
+        cube = add(Mesh{.name = "cube", .data = std::move(data)});
+    }
+    Id<Instance> box(const char* name, glm::dvec3 lower, glm::dvec3 upper) {
+        return add(
+            Instance{.name = name,
+                     .mesh = cube,
+                     .object_to_world = turned * glm::scale(glm::translate(glm::dmat4(1), lower), upper - lower)});
+    }
+};
+
+} // namespace
+
+TEST_CASE("things fall until they stand on something", "[support]") {
+    for (const glm::dmat4& turned :
+         {glm::dmat4(1), glm::rotate(glm::dmat4(1), glm::radians(-90.0), glm::dvec3(1, 0, 0)),
+          glm::rotate(glm::dmat4(1), 2.0, glm::normalize(glm::dvec3(1, 2, 3)))}) {
+        Boxes b;
+        b.turned = turned;
+        const glm::dvec3 up(turned * glm::dvec4(0, 0, 1, 0));
+        b.box("floor", {-10, -10, -0.1}, {10, 10, 0});
+        const Ids slab{b.box("slab", {0, 0, 1}, {2, 2, 1.1})};
+        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(1));
+
+        // A post that is thinner than what it carries, under no corner of it.
+        const auto post = b.box("post", {0.9, 1.1, 0}, {0.905, 1.105, 0.4});
+        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(0.6));
+        // What it is let fall with carries nothing.
+        CHECK(*session::fall_distance(b.scene, Ids{slab[0], post}, up) == Approx(0).margin(1e-9));
+        apply(b.scene, *set_hidden(b.scene, Ids{post}, true));
+        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(1));
+
+        // A plate on the slab is not what the slab stands on, however thin both are.
+        b.box("plate", {0.5, 0.5, 1.1}, {0.7, 0.7, 1.101});
+        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(1));
+        // Sunk in a little: out again. Through the floor would be the only other way.
+        const Ids chest{b.box("chest", {5, 5, -0.05}, {6, 6, 0.95})};
+        CHECK(*session::fall_distance(b.scene, chest, up) == Approx(-0.05));
+        CHECK_FALSE(session::fall_distance(b.scene, Ids{b.box("outside", {20, 0, 0}, {21, 1, 1})}, up));
+        CHECK_FALSE(session::fall_distance(b.scene, {}, up));
+    }
+}
+
+TEST_CASE("what touches a thing is its parts, not the floor it stands on", "[touching]") {
+    Boxes b;
+    const auto floor = b.box("floor", {-10, -10, -0.1}, {10, 10, 0});
+    Ids chair{b.box("seat", {0, 0, 0.45}, {0.5, 0.5, 0.5})};
+    for (const double x : {0.0, 0.45})
+        for (const double y : {0.0, 0.45})
+            chair.push_back(b.box("leg", {x, y, 0}, {x + 0.05, y + 0.05, 0.45}));
+    chair.push_back(b.box("back", {0, 0.45, 0.5}, {0.5, 0.5, 1}));
+    chair.push_back(b.box("cushion on the seat", {0.05, 0.05, 0.501}, {0.45, 0.4, 0.53}));
+    const auto other = b.box("leg of another chair", {0.6, 0, 0}, {0.65, 0.05, 0.45});
+    const auto hidden = b.box("hidden", {0, 0, 0.3}, {0.5, 0.5, 0.45});
+    apply(b.scene, *set_hidden(b.scene, Ids{hidden}, true));
+
+    for (const auto start : {chair[0], chair[5], chair[6]}) {
+        Ids found = session::touching(b.scene, Ids{start});
+        found.push_back(start);
+        std::sort(found.begin(), found.end(), [](auto x, auto y) { return x.value < y.value; });
+        CHECK(found == chair);
+    }
+    CHECK(session::touching(b.scene, Ids{other}).empty());
+    CHECK(session::touching(b.scene, {}).empty());
+    // Of the floor everything on it is a part.
+    CHECK(session::touching(b.scene, Ids{floor}).size() == chair.size() + 1);
+    // What is locked in the editor is passed over, and leads nowhere.
+    const auto found = session::touching(b.scene, Ids{chair[6]}, [&](Id<Instance> id) { return id == chair[0]; });
+    CHECK(found.empty());
+}
