@@ -229,6 +229,8 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigFlags |= ImGuiConfigFlags_DockingEnable; // keys are the editor's: its own shortcuts, not menu navigation
     io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.MouseDoubleClickTime = 0.5f; // as desktops have it; 0.3 s loses clicks when frames are slow
+    io.MouseSingleClickDelay = 0.6f;
     impl->layout_path = options.layout.string();
     io.IniFilename = impl->layout_path.empty() ? nullptr : impl->layout_path.c_str();
     float monitor_scale = 1;

@@ -120,18 +120,17 @@ class Hand:
         return self.e.point(("picture", *project(point)))
 
     def number(self, mark, part, text, what):
-        """Double click on the part-th of the three fields of a widget, and a number typed into it."""
+        """Ctrl + click on the part-th of the three fields of a widget, and a number typed into it."""
         self.e.point(mark)  # once it is at rest
         x0, y0, x1, y1 = self.state()["marks"][mark]
         before = self.steps()
         at = (int(x0 + (x1 - x0) * (0.12 + 0.27 * part)), int((y0 + y1) / 2))
-        self.e.move(at)
-        self.e.desk.xdotool("click", "--repeat", 2, "--delay", 60, 1)
-        time.sleep(0.4)
+        self.e.click(at, keys=["ctrl"])
+        time.sleep(0.5)
         self.e.type(text)
         self.e.key("Return")
         self.e.wait(lambda s: s["history"]["position"] > before, what, 10)
-        self.note(what, POINT + 4 * BUTTON + HAND + KEY * (len(text) + 1))
+        self.note(what, POINT + 2 * BUTTON + HAND + KEY * (len(text) + 2))
 
     def color(self, rgb, what, mark="material.reflectance"):
         for part, value in enumerate(rgb):
