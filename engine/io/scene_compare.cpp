@@ -277,7 +277,9 @@ class Comparison {
             return;
         }
         const auto describe = [](Describer& d, const Environment& e) {
-            return shown(e.scale) + (e.image ? ", " + d.image(e.image) + ", mapping " + std::to_string(e.mapping) : "");
+            return shown(e.scale) +
+                   (e.image ? ", " + d.image(e.image) + ", mapping " + std::to_string(e.mapping) : "") +
+                   (e.hidden_from_camera ? ", hidden from the camera" : "");
         };
         same("environment", describe(describe_a_, *x), describe(describe_b_, *y));
         if (x->image && !close(x->light_to_world, y->light_to_world, options_.transform_tolerance))

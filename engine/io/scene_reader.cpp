@@ -187,7 +187,8 @@ struct SceneReader::Calls {
                 .image = e->image.value,
                 .mapping = static_cast<std::uint32_t>(e->mapping),
                 .scale = {},
-                .light_to_world = {}};
+                .light_to_world = {},
+                .hidden_from_camera = e->hidden_from_camera};
         copy(e->scale, out->scale);
         copy(e->light_to_world, out->light_to_world);
         return 1;

@@ -45,6 +45,7 @@ void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* in) {
                                            .mapping = static_cast<RestageMapping>(in->mapping),
                                            .scale = vec3(in->scale),
                                            .light_to_world = to_world,
+                                           .hidden_from_camera = in->hidden_from_camera != 0,
                                            .origin = w.origin(in->text)},
                                w.scene.clock};
         return 1;

@@ -293,6 +293,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
         d.environment.world_from_env = glm::mat3(rotation);
         d.environment.env_from_world = glm::mat3(glm::inverse(rotation));
         d.environment.scale = env->scale;
+        d.environment.hidden = env->hidden_from_camera;
         d.environment.mapping = environment_.texels.empty()          ? ENV_CONSTANT
                                 : env->mapping == RESTAGE_OCTAHEDRAL ? ENV_OCTAHEDRAL
                                                                      : ENV_EQUIRECT;

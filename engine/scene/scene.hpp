@@ -134,6 +134,7 @@ struct Environment {
     RestageMapping mapping = RESTAGE_EQUIRECT;
     glm::vec3 scale{1};
     glm::dmat4 light_to_world{1};
+    bool hidden_from_camera = false; // it shines; a camera ray that leaves the scene sees black
     Origin origin;
     bool operator==(const Environment&) const = default;
 };

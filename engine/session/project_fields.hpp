@@ -101,6 +101,7 @@ void fields(V& v, scene::Environment& e) {
     v("mapping", e.mapping);
     v("scale", e.scale);
     v("light_to_world", e.light_to_world);
+    v("hidden_from_camera", e.hidden_from_camera);
     v("origin", e.origin);
 }
 template <class V>

@@ -61,6 +61,7 @@ Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<cons
         if (now->mapping == mapping) sky.light_to_world = now->light_to_world;
         sky.scale = now->scale;
     }
+    if (scene.environment.value) sky.hidden_from_camera = scene.environment.value->hidden_from_camera;
     sky.name = name;
     sky.mapping = mapping;
     scene.images.each([&](Id<Image> id, const Image& image) {

@@ -20,6 +20,9 @@ vec3 absorb(SceneData scene, uint medium, float distance_) {
 // Radiance of the environment for a path that left the scene.
 void path_escape(SceneData scene, vec3 direction, inout PathState path) {
     if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
+    uint depth = path.flags & PATH_DEPTH_MASK;
+    // Straight from the camera, through cut-outs and surfaces that are none, too; glass and mirrors show it.
+    if (depth == 0u && scene.environment.hidden != 0u) return;
     float pdf_env;
     vec3 le = environment_eval(scene.environment, direction, pdf_env);
     float w = 1.0;
@@ -28,7 +31,6 @@ void path_escape(SceneData scene, vec3 direction, inout PathState path) {
         w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
     }
     if (HAS_MEDIA) le *= absorb(scene, path.medium, 1e30); // infinitely far behind what absorbs
-    uint depth = path.flags & PATH_DEPTH_MASK;
     path.radiance += clamp_contribution(scene, path.throughput * le * w, depth);
 }
 

@@ -119,7 +119,7 @@ struct EnvironmentData {
     address alias; // AliasEntry[], one a texel; 0 for a constant
     uint width, height;
     uint light; // its index in the lights, or NONE
-    uint pad0;
+    uint hidden; // 1: black for camera rays
 };
 
 struct CameraData {

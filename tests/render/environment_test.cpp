@@ -215,3 +215,26 @@ TEST_CASE("one sky in both mappings gives one irradiance") {
         check_mean(render_image(*renderer, b.scene, 256), 0.8 / pi * expected, 1e-3);
     }
 }
+
+TEST_CASE("a sky that is hidden from the camera shines all the same, and mirrors show it") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const auto renderer = make_renderer(tracer);
+    const auto picture = [&](bool hidden, bool floor, const char* type) {
+        SceneBuilder b;
+        look_down(b);
+        if (floor) {
+            const auto quad = b.quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
+            b.instance(quad, type == std::string("mirror") ? b.material("mirror", {}) : b.diffuse(0.8f, 0.8f, 0.8f));
+        } else { // beside the picture: a scene needs something in it
+            b.instance(b.quad({20, 0, 0}, {21, 0, 0}, {21, 1, 0}, {20, 1, 0}), b.diffuse(0.5f, 0.5f, 0.5f));
+        }
+        b.scene.environment = {scene::Environment{.name = "sky", .hidden_from_camera = hidden}, ++b.scene.clock};
+        renderer->forget_scene();
+        return render_image(*renderer, b.scene, 16);
+    };
+    INFO(tracer);
+    CHECK(mean_luminance(picture(false, false, "")).value == 1);
+    CHECK(mean_luminance(picture(true, false, "")).value == 0);
+    check_mean(picture(true, true, "diffuse"), 0.8);
+    check_same_mean(picture(true, true, "mirror"), picture(false, true, "mirror"));
+}

@@ -73,6 +73,12 @@ TEST_CASE("the comparison of scenes sees what differs", "[export]") {
                ContainsSubstring("film"));
     CHECK_THAT(differences([](Everything& b) { apply(b.scene, set_environment(b.scene, {})); }),
                ContainsSubstring("environment"));
+    CHECK_THAT(differences([](Everything& b) {
+                   Environment sky = *b.scene.environment.value;
+                   sky.hidden_from_camera = true;
+                   apply(b.scene, set_environment(b.scene, sky));
+               }),
+               ContainsSubstring("hidden from the camera"));
     CHECK_THAT(differences([](Everything& b) { apply(b.scene, *remove(b.scene, Id<Light>{1})); }),
                ContainsSubstring("lights"));
     CHECK_THAT(differences([](Everything& b) {
@@ -244,6 +250,12 @@ TEST_CASE("what a version cannot hold is in the report", "[export]") {
     lacks(Everything(true).scene, "v3", "resampled to pbrt-v3's equirectangular");
     lacks(Everything(false).scene, "v4", "no Oren-Nayar");
     lacks(Everything(false).scene, "v4", "resampled to pbrt-v4's octahedral");
+    Everything hidden(true);
+    Environment sky = *hidden.scene.environment.value;
+    sky.hidden_from_camera = true;
+    apply(hidden.scene, set_environment(hidden.scene, sky));
+    lacks(hidden.scene, "v4", "not seen by the camera");
+    lacks(hidden.scene, "v3", "not seen by the camera");
 }
 
 TEST_CASE("an export that fails leaves what was there", "[export]") {

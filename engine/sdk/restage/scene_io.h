@@ -123,6 +123,7 @@ typedef struct RestageEnvironment {
     uint32_t mapping;
     float scale[3];        /* times the image; or the radiance itself */
     double light_to_world[16]; /* rotation (and mirror) */
+    uint32_t hidden_from_camera; /* shines, but where the camera looks past everything it sees black */
 } RestageEnvironment;
 
 typedef struct RestageCamera {

@@ -32,6 +32,8 @@ void Exporter::environment() {
     if (!in_.environment(in_.ctx, &e)) return;
     const std::string what = std::string("environment \"") + e.text.name + "\"";
     const Kept k = kept(e.text, what);
+    if (e.hidden_from_camera)
+        approximated(what, "pbrt has no sky that shines but is not seen by the camera: there it is seen");
     std::array<float, 3> scale{e.scale[0], e.scale[1], e.scale[2]};
     Params params;
     std::string file;

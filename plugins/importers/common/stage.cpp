@@ -113,7 +113,8 @@ void add_studio(const RestageSceneWriter1& out, Report& report, Up up) {
                                    .image = out.image(out.ctx, &image),
                                    .mapping = RESTAGE_EQUIRECT,
                                    .scale = {1, 1, 1},
-                                   .light_to_world = {}};
+                                   .light_to_world = {},
+                                   .hidden_from_camera = 0};
     Matrix to_stage; // the picture's axes -> x right, y up, z towards the viewer
     to_stage.set_column(1, {0, 0, -1});
     to_stage.set_column(2, {0, 1, 0});
