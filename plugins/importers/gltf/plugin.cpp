@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry point of the glTF importer: interface "restage.importer/1".
+// Entry point of the importer of glTF.
 #include "load.hpp"
 
-#include <cstring>
+#include <restage/importer_plugin.h>
 
-namespace {
-
-const RestageImporter1 importer = {
+static const RestageImporter1 importer = {
     .size = sizeof(RestageImporter1),
     .format = "gltf",
     .label = "glTF 2.0 scene (glTF, GLB)",
@@ -15,21 +13,4 @@ const RestageImporter1 importer = {
     .load = restage::gltf::load,
 };
 
-const void* query(const char* id, uint32_t index) {
-    return std::strcmp(id, RESTAGE_IMPORTER1) == 0 && index == 0 ? &importer : nullptr;
-}
-
-} // namespace
-
-extern "C" {
-RESTAGE_EXPORT extern const RestagePlugin restage_plugin;
-const RestagePlugin restage_plugin = {
-    .abi = RESTAGE_ABI,
-    .size = sizeof(RestagePlugin),
-    .id = "org.restage.importer.gltf",
-    .version = "0.1.0",
-    .init = nullptr,
-    .shutdown = nullptr,
-    .query = query,
-};
-}
+RESTAGE_IMPORTER_PLUGIN("org.restage.importer.gltf", "0.1.0", importer)
