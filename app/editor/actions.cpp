@@ -176,10 +176,10 @@ constexpr auto actions = std::to_array<Action>({
      [](const Editor& e) { return !e.session().path().empty() && e.session().modified(); }, revert},
     {"file.export", "Export...", ImGuiMod_Ctrl | ImGuiKey_E, 0, "A scene file for other programs", has_scene,
      export_dialog},
-    {"file.save_image", "Save image...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_E, 0,
+    {"file.save_image", "Save picture...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_E, 0,
      "The live picture as it is now", has_scene, save_image_dialog},
     {"file.final", "Final picture...", ImGuiMod_Ctrl | ImGuiKey_R, 0,
-     "Render at the film's full size in the background, denoise, write", has_scene, final_render_dialog},
+     "Render in full size and quality in the background, denoise, write", has_scene, final_render_dialog},
     {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks when something is not saved", nullptr,
      [](Editor& e) { e.request_quit(); }},
     {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Take the last change back",
@@ -250,7 +250,7 @@ constexpr auto actions = std::to_array<Action>({
     {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles, numbers and messages over the picture", nullptr,
      [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
      [](const Editor& e) { return e.view.show_overlays; }},
-    {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and depth of the pixel under the mouse",
+    {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and distance of the pixel under the mouse",
      nullptr, [](Editor& e) { e.view.inspect_pixels = !e.view.inspect_pixels; },
      [](const Editor& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
@@ -283,6 +283,7 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         return;
     for (const Action& action : actions) {
         const ImGuiKeyChord key = key_of(action, editor.view.keys);
+        if (key == ImGuiKey_Escape && editor.pick_tool) continue; // gives up that, not the selection
         if (key && (keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key)))
             editor.run(action.id);
     }

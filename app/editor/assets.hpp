@@ -38,7 +38,7 @@ struct AssetsState { // of the panel
     std::vector<Asset> entries;
     std::vector<std::string> folders;
     int kind = 0; // shown: 0 = all, else AssetKind + 1
-    std::string search, folder;
+    std::string search;
     struct Thumbnail {
         bool asked = false, failed = false;
         std::unique_ptr<Texture> texture;

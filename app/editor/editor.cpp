@@ -9,6 +9,7 @@
 #include "saving.hpp"
 #include "session/navigation.hpp"
 #include "theme.hpp"
+#include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -27,6 +28,8 @@ Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
     panel_state = std::make_unique<PanelState>(options_.wake);
     for (const Panel& panel : all_panels())
         panels_open_[panel.title] = panel.open;
+    preferences = remembered_ = read_preferences(options_.config_dir);
+    view.keys = preferences.keys;
 }
 
 Editor::~Editor() = default;
@@ -105,6 +108,7 @@ void Editor::request_quit() {
 
 void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     marks_.clear();
+    hovered_before = std::exchange(hovered, {});
     follow_opening();
     panel_state->loads.poll();
     follow_convergence(*this);
@@ -123,6 +127,14 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
             notices.add(LogLevel::error, problem);
     }
     refresh_picture();
+    remember_preferences();
+}
+
+void Editor::remember_preferences() {
+    preferences.keys = view.keys;
+    if (preferences == remembered_) return;
+    remembered_ = preferences;
+    write_preferences(options_.config_dir, preferences);
 }
 
 void Editor::follow_opening() {
@@ -170,9 +182,8 @@ void Editor::document_changed() {
 
 void Editor::ask_for_base(const std::string& message, bool some_fits) {
     show_modal("The scene of this project", [message, some_fits, request = opening_.request()](Editor& e) {
-        ImGui::PushTextWrapPos(520 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextUnformatted(message.c_str());
-        ImGui::PopTextWrapPos();
+        dialog_width(480);
+        ImGui::TextWrapped("%s", message.c_str());
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Find it...")) {
@@ -337,15 +348,24 @@ bool settled(const ImGuiWindow* window) {
     return true;
 }
 
-// Where panels are when no layout file says otherwise.
+// Where panels are when no layout file says otherwise. Panels are as wide as their contents need at this scale; in a
+// small window the outliner shares the right side with the inspector, so that the picture keeps more than half of it.
 void first_layout(ImGuiID space, ImVec2 size) {
     ImGui::DockBuilderRemoveNode(space);
     ImGui::DockBuilderAddNode(space, ImGuiDockNodeFlags_DockSpace);
     ImGui::DockBuilderSetNodeSize(space, size);
-    ImGuiID center = space;
-    const ImGuiID left = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, 0.19f, nullptr, &center);
-    const ImGuiID right = ImGui::DockBuilderSplitNode(center, ImGuiDir_Right, 0.30f, nullptr, &center);
-    const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, 0.24f, nullptr, &center);
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    const float side = std::max(0.24f * size.x, std::min(300 * scale, 0.4f * size.x));
+    const float list = std::max(0.17f * size.x, 210 * scale);
+    const bool small = side + list > 0.46f * size.x;
+    const float low = std::clamp(190 * scale, 0.24f * size.y, 0.34f * size.y);
+    ImGuiID center = space, left = 0;
+    ImGuiID right = ImGui::DockBuilderSplitNode(center, ImGuiDir_Right, side / size.x, nullptr, &center);
+    if (small)
+        left = ImGui::DockBuilderSplitNode(right, ImGuiDir_Up, 0.36f, nullptr, &right);
+    else
+        left = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, list / (size.x - side), nullptr, &center);
+    const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, low / size.y, nullptr, &center);
     for (const Panel& panel : all_panels()) {
         if (panel.dock == Dock::floating) continue;
         ImGui::DockBuilderDockWindow(panel.title, panel.dock == Dock::left     ? left
@@ -374,6 +394,7 @@ void Editor::draw_panels() {
         ImGui::End();
         return;
     }
+    const float scale = ImGui::GetStyle().FontScaleMain;
     if (!ImGui::DockBuilderGetNode(space)) first_layout(space, main->WorkSize);
     ImGui::DockSpaceOverViewport(space, main, ImGuiDockNodeFlags_PassthruCentralNode);
     for (const Panel& panel : all_panels()) {
@@ -381,7 +402,6 @@ void Editor::draw_panels() {
         if (!open) continue;
         const bool picture = panel.draw == draw_viewport;
         if (panel.dock == Dock::floating) {
-            const float scale = ImGui::GetStyle().FontScaleMain;
             ImGui::SetNextWindowSize(
                 {std::min(900 * scale, main->WorkSize.x * 0.9f), std::min(620 * scale, main->WorkSize.y * 0.9f)},
                 ImGuiCond_FirstUseEver);
@@ -412,10 +432,10 @@ void Editor::show_modal(std::string title, std::function<bool(Editor&)> body) {
 void Editor::draw_modals() {
     if (modals_.empty()) return;
     Modal& modal = modals_.front(); // one at a time
-    if (!modal.opened) ImGui::OpenPopup(modal.title.c_str());
-    modal.opened = true;
+    if (modal.frames == 0) ImGui::OpenPopup(modal.title.c_str());
+    // It finds its size in its first frames; then it can be moved.
     const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
-    ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, {0.5f, 0.5f});
+    if (++modal.frames < 5) ImGui::SetNextWindowPos(center, ImGuiCond_Always, {0.5f, 0.5f});
     bool keep = true;
     if (ImGui::BeginPopupModal(modal.title.c_str(), nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         keep = modal.body(*this);

@@ -8,6 +8,7 @@
 #include "gizmo.hpp"
 #include "notices.hpp"
 #include "opening.hpp"
+#include "preferences.hpp"
 #include "selection.hpp"
 #include "session/display.hpp"
 #include "session/live_view.hpp"
@@ -112,6 +113,7 @@ class Editor {
     Opening& opening() { return opening_; }
     Files& files() { return *files_; }
     const EditorOptions& options() const { return options_; }
+    Preferences preferences;
     Log& log() { return log_; }
     void undo();
     void redo();
@@ -123,7 +125,8 @@ class Editor {
     // --- what is shown
     // -------------------------------------------------------------------------------------------------
     Selection selection;
-    InstanceId hovered; // under the mouse in the viewport or the outliner
+    InstanceId hovered; // under the mouse in the viewport or a list, by the panels drawn in this frame
+    InstanceId hovered_before; // in the frame before: what is outlined
     ViewSettings view;
     session::LiveView& live() { return *live_; }
     const session::LiveView& live() const { return *live_; }
@@ -174,7 +177,7 @@ class Editor {
     struct Modal {
         std::string title;
         std::function<bool(Editor&)> body;
-        bool opened = false;
+        int frames = 0; // it is shown for
     };
     void draw_menu();
     void draw_panels();
@@ -185,8 +188,10 @@ class Editor {
     void place_inserted(const io::ImportedScene& imported);
     void ask_for_base(const std::string& message, bool some_fits);
     void refresh_picture();
+    void remember_preferences(); // when they changed
 
     EditorOptions options_;
+    Preferences remembered_;
     Log& log_;
     session::Session session_;
     std::unique_ptr<session::LiveView> live_;

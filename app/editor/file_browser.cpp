@@ -142,6 +142,7 @@ class Browser {
     int selected_ = -1;
     bool scroll_ = false;
     std::string typed_, folder_text_, new_folder_, problem_;
+    bool use_folder_ = false; // accept() is for good when it is a folder
     bool naming_folder_ = false, focus_folder_ = false, focus_name_ = true;
     fs::path asked_path_;
     std::shared_ptr<Asked<Kind>> asked_kind_;
@@ -166,6 +167,7 @@ void Browser::go(const fs::path& folder, const std::string& make) {
 
 bool Browser::fits(const FileEntry& entry) const {
     if (!hidden_ && entry.name.starts_with('.')) return false;
+    if (options_.folder) return entry.folder;
     if (entry.folder || options_.filters.empty()) return true;
     const auto& extensions = options_.filters[filter_].extensions;
     std::string extension = lower(fs::path(entry.name).extension().string());
@@ -222,6 +224,11 @@ bool Browser::act(Editor& e) {
     const Kind kind = asked_kind_->answer;
     asked_kind_.reset();
     focus_name_ = true;
+    if (std::exchange(use_folder_, false) && kind == Kind::folder) {
+        e.files().recent.add_folder(asked_path_);
+        e.later([&e, done = options_.done, path = asked_path_] { done(e, path); });
+        return true;
+    }
     if (kind == Kind::folder) {
         go(asked_path_);
         typed_ = options_.save ? fs::path(options_.name).filename().string() : "";
@@ -229,6 +236,10 @@ bool Browser::act(Editor& e) {
     }
     if (!options_.save && kind == Kind::nothing) {
         problem_ = asked_path_.string() + " does not exist";
+        return false;
+    }
+    if (options_.folder) {
+        problem_ = asked_path_.string() + " is no folder";
         return false;
     }
     if (options_.save) {
@@ -276,7 +287,7 @@ void Browser::draw_places(Editor& e, float height) {
     place("Home", home());
     e.mark("browser.home");
     place("Computer", "/");
-    place("Where it was started", fs::current_path(none));
+    place("Current folder", fs::current_path(none));
     ImGui::Spacing();
     ImGui::TextColored(colors::dim, "Recent");
     for (const std::string& folder : e.files().recent.folders()) {
@@ -346,7 +357,7 @@ void Browser::draw_list(Editor& e, float height) {
 
 void Browser::draw_name(Editor& e) {
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(options_.save ? "Name" : "File");
+    ImGui::TextUnformatted(options_.save ? "Name" : options_.folder ? "Folder" : "File");
     ImGui::SameLine();
     const float scale = ImGui::GetStyle().FontScaleMain;
     ImGui::SetNextItemWidth(options_.filters.empty() ? -1 : -190 * scale);
@@ -381,8 +392,11 @@ bool Browser::draw_buttons(Editor& e) {
         e.mark("browser.keep");
         return true;
     }
-    ImGui::BeginDisabled(typed_.empty() || (asked_kind_ && !asked_kind_->done));
-    if (ImGui::Button(options_.save ? "Save" : "Open")) accept(typed_);
+    ImGui::BeginDisabled((typed_.empty() && !options_.folder) || (asked_kind_ && !asked_kind_->done));
+    if (ImGui::Button(options_.folder ? "Use this folder" : options_.save ? "Save" : "Open")) {
+        use_folder_ = options_.folder;
+        accept(typed_.empty() ? folder_ : fs::path(typed_));
+    }
     e.mark("browser.accept");
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -390,7 +404,7 @@ bool Browser::draw_buttons(Editor& e) {
     e.mark("browser.cancel");
     ImGui::SameLine();
     ImGui::Checkbox("Hidden files", &hidden_);
-    ImGui::SetItemTooltip("Show files whose names begin with a dot (Ctrl+H)");
+    ImGui::SetItemTooltip("Show what has a name that begins with a dot (Ctrl+H)");
     if (ImGui::IsKeyChordPressed(ImGuiMod_Ctrl | ImGuiKey_H)) hidden_ = !hidden_;
     if (options_.save) {
         ImGui::SameLine();

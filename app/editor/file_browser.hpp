@@ -22,6 +22,7 @@ struct FileFilter {
 struct BrowseOptions {
     std::string title; // "Open a scene"
     bool save = false; // a new name may be typed, folders made, and replacing asks
+    bool folder = false; // a folder is wanted: files are not listed
     std::vector<FileFilter> filters;
     std::filesystem::path start; // a folder; "" = the last used one
     std::string name;            // at first in the field

@@ -7,6 +7,7 @@
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
 #include "session/picture.hpp"
+#include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -121,19 +122,27 @@ void final_render_dialog(Editor& e) {
     wish->denoise = !e.registry().denoisers().empty();
     e.show_modal("Final picture", [wish](Editor& editor) {
         const scene::Film& film = editor.scene().film.value;
-        ImGui::Text("%ux%u, as the scene's film says", film.width, film.height);
+        dialog_width(360);
+        form_row("Size", "Of the picture: change it in the Scene panel, under Picture");
+        ImGui::Text("%u × %u pixels", film.width, film.height);
         int samples = int(wish->samples);
-        if (ImGui::DragInt("Samples a pixel", &samples, 1, 1, 1 << 20, "%d", ImGuiSliderFlags_AlwaysClamp))
+        form_row("Samples", "Light paths for each pixel: twice as many take twice the time and leave 0.7 of the noise");
+        if (ImGui::DragInt("##samples", &samples, 1, 1, 1 << 20, "%d a pixel", ImGuiSliderFlags_AlwaysClamp))
             wish->samples = std::uint32_t(samples);
         editor.mark("final.samples");
         float percent = wish->error * 100;
-        if (ImGui::DragFloat("Stop at error", &percent, 0.05f, 0, 100, percent > 0 ? "%.2f %%" : "never"))
+        form_row("Stop at error",
+                 "Where the noise is so small: the estimated relative error before denoising. 0 = no target");
+        if (ImGui::DragFloat("##error", &percent, 0.05f, 0, 100, percent > 0 ? "%.2f %%" : "No target"))
             wish->error = percent / 100;
-        ImGui::SetItemTooltip("Estimated relative error of the picture before denoising; 0 = all samples");
+        editor.mark("final.error");
+        form_row("Denoise",
+                 "Removes the noise that is left, in high quality; the raw picture is kept beside it in an EXR");
         ImGui::BeginDisabled(editor.registry().denoisers().empty());
-        ImGui::Checkbox("Denoise (high quality)", &wish->denoise);
+        ImGui::Checkbox("##denoise", &wish->denoise);
         editor.mark("final.denoise");
         ImGui::EndDisabled();
+        empty_note("It renders in the background, and you can go on editing; the live picture waits meanwhile.");
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Choose where...")) {

@@ -2,6 +2,7 @@
 #include "param_widget.hpp"
 
 #include "editor.hpp"
+#include "file_browser.hpp"
 #include "io/image_file.hpp"
 #include "panels/state.hpp"
 #include "theme.hpp"
@@ -20,7 +21,10 @@ namespace {
 constexpr float slider_span = 20; // the largest range a slider is of use for; beyond it a drag is better
 
 bool number(const RestageParam& line, float& v) {
-    const std::string format = *line.unit ? fmt::format("%.4g {}", line.unit) : "%.4g";
+    const std::string unit = line.unit == std::string_view("deg") ? "°"
+                             : *line.unit                         ? std::string(" ") + line.unit
+                                                                  : "";
+    const std::string format = "%.4g" + unit;
     if (line.max - line.min <= slider_span)
         return ImGui::SliderFloat("##value", &v, line.min, line.max, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
     return ImGui::DragFloat("##value", &v, drag_speed(v), line.min, line.max, format.c_str(),
@@ -46,12 +50,12 @@ std::string default_text(const RestageParam& line) {
 
 bool enum_combo(const RestageParam& line, scene::Value& v) {
     bool changed = false;
-    if (!ImGui::BeginCombo("##value", v.text.c_str())) return false;
+    if (!ImGui::BeginCombo("##value", choice_label(v.text).c_str())) return false;
     std::string_view rest = line.choices;
     while (!rest.empty()) {
         const std::string choice(rest.substr(0, rest.find('|')));
         rest.remove_prefix(std::min(rest.size(), choice.size() + 1));
-        if (ImGui::Selectable(choice.c_str(), choice == v.text)) {
+        if (ImGui::Selectable(choice_label(choice).c_str(), choice == v.text)) {
             changed = v.text != choice;
             v.text = choice;
         }
@@ -63,7 +67,7 @@ bool enum_combo(const RestageParam& line, scene::Value& v) {
 bool material_combo(Editor& e, scene::Value& v, const std::string& mark) {
     const scene::Material* current = e.scene().materials.find(v.material);
     bool changed = false;
-    if (!ImGui::BeginCombo("##value", current ? current->name.c_str() : "none")) return false;
+    if (!ImGui::BeginCombo("##value", current ? current->name.c_str() : "None")) return false;
     e.scene().materials.each([&](scene::Id<scene::Material> id, const scene::Material& m) {
         if (ImGui::Selectable(fmt::format("{}##{}", m.name, id.value).c_str(), id == v.material)) {
             v.material = id;
@@ -106,10 +110,7 @@ void texture_popup(Editor& e, const scene::Value& value, bool scalar, ParamAsk& 
                 e.mark(mark + ".texture." + t.name);
             });
     ImGui::Separator();
-    if (const std::string file = image_file_popup(e, mark + ".texture"); !file.empty()) {
-        ask.image_file = file;
-        ImGui::CloseCurrentPopup();
-    }
+    image_file_item(e, mark + ".texture");
     ImGui::EndPopup();
 }
 
@@ -122,20 +123,24 @@ void accept_image(ParamAsk& ask) {
 
 } // namespace
 
-std::string image_file_popup(Editor& e, const std::string& mark) {
-    std::string& path = e.panel_state->image_path;
-    std::string chosen;
-    ImGui::SetNextItemWidth(200 * ImGui::GetStyle().FontScaleMain);
-    const bool enter =
-        ImGui::InputTextWithHint("##file", "Path of an image file", &path, ImGuiInputTextFlags_EnterReturnsTrue);
+void image_file_item(Editor& e, const std::string& mark) {
+    if (ImGui::MenuItem("Image file...")) {
+        const std::filesystem::path document(e.session().path());
+        browse(e,
+               {.title = "Choose an image",
+                .filters = {{"Images", {"png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "pfm"}}, {"All files", {}}},
+                .start = document.parent_path(),
+                .done = [mark](Editor& editor, const std::filesystem::path& path) {
+                    editor.panel_state->image_choice = {mark, path.string()};
+                }});
+    }
     tip("PNG, JPG, EXR, HDR, TGA, BMP or PFM");
     e.mark(mark + ".file");
-    ImGui::SameLine();
-    ImGui::BeginDisabled(path.empty());
-    if ((ImGui::Button("Use") || enter) && !path.empty()) chosen = std::exchange(path, {});
-    ImGui::EndDisabled();
-    e.mark(mark + ".use");
-    return chosen;
+}
+
+std::string chosen_image_file(Editor& e, const std::string& mark) {
+    auto& [asked_by, path] = e.panel_state->image_choice;
+    return asked_by == mark ? std::exchange(path, {}) : "";
 }
 
 bool color_field(const char* id, float* linear, bool hdr) {
@@ -162,7 +167,7 @@ ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& v
     bool changed = false;
     if (textured || line.type == RESTAGE_TEXTURE) {
         const scene::Texture* texture = e.scene().textures.find(value.texture);
-        const std::string name = texture ? texture->name : "none";
+        const std::string name = texture ? texture->name : "None";
         if (ImGui::Button((name + "###value").c_str(), {ImGui::CalcItemWidth(), 0})) ImGui::OpenPopup("texture");
         tip(texture ? "A texture stands for this value: click to choose another, or none"
                     : "Click to choose a texture; or drop an image here");
@@ -212,12 +217,15 @@ ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& v
     }
     if (slot && line.type != RESTAGE_TEXTURE) {
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-        if (icon_button("slot", Icon::texture, textured, "A texture for this value; or drop an image here"))
+        if (icon_button("slot", Icon::texture, textured, "Let an image vary this value; or drop one here"))
             ImGui::OpenPopup("texture");
         e.mark(mark + ".texture");
         accept_image(ask);
     }
-    if (slot) texture_popup(e, value, line.type == RESTAGE_FLOAT, ask, mark);
+    if (slot) {
+        texture_popup(e, value, line.type == RESTAGE_FLOAT, ask, mark);
+        if (const std::string file = chosen_image_file(e, mark + ".texture"); !file.empty()) ask.image_file = file;
+    }
     if (changed) ask.value = v;
     if (textured) texture_settings(e, value.texture, mark + ".image");
     ImGui::PopID();
@@ -234,19 +242,46 @@ void texture_settings(Editor& e, scene::Id<scene::Texture> id, const std::string
     e.mark(mark);
     const scene::Image* image = e.scene().images.find(texture.image);
     if (image && image->data)
-        ImGui::TextDisabled("%u x %u, %s", image->data->width, image->data->height,
+        ImGui::TextDisabled("%u × %u, %s", image->data->width, image->data->height,
                             image->encoding == RESTAGE_SRGB ? "sRGB" : "linear");
     else
         warning_note("The image is missing; it shades grey.");
     if (image) tip(image->path.c_str());
     static constexpr RestageParam lines[] = {
         {"scale", "Scale", RESTAGE_FLOAT, 0, 0, 10, {1}, "", nullptr, "Multiplies the image's values"},
-        {"invert", "Invert", RESTAGE_BOOL, 0, 0, 1, {0}, "", nullptr, "One minus the image's values"},
+        {"invert",
+         "Invert",
+         RESTAGE_BOOL,
+         0,
+         0,
+         1,
+         {0},
+         "",
+         nullptr,
+         "Dark becomes bright: one minus the image's values"},
         {"wrap", "Outside", RESTAGE_ENUM, 0, 0, 2, {0}, "", "repeat|black|clamp", "What is seen where the image ends"},
-        {"uscale", "Repeat u", RESTAGE_FLOAT, 0, -100, 100, {1}, "", nullptr, "How often the image fits along u"},
-        {"vscale", "Repeat v", RESTAGE_FLOAT, 0, -100, 100, {1}, "", nullptr, "How often the image fits along v"},
-        {"udelta", "Shift u", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In widths of the image"},
-        {"vdelta", "Shift v", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In heights of the image"},
+        {"uscale",
+         "Repeat across",
+         RESTAGE_FLOAT,
+         0,
+         -100,
+         100,
+         {1},
+         "",
+         nullptr,
+         "How often the image fits along u, its width"},
+        {"vscale",
+         "Repeat up",
+         RESTAGE_FLOAT,
+         0,
+         -100,
+         100,
+         {1},
+         "",
+         nullptr,
+         "How often the image fits along v, its height"},
+        {"udelta", "Shift across", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In widths of the image (u)"},
+        {"vdelta", "Shift up", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In heights of the image (v)"},
     };
     for (const RestageParam& line : lines) {
         const scene::Value* set = texture.params.find(line.id);

@@ -27,8 +27,9 @@ void texture_settings(Editor& editor, scene::Id<scene::Texture> texture, const s
 // A colour that is linear inside and chosen as it is seen. True when changed.
 bool color_field(const char* id, float* linear, bool hdr = false);
 
-// Opens with OpenPopup("image file"): a path to type and the images that lie beside the scene's. The chosen file, or
-// "".
-std::string image_file_popup(Editor& editor, const std::string& mark);
+// A menu entry that asks for an image file in the file browser, which comes instead of the menu.
+void image_file_item(Editor& editor, const std::string& mark);
+// The file that was chosen there for this mark, once; else "".
+std::string chosen_image_file(Editor& editor, const std::string& mark);
 
 } // namespace restage::editor

@@ -4,7 +4,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "saving.hpp"
-#include "theme.hpp"
+#include "widgets.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -16,16 +16,17 @@ void offer_recovery(Editor& e) {
         std::make_shared<std::vector<session::Recoverable>>(session::find_recoverable(e.files().recovery_folder));
     if (found->empty()) return;
     e.show_modal("Unsaved work was found", [found](Editor& editor) {
-        ImGui::TextUnformatted("Restage ended before this was saved. It can be opened as it was.");
+        dialog_width(560);
+        ImGui::TextWrapped("Restage ended before this was saved. It can be opened as it was.");
         ImGui::Spacing();
         bool stay = true;
         std::size_t gone = found->size();
         const float scale = ImGui::GetStyle().FontScaleMain;
         if (ImGui::BeginTable("found", 4,
                               ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit)) {
-            ImGui::TableSetupColumn("Scene", ImGuiTableColumnFlags_WidthFixed, 200 * scale);
-            ImGui::TableSetupColumn("Written aside", ImGuiTableColumnFlags_WidthFixed, 150 * scale);
-            ImGui::TableSetupColumn("Changes", ImGuiTableColumnFlags_WidthFixed, 70 * scale);
+            ImGui::TableSetupColumn("Scene", ImGuiTableColumnFlags_WidthStretch);
+            ImGui::TableSetupColumn("Written aside", ImGuiTableColumnFlags_WidthFixed, 130 * scale);
+            ImGui::TableSetupColumn("Changes", ImGuiTableColumnFlags_WidthFixed, 60 * scale);
             ImGui::TableSetupColumn("");
             ImGui::TableHeadersRow();
             for (std::size_t i = 0; i < found->size(); ++i) {

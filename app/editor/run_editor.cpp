@@ -42,7 +42,7 @@ Result<int> run_editor(const RunOptions& options) {
                                                    .validation = options.renderer.validation,
                                                    .scale = options.scale,
                                                    .fonts = bin.parent_path() / "share/restage/fonts",
-                                                   .layout = config / "layout.ini"},
+                                                   .layout = config},
                                                   log));
     if (!options.scene.empty()) editor.open(options.scene);
     offer_recovery(editor);
@@ -51,8 +51,8 @@ Result<int> run_editor(const RunOptions& options) {
 
     std::string title, probe;
     while (!editor.quit_confirmed()) {
-        const bool busy = editor.animating() || editor.viewport.navigating() || window->unsettled();
-        window->wait(busy ? 0.016 : 0.5);
+        const bool goes_on = editor.animating() || editor.viewport.navigating() || window->unsettled();
+        window->wait(window->input_waits() ? 0 : goes_on ? 0.016 : 0.5);
         if (window->close_requested()) {
             window->refuse_close();
             editor.request_quit();

@@ -5,7 +5,7 @@
 #include "file_browser.hpp"
 #include "files.hpp"
 #include "session/studio.hpp"
-#include "theme.hpp"
+#include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -76,7 +76,8 @@ void ask_unsaved(Editor& e, const char* doing, Then then) {
                             e.session().path().empty() ? "The scene" : fs::path(e.session().path()).filename().string(),
                             doing),
          then = std::move(then)](Editor& editor) {
-            ImGui::TextUnformatted(text.c_str());
+            dialog_width(400);
+            ImGui::TextWrapped("%s", text.c_str());
             ImGui::Spacing();
             bool stay = true;
             if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
@@ -113,7 +114,7 @@ void open_dialog(Editor& e) {
 }
 
 void insert_dialog(Editor& e) {
-    browse(e, {.title = "Insert a file",
+    browse(e, {.title = "Insert file",
                .filters = scene_filters(e.registry(), false),
                .start = document_folder(e),
                .done = [](Editor& editor, const fs::path& path) { editor.insert(path); }});
@@ -148,8 +149,9 @@ void revert(Editor& e) {
         return;
     }
     e.show_modal("Revert", [path, reopen, steps = e.session().history().position()](Editor& editor) {
-        ImGui::Text("Give up all changes since %s was saved?", path.filename().string().c_str());
-        ImGui::TextColored(colors::dim, "%zu steps of the history go; this cannot be undone.", steps);
+        dialog_width(400);
+        ImGui::TextWrapped("Give up all changes since %s was saved?", path.filename().string().c_str());
+        empty_note(fmt::format("{} steps of the history go; this cannot be undone.", steps).c_str());
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Revert")) {

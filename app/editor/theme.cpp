@@ -61,8 +61,8 @@ void apply_theme(float scale, const std::filesystem::path& fonts) {
     c[ImGuiCol_ScrollbarGrabActive] = grey(0.48f);
     c[ImGuiCol_CheckboxSelectedBg] = grey(0.22f);
     c[ImGuiCol_CheckMark] = colors::accent;
-    c[ImGuiCol_SliderGrab] = grey(0.58f);
-    c[ImGuiCol_SliderGrabActive] = colors::accent;
+    c[ImGuiCol_SliderGrab] = grey(0.42f); // the value is written over it
+    c[ImGuiCol_SliderGrabActive] = {0.66f, 0.43f, 0.16f, 1};
     c[ImGuiCol_Button] = grey(0.26f);
     c[ImGuiCol_ButtonHovered] = grey(0.34f);
     c[ImGuiCol_ButtonActive] = grey(0.42f);

@@ -22,7 +22,7 @@ void Viewport::draw(Editor& e) {
     ImGuizmo::BeginFrame();
     draw_toolbar(e);
 
-    // The picture has the film's shape, as large as fits.
+    // The picture has the film's shape, as large as fits, on a darker ground.
     const ImVec2 space = ImGui::GetContentRegionAvail(), origin = ImGui::GetCursorScreenPos();
     const double aspect = e.film_aspect();
     size = {space.x, float(space.x / aspect)};
@@ -36,13 +36,13 @@ void Viewport::draw(Editor& e) {
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     update_textures(e);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    if (picture_.ready())
+    draw->AddRectFilled(origin, {origin.x + space.x, origin.y + space.y}, ImGui::GetColorU32(ImGuiCol_DockingEmptyBg));
+    if (picture_.ready()) {
+        draw->AddRect({corner.x - 1, corner.y - 1}, {end.x + 1, end.y + 1},
+                      ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
         draw->AddImage(picture_.ref(), corner, end);
-    else {
-        const char* text = e.opening().running() ? "Opening..." : "Open a scene with Ctrl+O, or drop a file here";
-        const ImVec2 extent = ImGui::CalcTextSize(text);
-        draw->AddText({corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2},
-                      ImGui::GetColorU32(colors::dim), text);
+    } else if (e.scene().instances.live() == 0 && !e.opening().running()) {
+        draw_welcome(e, origin, space);
     }
     bool gizmo = false;
     if (e.view.show_overlays && picture_.ready()) {
@@ -63,6 +63,7 @@ void Viewport::draw(Editor& e) {
     // The scene as it was opened, while O is held.
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_status(e);
+    draw_hint(e);
     if (e.view.show_overlays) e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
 }
 
@@ -82,47 +83,6 @@ InstanceId Viewport::instance_at(const Editor& e, ImVec2 screen) const {
 // --- drawing
 // -----------------------------------------------------------------------------------------------------------
 
-void Viewport::draw_toolbar(Editor& e) {
-    const float scale = ImGui::GetStyle().FontScaleMain;
-    ImGui::SetCursorPos({6 * scale, ImGui::GetCursorPosY() + 4 * scale});
-    action_button(e, "view.gizmo_select", "Select");
-    ImGui::SameLine(0, 2 * scale);
-    action_button(e, "view.gizmo_move", "Move");
-    ImGui::SameLine(0, 2 * scale);
-    action_button(e, "view.gizmo_rotate", "Rotate");
-    ImGui::SameLine(0, 2 * scale);
-    action_button(e, "view.gizmo_scale", "Scale");
-    ImGui::SameLine();
-    action_button(e, "view.local", e.view.local_axes ? "Local" : "World");
-    ImGui::SameLine();
-    const std::string missing = e.live().denoiser_missing();
-    ImGui::BeginDisabled(!missing.empty());
-    action_button(e, "view.denoise", "Denoise");
-    ImGui::EndDisabled();
-    if (!missing.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("Not available: %s", missing.c_str());
-    ImGui::SameLine();
-    static constexpr const char* layers[] = {"Picture", "Albedo", "Normal", "Depth", "Objects", "Materials", "Error"};
-    int layer = int(e.view.display.layer);
-    ImGui::SetNextItemWidth(96 * scale);
-    if (ImGui::Combo("##layer", &layer, layers, IM_ARRAYSIZE(layers))) e.view.display.layer = session::Layer(layer);
-    ImGui::SetItemTooltip(
-        "What is shown: the picture, a guide image, or the estimated relative error (dark 0.1 %%, white 100 %%)");
-    e.mark("toolbar.layer");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(90 * scale);
-    ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");
-    ImGui::SetItemTooltip("Exposure of the view [stops]; changes no file and restarts nothing. Ctrl+click to type");
-    e.mark("toolbar.exposure");
-    ImGui::SameLine();
-    static constexpr const char* tones[] = {"sRGB", "Filmic"};
-    int tone = int(e.view.display.tone);
-    ImGui::SetNextItemWidth(78 * scale);
-    if (ImGui::Combo("##tone", &tone, tones, IM_ARRAYSIZE(tones))) e.view.display.tone = session::ToneCurve(tone);
-    ImGui::SetItemTooltip("How radiance becomes screen values: clipped as in a saved PNG, or with soft highlights");
-    e.mark("toolbar.tone");
-}
-
 void Viewport::update_textures(Editor& e) {
     const auto frame = e.shown_frame();
     if (!frame) return;
@@ -139,7 +99,8 @@ void Viewport::update_textures(Editor& e) {
     }
     // Outlines: the edge of what is selected or hovered, from the instance ids.
     OutlineKey key{frame.get(), e.selection.instances(), {}};
-    if (e.hovered && frame->divider <= 2) key.hovered = e.selection.click_target(e.scene(), e.hovered);
+    if (e.scene().instances.find(e.hovered_before) && frame->divider <= 2)
+        key.hovered = e.selection.click_target(e.scene(), e.hovered_before);
     if (key == outlined_) return;
     const render::FilmImage& image = frame->image;
     std::vector<std::uint8_t> mark(e.scene().instances.size() + 1, 0); // 1 hovered, 2 selected
@@ -185,39 +146,6 @@ void Viewport::draw_overlays(Editor& e) {
         }
         e.mark("selection", {corner.x + float(lo.x) * size.x, corner.y + float(lo.y) * size.y},
                {corner.x + float(hi.x) * size.x, corner.y + float(hi.y) * size.y});
-    }
-}
-
-void Viewport::draw_status(Editor& e) {
-    const float scale = ImGui::GetStyle().FontScaleMain;
-    const ImVec2 end(corner.x + size.x, corner.y + size.y);
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    const session::ViewStatus status = e.live().status();
-    std::string text;
-    if (status.state == session::ViewState::failed)
-        text = status.text;
-    else if (drawn_)
-        text =
-            fmt::format("{}x{}  {} spp{}  {:.1f} % error  {:.2f} Msamples/s", drawn_->image.width, drawn_->image.height,
-                        std::max(status.divider > 1 ? 1u : status.samples, 1u), drawn_->denoised ? " denoised" : "",
-                        std::min(drawn_->relative_error * 100, 999.0), status.samples_per_second * 1e-6);
-    if (!text.empty() && (e.view.show_overlays || status.state == session::ViewState::failed)) {
-        const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-        const ImVec2 a(corner.x + 6 * scale, end.y - extent.y - 10 * scale);
-        draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale},
-                            {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale}, IM_COL32(16, 16, 18, 180),
-                            3 * scale);
-        draw->AddText(a, ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
-                      text.c_str());
-    }
-    if (e.opening().running()) {
-        ImGui::SetCursorScreenPos({corner.x + 12 * scale, corner.y + 12 * scale});
-        ImGui::BeginChild("opening", {320 * scale, 0}, ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
-        ImGui::Text("Opening %s", e.opening().path().filename().string().c_str());
-        ImGui::ProgressBar(e.opening().progress(), {-1, 0}, e.opening().stage().c_str());
-        if (ImGui::Button("Cancel")) e.opening().cancel();
-        e.mark("opening.cancel");
-        ImGui::EndChild();
     }
 }
 

@@ -38,6 +38,8 @@ class Viewport {
     void update_textures(Editor& editor);
     void draw_overlays(Editor& editor);
     void draw_status(Editor& editor);
+    void draw_hint(Editor& editor); // until the first gesture of somebody's first start
+    void draw_welcome(Editor& editor, ImVec2 origin, ImVec2 space); // where there is no scene
     void navigate(Editor& editor, bool over);
     void pick(Editor& editor, bool over, bool gizmo);
     bool can_drag(const Editor& editor, ImVec2 screen) const; // something selected is there

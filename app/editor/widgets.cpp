@@ -3,6 +3,7 @@
 
 #include "theme.hpp"
 
+#include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
 #include <cctype>
@@ -13,22 +14,33 @@ namespace restage::editor {
 
 void form_row(const char* label, const char* tooltip, float right) {
     const float left = ImGui::GetCursorPosX(), all = ImGui::GetContentRegionAvail().x;
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-    const float column = std::floor(std::min(all * 0.38f, 150 * ImGui::GetStyle().FontScaleMain));
+    const float scale = ImGui::GetStyle().FontScaleMain, gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const bool above = all < 215 * scale; // no room for two columns
+    const float column = above ? 0 : std::floor(std::min(all * 0.40f, 150 * scale));
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool cut = ImGui::CalcTextSize(label).x > column - gap;
+    const float room = above ? all : column - gap;
+    const bool cut = ImGui::CalcTextSize(label).x > room;
     ImGui::AlignTextToFramePadding();
-    ImGui::PushClipRect(at, {at.x + column - gap, at.y + ImGui::GetFrameHeight()}, true);
-    ImGui::TextUnformatted(label);
-    ImGui::PopClipRect();
+    if (cut) { // an ellipsis says that there is more
+        const ImVec2 size(room, ImGui::GetTextLineHeight());
+        const float y = at.y + ImGui::GetStyle().FramePadding.y;
+        ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), {at.x, y}, {at.x + size.x, y + size.y}, at.x + size.x,
+                                  label, nullptr, nullptr);
+        ImGui::Dummy({room, ImGui::GetFrameHeight()});
+    } else {
+        ImGui::TextUnformatted(label);
+    }
     if (cut && tooltip && *tooltip)
-        ImGui::SetItemTooltip("%s\n%s", label, tooltip);
-    else if (cut)
-        ImGui::SetItemTooltip("%s", label);
-    else if (tooltip && *tooltip)
-        ImGui::SetItemTooltip("%s", tooltip);
-    ImGui::SameLine(left + column);
+        tip((std::string(label) + "\n" + tooltip).c_str());
+    else
+        tip(cut ? label : tooltip);
+    if (!above) ImGui::SameLine(left + column);
     ImGui::SetNextItemWidth(std::max(40.f, all - column - (right > 0 ? right + gap : 0)));
+}
+
+void dialog_width(float width) {
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    ImGui::Dummy({std::min(width * scale, ImGui::GetMainViewport()->WorkSize.x - 40 * scale), 0});
 }
 
 bool section_header(const char* label, bool open_at_first) {
@@ -102,6 +114,15 @@ void draw_icon(ImDrawList* draw, Icon icon, ImVec2 corner, float size, ImU32 col
             draw->AddTriangleFilled({c.x + r * 0.5f, c.y}, {c.x + r * 1.25f, c.y - r * 0.6f},
                                     {c.x + r * 1.25f, c.y + r * 0.6f}, color);
             break;
+        case Icon::mesh: { // a box, seen from above a corner
+            const float h = r * 0.55f;
+            const ImVec2 top[] = {{c.x, c.y - r * 1.1f}, {c.x + r, c.y - h}, {c.x, c.y}, {c.x - r, c.y - h}};
+            draw->AddPolyline(top, 4, color, line, ImDrawFlags_Closed);
+            const ImVec2 sides[] = {top[3], {c.x - r, c.y + h}, {c.x, c.y + r * 1.1f}, {c.x + r, c.y + h}, top[1]};
+            draw->AddPolyline(sides, 5, color, line);
+            draw->AddLine(top[2], sides[2], color, line);
+            break;
+        }
         case Icon::cross:
             draw->AddLine({c.x - r * 0.7f, c.y - r * 0.7f}, {c.x + r * 0.7f, c.y + r * 0.7f}, color, line);
             draw->AddLine({c.x + r * 0.7f, c.y - r * 0.7f}, {c.x - r * 0.7f, c.y + r * 0.7f}, color, line);
@@ -127,13 +148,17 @@ bool contains_word(std::string_view text, std::string_view word) {
            }) != text.end();
 }
 
+void flow(float width) {
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+
+float check_width(const char* label) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label, nullptr, true).x;
+}
+
 bool flow_button(const char* label, bool first) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float width = ImGui::CalcTextSize(label, nullptr, true).x + 2 * style.FramePadding.x;
-    if (!first) {
-        ImGui::SameLine();
-        if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-    }
+    if (!first) flow(ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x);
     return ImGui::Button(label);
 }
 
@@ -172,6 +197,15 @@ bool name_field(const char* id, std::string& name) {
     const std::string before = name;
     ImGui::InputText(id, &name, ImGuiInputTextFlags_AutoSelectAll);
     return ImGui::IsItemDeactivatedAfterEdit() && !name.empty() && name != before;
+}
+
+std::string choice_label(std::string_view choice) {
+    if (choice == "ggx") return "GGX"; // its inventors' name for it
+    if (choice.empty()) return "";
+    std::string label(choice);
+    if (std::none_of(label.begin(), label.end(), [](char c) { return c >= '0' && c <= '9'; })) // not "v4"
+        label[0] = char(std::toupper(static_cast<unsigned char>(label[0])));
+    return label;
 }
 
 float drag_speed(float value, float least) { return std::max(least, std::abs(value) * 0.01f); }

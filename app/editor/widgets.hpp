@@ -13,6 +13,8 @@ namespace restage::editor {
 // A row of a form: the label in the left column with its tooltip; the next item fills the rest of the line but `right`
 // pixels. Labels that do not fit are cut and shown in full by the tooltip.
 void form_row(const char* label, const char* tooltip = nullptr, float right = 0);
+// At the begin of a dialog: how wide it is, where the window has room [at scale 1].
+void dialog_width(float width);
 // The header of a section that can be folded away, in a neutral colour: orange is for what is selected.
 bool section_header(const char* label, bool open_at_first = false);
 // The tooltip of the last item, also of a disabled one.
@@ -22,13 +24,16 @@ void empty_note(const char* text);
 // Wrapped text with the colour of a warning.
 void warning_note(const char* text);
 
-enum class Icon { eye, eye_closed, lock, lock_open, texture, light, camera, sky, cross };
+enum class Icon { eye, eye_closed, lock, lock_open, texture, light, camera, sky, cross, mesh };
 // A square button as high as a line; `on` = bright, else dim.
 bool icon_button(const char* id, Icon icon, bool on, const char* tooltip);
 void draw_icon(ImDrawList* draw, Icon icon, ImVec2 corner, float size, ImU32 color);
 
 // Whether `word` is in `text`, whatever the case. "" is in everything.
 bool contains_word(std::string_view text, std::string_view word);
+// The next item, so wide, stands beside the last one, or on the next line where the window ends.
+void flow(float width);
+float check_width(const char* label); // of a checkbox or radio button
 // Buttons after each other, going to the next line where the window ends.
 bool flow_button(const char* label, bool first = false);
 
@@ -39,6 +44,9 @@ void searched_list(std::string& search, std::size_t count, const std::function<s
 
 // A name that can be typed over. True once a new one is given, not while it is typed.
 bool name_field(const char* id, std::string& name);
+
+// A choice of a plugin's table ("ggx", "repeat") as it is shown.
+std::string choice_label(std::string_view choice);
 
 // How fast a drag changes a value of this magnitude.
 float drag_speed(float value, float least = 1e-4f);

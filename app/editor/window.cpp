@@ -7,6 +7,7 @@
 #include "theme.hpp"
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
@@ -231,12 +232,14 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     io.MouseDoubleClickTime = 0.5f; // as desktops have it; 0.3 s loses clicks when frames are slow
     io.MouseSingleClickDelay = 0.6f;
-    impl->layout_path = options.layout.string();
-    io.IniFilename = impl->layout_path.empty() ? nullptr : impl->layout_path.c_str();
     float monitor_scale = 1;
     glfwGetWindowContentScale(impl->window, &monitor_scale, nullptr);
     impl->scale = options.scale > 0 ? options.scale : std::max(1.f, monitor_scale);
     apply_theme(impl->scale, options.fonts);
+    // Sizes in it are pixels: each scale has its own.
+    if (!options.layout.empty())
+        impl->layout_path = (options.layout / fmt::format("layout-{:.0f}.ini", impl->scale * 100)).string();
+    io.IniFilename = impl->layout_path.empty() ? nullptr : impl->layout_path.c_str();
 
     impl->imgui_glfw = ImGui_ImplGlfw_InitForVulkan(impl->window, true);
     ImGui_ImplVulkan_InitInfo init{};
@@ -283,7 +286,18 @@ Result<void> Window::end_frame() {
 
 bool Window::unsettled() const { return impl_->settling > 0; }
 
-std::vector<ImGuiKeyChord> Window::take_keys() { return std::exchange(impl_->keys, {}); }
+std::vector<ImGuiKeyChord> Window::take_keys() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), [](bool clicked) { return clicked; }))
+        return {};
+    for (const ImGuiInputEvent& event : ImGui::GetCurrentContext()->InputEventsQueue)
+        if (event.Type == ImGuiInputEventType_MouseButton) return {};
+    return std::exchange(impl_->keys, {});
+}
+
+bool Window::input_waits() const {
+    return !impl_->keys.empty() || ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
+}
 
 bool Window::close_requested() const { return glfwWindowShouldClose(impl_->window); }
 void Window::refuse_close() { glfwSetWindowShouldClose(impl_->window, GLFW_FALSE); }

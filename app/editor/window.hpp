@@ -26,7 +26,7 @@ struct WindowOptions {
     bool validation = false;
     float scale = 0;                 // of text and widgets; 0 = the monitor's
     std::filesystem::path fonts;     // folder with the UI's fonts
-    std::filesystem::path layout;    // file that remembers the panels; "" = none
+    std::filesystem::path layout;    // folder that remembers the panels; "" = none
 };
 
 class Window {
@@ -46,8 +46,10 @@ class Window {
     bool unsettled() const;
 
     // Keys pressed since the last call, each with the modifiers it was pressed with. Dear ImGui sees modifiers as they
-    // are a frame later, which loses "Ctrl+Z" typed fast while a frame is slow.
+    // are a frame later, which loses "Ctrl+Z" typed fast while a frame is slow. None while a click before them is still
+    // to be answered: it may be into a field that they are typed into.
     std::vector<ImGuiKeyChord> take_keys();
+    bool input_waits() const; // Dear ImGui takes some events a frame later than others
 
     bool close_requested() const;
     void refuse_close();

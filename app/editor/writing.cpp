@@ -8,6 +8,7 @@
 #include "saving.hpp"
 #include "session/picture.hpp"
 #include "theme.hpp"
+#include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -35,31 +36,33 @@ void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values)
     const scene::Value* set = values.find(line.id);
     scene::Value v = set ? *set : scene::default_value(line);
     bool changed = false;
+    ImGui::PushID(line.id);
+    form_row(line.label, line.tooltip);
     switch (static_cast<RestageType>(line.type)) {
         case RESTAGE_BOOL: {
             bool on = v.v[0] != 0;
-            changed = ImGui::Checkbox(line.label, &on);
+            changed = ImGui::Checkbox("##value", &on);
             v.v[0] = on ? 1.f : 0.f;
             break;
         }
         case RESTAGE_FLOAT:
             changed =
-                ImGui::DragFloat(line.label, &v.v[0], 0.01f, line.min, line.max, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+                ImGui::DragFloat("##value", &v.v[0], 0.01f, line.min, line.max, "%.4g", ImGuiSliderFlags_AlwaysClamp);
             break;
         case RESTAGE_INT: {
             int i = int(v.v[0]);
             changed =
-                ImGui::DragInt(line.label, &i, 1, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
+                ImGui::DragInt("##value", &i, 1, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
             v.v[0] = float(i);
             break;
         }
         case RESTAGE_COLOR:
-            changed = ImGui::ColorEdit3(line.label, v.v.data(), ImGuiColorEditFlags_Float);
+            changed = ImGui::ColorEdit3("##value", v.v.data(), ImGuiColorEditFlags_Float);
             break;
         case RESTAGE_ENUM:
-            if (ImGui::BeginCombo(line.label, v.text.c_str())) {
+            if (ImGui::BeginCombo("##value", choice_label(v.text).c_str())) {
                 for (const std::string& choice : all_of(line.choices)) {
-                    if (ImGui::Selectable(choice.c_str(), choice == v.text)) {
+                    if (ImGui::Selectable(choice_label(choice).c_str(), choice == v.text)) {
                         v.text = choice;
                         changed = true;
                     }
@@ -69,14 +72,15 @@ void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values)
             }
             break;
         case RESTAGE_TEXT:
-            changed = ImGui::InputText(line.label, &v.text);
+            changed = ImGui::InputText("##value", &v.text);
             break;
         case RESTAGE_MATERIAL:
         case RESTAGE_TEXTURE:
             break; // no option can be one
     }
     e.mark(std::string("export.") + line.id);
-    if (line.tooltip && *line.tooltip) ImGui::SetItemTooltip("%s", line.tooltip);
+    tip(line.tooltip);
+    ImGui::PopID();
     if (changed) values.set(line.id, std::move(v));
 }
 
@@ -85,12 +89,13 @@ void show_report(Editor& e, const fs::path& path, io::Report report) {
     for (const io::ReportEntry& entry : report.entries)
         if (entry.fate != RESTAGE_KEPT) e.notices.add(LogLevel::warning, io::to_string(entry));
     e.show_modal("Exported", [path, report = std::move(report)](Editor& editor) {
-        ImGui::Text("%s is written.", path.string().c_str());
+        dialog_width(560);
+        ImGui::TextWrapped("%s is written.", path.string().c_str());
         ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(RESTAGE_KEPT),
                     report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
         const float scale = ImGui::GetStyle().FontScaleMain;
         if (report.count(RESTAGE_APPROXIMATED) + report.count(RESTAGE_DROPPED) > 0) {
-            ImGui::BeginChild("report", {620 * scale, 240 * scale}, ImGuiChildFlags_Borders);
+            ImGui::BeginChild("report", {0, 240 * scale}, ImGuiChildFlags_Borders);
             for (const io::ReportEntry& entry : report.entries) {
                 if (entry.fate == RESTAGE_KEPT) continue;
                 ImGui::TextColored(entry.fate == RESTAGE_DROPPED ? colors::error : colors::warning, "%s",
@@ -160,7 +165,9 @@ void export_dialog(Editor& e) {
     e.show_modal("Export", [state = std::make_shared<State>()](Editor& editor) {
         const auto& exporters = editor.registry().exporters();
         const RestageExporter1& exporter = *exporters[state->exporter].table;
-        if (ImGui::BeginCombo("Format", exporter.label)) {
+        dialog_width(360);
+        form_row("Format", "Of the file, by the exporter plugins that are loaded");
+        if (ImGui::BeginCombo("##format", exporter.label)) {
             for (std::size_t i = 0; i < exporters.size(); ++i)
                 if (ImGui::Selectable(exporters[i].table->label, i == state->exporter)) {
                     state->exporter = i;
@@ -202,14 +209,14 @@ void save_image_dialog(Editor& e) {
     };
     auto state = std::make_shared<State>();
     state->denoised = e.view.denoise;
-    e.show_modal("Save image", [state](Editor& editor) {
+    e.show_modal("Save picture", [state](Editor& editor) {
         static constexpr const char* formats[] = {"PNG", "EXR", "HDR"};
         static constexpr const char* extensions[] = {".png", ".exr", ".hdr"};
         const auto picture = editor.live().frame();
         if (!picture)
             ImGui::TextUnformatted("There is no picture yet.");
         else
-            ImGui::Text("The live picture as it is: %ux%u, %u samples a pixel", picture->image.width,
+            ImGui::Text("The live picture as it is: %u × %u, %u samples a pixel", picture->image.width,
                         picture->image.height, picture->image.samples);
         for (int i = 0; i < 3; ++i) {
             if (i) ImGui::SameLine();
@@ -217,11 +224,11 @@ void save_image_dialog(Editor& e) {
             editor.mark(fmt::format("image.{}", formats[i]));
         }
         if (state->format == 0) {
-            ImGui::Checkbox("As seen: exposure, tone curve and layer of the view", &state->as_seen);
-            ImGui::SetItemTooltip("Off: clipped sRGB at the scene's own exposure");
+            ImGui::Checkbox("As seen", &state->as_seen);
+            tip("With the exposure, tone curve and layer of the view. Off: clipped sRGB at the scene's own exposure");
         }
-        ImGui::Checkbox(state->format == 1 ? "Denoised (the raw picture is a layer beside it)" : "Denoised",
-                        &state->denoised);
+        ImGui::Checkbox("Denoised", &state->denoised);
+        tip(state->format == 1 ? "The raw picture is a layer beside it" : "Off: with its noise");
         editor.mark("image.denoised");
         ImGui::Spacing();
         bool stay = true;
@@ -231,7 +238,7 @@ void save_image_dialog(Editor& e) {
             const fs::path path(editor.session().path());
             const std::string extension = extensions[state->format];
             const fs::path& last = editor.files().last_picture;
-            browse(editor, {.title = "Save image as",
+            browse(editor, {.title = "Save picture as",
                             .save = true,
                             .filters = {{formats[state->format], {extension.substr(1)}}, {"All files", {}}},
                             .start = !last.empty()  ? last.parent_path()

@@ -57,8 +57,12 @@ class Desk:
 class Editor:
     """A running `restage edit`."""
 
-    def __init__(self, desk, binary, *arguments, config, probe, environment=None, size=(1280, 720)):
+    def __init__(self, desk, binary, *arguments, config, probe, environment=None, size=(1280, 720), hint=False):
         self.desk, self.probe = desk, pathlib.Path(probe)
+        preferences = pathlib.Path(config) / "preferences.json"
+        if not hint and not preferences.exists():  # the hint of a first start lies over the picture
+            preferences.parent.mkdir(parents=True, exist_ok=True)
+            preferences.write_text('{"hint_seen": true}')
         self.probe.unlink(missing_ok=True)
         self.log = open(str(probe) + ".log", "wb")
         self.process = subprocess.Popen(
@@ -96,6 +100,7 @@ class Editor:
     def short_state(self):
         state = self.state()
         state["marks"] = sorted(state.get("marks", {}))[:40]
+        state.pop("latency", None)
         return state
 
     def settled(self, samples=4, seconds=90):

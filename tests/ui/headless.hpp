@@ -5,6 +5,7 @@
 
 #include "editor/editor.hpp"
 #include "editor/panels/state.hpp"
+#include "editor/theme.hpp"
 
 #include <imgui_internal.h>
 #include <imgui_te_context.h>
@@ -18,7 +19,7 @@ namespace restage::tests {
 
 class Headless {
   public:
-    explicit Headless(const std::string& scene) {
+    explicit Headless(const std::string& scene, float scale = 1, ImVec2 size = {1500, 1000}) {
         const plugin::SearchPath plugins{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true};
         registry_.scan({&plugins, 1});
         ImGui::CreateContext();
@@ -27,7 +28,8 @@ class Headless {
         io.IniFilename = nullptr;
         io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_DockingEnable;
         io.BackendFlags |= ImGuiBackendFlags_RendererHasTextures | ImGuiBackendFlags_HasMouseCursors;
-        io.DisplaySize = {1500, 1000};
+        io.DisplaySize = size;
+        editor::apply_theme(scale, {});
         engine_ = ImGuiTestEngine_CreateContext();
         ImGuiTestEngineIO& test_io = ImGuiTestEngine_GetIO(engine_);
         test_io.ConfigRunSpeed = ImGuiTestRunSpeed_Fast;

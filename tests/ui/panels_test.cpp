@@ -113,6 +113,11 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         h.click(ctx, "sky.kind");
         h.click(ctx, "sky.kind.Neutral studio");
         IM_CHECK(h.scene().environment.value && h.scene().environment.value->image);
+        h.click(ctx, "sky.hidden");
+        IM_CHECK(h.scene().environment.value->hidden_from_camera);
+        h.editor().run("edit.undo");
+        ctx->Yield(2);
+        IM_CHECK(!h.scene().environment.value->hidden_from_camera);
     });
     h.play("camera", [&](ImGuiTestContext* ctx) {
         drags_are_steps(h, ctx, {"camera.fov", "camera.focus"});
@@ -176,6 +181,27 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
     });
 }
 
+TEST_CASE("labels fit at any scale, and panels in any window", "[ui]") {
+    for (const float scale : {1.f, 2.f}) {
+        Headless h("demo/demo.pbrt", scale, {1600, 1000});
+        h.play("layout", [&](ImGuiTestContext* ctx) {
+            ctx->Yield(3);
+            const auto width = [](const char* panel) { return ImGui::FindWindowByName(panel)->Size.x; };
+            INFO("scale " << scale);
+            IM_CHECK(width("Inspector") >= 290 * scale); // three numbers beside a label
+            IM_CHECK(width("Outliner") >= 200 * scale);
+            IM_CHECK(width("Viewport") > 0.5f * 1600);
+            for (const char* panel : {"Inspector", "Scene"}) {
+                h.focus(ctx, panel);
+                h.select("Walls");
+                ctx->Yield(3);
+                const ImGuiWindow* window = ImGui::FindWindowByName(panel);
+                IM_CHECK(window->ContentSize.x <= window->Size.x); // nothing runs out of it
+            }
+        });
+    }
+}
+
 TEST_CASE("the outliner finds, selects, hides, locks and renames", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.play("outliner", [&](ImGuiTestContext* ctx) {
@@ -212,6 +238,9 @@ TEST_CASE("log, report, convergence, assets and help answer", "[ui]") {
         h.focus(ctx, "Log");
         h.click(ctx, "log.info");
         IM_CHECK(!h.editor().panel_state->log.info);
+        IM_CHECK(!h.editor().panel_state->log.details); // what only developers want is not shown unless asked for
+        h.click(ctx, "log.details");
+        IM_CHECK(h.editor().panel_state->log.details);
         h.click(ctx, "log.copy");
         h.click(ctx, "log.clear");
         IM_CHECK(h.editor().panel_state->log.cleared == h.editor().notices.count());

@@ -158,9 +158,9 @@ def png_size(path):
 def test_the_live_picture_and_a_final_one(editor, tmp_path):
     editor.settled()
     editor.key("ctrl+shift+e")
-    modal(editor, "Save image")
+    modal(editor, "Save picture")
     editor.click("image.choose")
-    modal(editor, "Save image as")
+    modal(editor, "Save picture as")
     type_path(editor, tmp_path / "seen.png")
     editor.wait(lambda s: (tmp_path / "seen.png").exists(), "the image")
     x0, y0, x1, y1 = editor.state()["marks"]["picture"]

@@ -3,6 +3,7 @@
 #include "panels.hpp"
 
 #include "base/file.hpp"
+#include "file_browser.hpp"
 #include "inspector.hpp"
 #include "io/image_file.hpp"
 #include "scene_panel.hpp"
@@ -12,6 +13,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
 #include <cmath>
@@ -112,10 +114,10 @@ void cell(Editor& e, AssetsState& state, const Asset& asset, float side) {
         ImGui::TextUnformatted(asset.name.c_str());
         ImGui::EndDragDropSource();
     }
-    static constexpr const char* uses[] = {"Double click: open it. Drag into the picture",
-                                           "Double click: becomes the sky",
-                                           "Double click: onto what is selected. Drag onto an object",
-                                           "Double click: add it to the scene. Drag to where it shall stand"};
+    static constexpr const char* uses[] = {"Double click: open it",
+                                           "Double click: becomes the sky. Or drag it into the picture",
+                                           "Double click: onto what is selected. Or drag it onto an object",
+                                           "Double click: add it to the scene. Or drag it to where it shall stand"};
     tip(fmt::format("{}\n{}", asset.path, uses[int(asset.kind)]).c_str());
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(at, {at.x + side, at.y + side},
@@ -130,18 +132,30 @@ void cell(Editor& e, AssetsState& state, const Asset& asset, float side) {
             corner(at.x + (side - size.x) / 2, at.y + (side - size.y) / 2);
         draw->AddImage(thumbnail.texture->ref(), corner, {corner.x + size.x, corner.y + size.y});
     } else {
-        const char* label = image                            ? (thumbnail.failed ? "unreadable" : "...")
-                            : asset.kind == AssetKind::scene ? "scene"
-                                                             : "mesh";
+        const char* label = image                            ? (thumbnail.failed ? "Unreadable" : "...")
+                            : asset.kind == AssetKind::scene ? "Scene"
+                                                             : "Mesh";
         const ImVec2 extent = ImGui::CalcTextSize(label);
-        draw->AddText({at.x + (side - extent.x) / 2, at.y + (side - extent.y) / 2},
-                      ImGui::GetColorU32(thumbnail.failed ? colors::error : colors::dim), label);
+        const ImU32 color = ImGui::GetColorU32(thumbnail.failed ? colors::error : colors::dim);
+        const float icon = image ? 0 : side * 0.5f;
+        if (!image)
+            draw_icon(draw, asset.kind == AssetKind::scene ? Icon::camera : Icon::mesh,
+                      {at.x + (side - icon) / 2, at.y + side * 0.12f}, icon, color);
+        draw->AddText({at.x + (side - extent.x) / 2, at.y + (side - extent.y + icon) / 2}, color, label);
     }
-    draw->PushClipRect(at, {at.x + side, at.y + side * 2}, true);
-    draw->AddText({at.x, at.y + side + 2}, ImGui::GetColorU32(ImGuiCol_Text), asset.name.c_str());
-    draw->PopClipRect();
+    const ImVec2 name(at.x, at.y + side + 2), end(at.x + side, name.y + ImGui::GetTextLineHeight());
+    ImGui::RenderTextEllipsis(draw, name, end, end.x, asset.name.c_str(), nullptr, nullptr);
     ImGui::EndGroup();
     ImGui::PopID();
+}
+
+void add_folder(Editor& e, const fs::path& folder) {
+    if (own_config(e).empty())
+        e.notices.add(LogLevel::error, "There is no folder for settings to remember it in");
+    else if (auto added = add_asset_folder(own_config(e), folder); !added)
+        e.notices.add(LogLevel::error, added.error().message);
+    else
+        e.panel_state->assets.loaded = false;
 }
 
 } // namespace
@@ -162,11 +176,10 @@ void draw_assets(Editor& e) {
     ImGui::Combo("##kind", &state.kind, kind_names, IM_ARRAYSIZE(kind_names));
     e.mark("assets.kind");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(140 * scale);
+    ImGui::SetNextItemWidth(120 * scale);
     ImGui::InputTextWithHint("##search", "Search", &state.search);
     e.mark("assets.search");
-    ImGui::SameLine();
-    if (ImGui::Button("Reload")) {
+    if (flow_button("Reload")) {
         state.loaded = false;
         for (auto& [path, thumbnail] :
              state.thumbnails) // those that are there stay: textures live as long as the window
@@ -174,33 +187,10 @@ void draw_assets(Editor& e) {
     }
     tip("Read assets.json and the folders again");
     e.mark("assets.reload");
-    ImGui::SameLine();
-    if (ImGui::Button("Add folder...")) ImGui::OpenPopup("add folder");
+    if (flow_button("Add folder..."))
+        browse(e, {.title = "Folder with scenes, images or meshes", .folder = true, .done = add_folder});
+    tip("What is in it, three levels deep, is listed here from now on");
     e.mark("assets.add");
-    if (ImGui::BeginPopup("add folder")) {
-        ImGui::SetNextItemWidth(320 * scale);
-        const bool enter = ImGui::InputTextWithHint("##folder", "Folder with scenes, images or meshes", &state.folder,
-                                                    ImGuiInputTextFlags_EnterReturnsTrue);
-        e.mark("assets.folder");
-        ImGui::SameLine();
-        if ((ImGui::Button("Add") || enter) && !state.folder.empty()) {
-            std::error_code none;
-            const fs::path folder = fs::absolute(state.folder, none).lexically_normal();
-            if (!fs::is_directory(folder, none))
-                e.notices.add(LogLevel::error, folder.string() + " is no folder");
-            else if (own_config(e).empty())
-                e.notices.add(LogLevel::error, "There is no folder for settings to remember it in");
-            else if (auto added = add_asset_folder(own_config(e), folder); !added)
-                e.notices.add(LogLevel::error, added.error().message);
-            else {
-                state.folder.clear();
-                state.loaded = false;
-                ImGui::CloseCurrentPopup();
-            }
-        }
-        e.mark("assets.folder.add");
-        ImGui::EndPopup();
-    }
     if (state.entries.empty()) {
         empty_note(fmt::format("No assets yet. Add a folder, or list files in {}.",
                                own_config(e).empty() ? "assets.json" : own_config(e).string())
@@ -209,7 +199,7 @@ void draw_assets(Editor& e) {
     }
     ImGui::Separator();
     if (ImGui::BeginChild("grid")) {
-        const float side = 84 * scale, step = side + ImGui::GetStyle().ItemSpacing.x;
+        const float side = 76 * scale, step = side + ImGui::GetStyle().ItemSpacing.x;
         const int columns =
             std::max(1, int((ImGui::GetContentRegionAvail().x + ImGui::GetStyle().ItemSpacing.x) / step));
         int shown = 0;

@@ -32,18 +32,20 @@ void follow_convergence(Editor& e) {
 void draw_convergence(Editor& e) {
     ConvergenceState& state = e.panel_state->convergence;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Against");
+    ImGui::TextUnformatted("Error against");
     ImGui::SameLine();
-    if (ImGui::RadioButton("time", !state.against_samples)) state.against_samples = false;
+    if (ImGui::RadioButton("Time", !state.against_samples)) state.against_samples = false;
     e.mark("convergence.time");
     ImGui::SameLine();
-    if (ImGui::RadioButton("samples", state.against_samples)) state.against_samples = true;
+    if (ImGui::RadioButton("Samples", state.against_samples)) state.against_samples = true;
     e.mark("convergence.samples");
     const Curve& now = state.current;
     if (!now.error.empty()) {
         ImGui::SameLine();
-        ImGui::TextDisabled("%.2f %% after %.0f samples, %.1f s", now.error.back(), now.samples.back(),
-                            now.seconds.back());
+        ImGui::TextDisabled("%.2f %% after %.0f samples a pixel, %.1f s; %.2f million samples a second",
+                            now.error.back(), now.samples.back(), now.seconds.back(),
+                            e.live().status().samples_per_second * 1e-6);
+        tip("The estimated relative error of the picture before denoising");
     }
     if (now.error.empty() && state.previous.error.empty()) {
         empty_note("The error is estimated from two samples a pixel on.");
@@ -54,7 +56,7 @@ void draw_convergence(Editor& e) {
     style.PlotPadding = {8 * scale, 6 * scale};
     style.LabelPadding = {4 * scale, 3 * scale};
     if (!ImPlot::BeginPlot("##error", {-1, -1}, ImPlotFlags_NoMouseText)) return;
-    ImPlot::SetupAxes(state.against_samples ? "samples a pixel" : "seconds", "error [%]", ImPlotAxisFlags_AutoFit,
+    ImPlot::SetupAxes(state.against_samples ? "Samples a pixel" : "Time (s)", "Error (%)", ImPlotAxisFlags_AutoFit,
                       ImPlotAxisFlags_AutoFit);
     ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
     ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
@@ -67,13 +69,13 @@ void draw_convergence(Editor& e) {
         spec.LineWeight = 1.5f * scale;
         ImPlot::PlotLine(name, x.data(), curve.error.data(), int(x.size()), spec);
     };
-    line("the picture before", state.previous, colors::dim);
-    line("this picture", now, colors::accent);
+    line("Picture before", state.previous, colors::dim);
+    line("This picture", now, colors::accent);
     if (const double target = e.view.error * 100; target > 0) {
         ImPlotSpec spec;
         spec.LineColor = colors::good;
         spec.Flags = ImPlotInfLinesFlags_Horizontal;
-        ImPlot::PlotInfLines("target", &target, 1, spec);
+        ImPlot::PlotInfLines("Target", &target, 1, spec);
     }
     ImPlot::EndPlot();
 }

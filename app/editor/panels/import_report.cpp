@@ -2,6 +2,7 @@
 // Import report: what became of the things in the file, what it is about, and files that were not found.
 #include "panels.hpp"
 
+#include "file_browser.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
 #include <filesystem>
 
 namespace restage::editor {
@@ -63,7 +65,7 @@ void relink(Editor& e, std::vector<std::pair<ImageId, std::string>> places) {
                  if (--all->left > 0 || all->read.empty()) return;
                  e.edit([read = all->read](const scene::Scene& s) {
                      scene::Edit edit{
-                         read.size() == 1 ? "Find a missing file" : fmt::format("Find {} missing files", read.size()),
+                         read.size() == 1 ? "Find a missing image" : fmt::format("Find {} missing images", read.size()),
                          {}};
                      for (const auto& [one, file, data] : read) {
                          const scene::Image* before = s.images.find(one);
@@ -95,52 +97,46 @@ void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const st
             found != files.end())
             places.emplace_back(id, found->second);
     if (places.empty())
-        e.notices.add(LogLevel::warning, folder + ": none of the missing files is in this folder");
+        e.notices.add(LogLevel::warning, "None of the missing images is in " + folder);
     else
         relink(e, std::move(places));
 }
 
-void missing_files(Editor& e, ReportState& state) {
+void missing_files(Editor& e) {
     std::vector<ImageId> missing;
     e.scene().images.each([&](ImageId id, const scene::Image& image) {
         if (!image.data && !image.path.empty()) missing.push_back(id);
     });
     if (missing.empty()) return;
-    ImGui::TextColored(colors::warning, "%zu image file%s missing; they shade grey.", missing.size(),
-                       missing.size() == 1 ? " is" : "s are");
-    ImGui::SetNextItemWidth(260 * ImGui::GetStyle().FontScaleMain);
-    const bool enter =
-        ImGui::InputTextWithHint("##folder", "Folder they are in", &state.folder, ImGuiInputTextFlags_EnterReturnsTrue);
-    e.mark("report.folder");
-    ImGui::SameLine();
-    ImGui::BeginDisabled(state.folder.empty());
-    if (ImGui::Button("Find all there") || (enter && !state.folder.empty()))
-        relink_from_folder(e, missing, state.folder);
-    ImGui::EndDisabled();
-    tip("Looks for files of the same names in that folder and all within it");
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(colors::warning, "%zu image%s not found; %s shown grey.", missing.size(),
+                       missing.size() == 1 ? " was" : "s were", missing.size() == 1 ? "it is" : "they are");
+    const std::filesystem::path document(e.session().path());
+    if (flow_button("Look in a folder..."))
+        browse(e, {.title = "The folder they are in",
+                   .folder = true,
+                   .start = document.parent_path(),
+                   .done = [missing](Editor& editor, const std::filesystem::path& folder) {
+                       relink_from_folder(editor, missing, folder.string());
+                   }});
+    tip("Finds files of the same names in that folder and all within it");
     e.mark("report.find_all");
     for (const ImageId id : missing) {
         ImGui::PushID(int(id.value));
-        if (ImGui::SmallButton("Find...")) {
-            state.relinking = id;
-            ImGui::OpenPopup("relink");
-        }
-        e.mark("report.find." + e.scene().images[id].name);
-        if (ImGui::BeginPopup("relink")) {
-            ImGui::SetNextItemWidth(320 * ImGui::GetStyle().FontScaleMain);
-            const bool done = ImGui::InputTextWithHint("##file", "Where the file is now", &state.file,
-                                                       ImGuiInputTextFlags_EnterReturnsTrue);
-            e.mark("report.file");
-            ImGui::SameLine();
-            if ((ImGui::Button("Use") || done) && !state.file.empty()) {
-                relink(e, {{id, std::filesystem::absolute(std::exchange(state.file, {})).lexically_normal().string()}});
-                ImGui::CloseCurrentPopup();
-            }
-            e.mark("report.use");
-            ImGui::EndPopup();
-        }
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(std::filesystem::path(e.scene().images[id].path).filename().string().c_str());
+        tip(e.scene().images[id].path.c_str());
         ImGui::SameLine();
-        ImGui::TextWrapped("%s", e.scene().images[id].path.c_str());
+        if (ImGui::Button("Find..."))
+            browse(e, {.title = "Find " + std::filesystem::path(e.scene().images[id].path).filename().string(),
+                       .filters = {{"Images", {"png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "pfm"}},
+                                   {"All files", {}}},
+                       .start = document.parent_path(),
+                       .done = [id](Editor& editor, const std::filesystem::path& path) {
+                           if (editor.scene().images.find(id)) relink(editor, {{id, path.string()}});
+                       }});
+        tip("Choose the file that stands for it");
+        e.mark("report.find." + e.scene().images[id].name);
         ImGui::PopID();
     }
     ImGui::Separator();
@@ -150,7 +146,7 @@ void missing_files(Editor& e, ReportState& state) {
 
 void draw_import_report(Editor& e) {
     ReportState& state = e.panel_state->report;
-    missing_files(e, state);
+    missing_files(e);
     const io::Report& report = e.session().report();
     if (report.entries.empty()) {
         empty_note(e.session().path().empty() ? "Nothing was imported." : "Everything in the file was kept.");
@@ -158,19 +154,22 @@ void draw_import_report(Editor& e) {
     }
     const auto filter = [&](const char* name, RestageFate fate, bool& on, const ImVec4& color, const char* tooltip,
                             const char* mark) {
+        const std::string label = fmt::format("{} {}###{}", report.count(fate), name, name);
+        if (fate != RESTAGE_DROPPED) flow(check_width(label.c_str())); // the first
         ImGui::PushStyleColor(ImGuiCol_Text, color);
-        ImGui::Checkbox(fmt::format("{} {}###{}", report.count(fate), name, name).c_str(), &on);
+        ImGui::Checkbox(label.c_str(), &on);
         ImGui::PopStyleColor();
         tip(tooltip);
         e.mark(mark);
-        ImGui::SameLine();
     };
     filter("dropped", RESTAGE_DROPPED, state.dropped, colors::error,
            "Not in the scene; kept in the file when it is written where that is possible", "report.dropped");
     filter("approximated", RESTAGE_APPROXIMATED, state.approximated, colors::warning,
            "Rendered in a simpler way than the file says", "report.approximated");
     filter("kept", RESTAGE_KEPT, state.kept, colors::good, "As the file says", "report.kept");
-    ImGui::SetNextItemWidth(140 * ImGui::GetStyle().FontScaleMain);
+    const float width = 110 * ImGui::GetStyle().FontScaleMain;
+    flow(width);
+    ImGui::SetNextItemWidth(width);
     ImGui::InputTextWithHint("##search", "Search", &state.search);
     e.mark("report.search");
     std::vector<const io::ReportEntry*> shown;
@@ -181,8 +180,7 @@ void draw_import_report(Editor& e) {
         if (wanted && (contains_word(entry.what, state.search) || contains_word(entry.note, state.search)))
             shown.push_back(&entry);
     }
-    ImGui::SameLine();
-    if (ImGui::Button("Copy")) {
+    if (flow_button("Copy")) {
         std::string text;
         for (const io::ReportEntry* entry : shown)
             text += io::to_string(*entry) + "\n";
@@ -196,8 +194,9 @@ void draw_import_report(Editor& e) {
     }
     if (!ImGui::BeginTable("entries", 3,
                            ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp |
-                               ImGuiTableFlags_BordersInnerV))
-        return;
+                               ImGuiTableFlags_BordersInnerV,
+                           {0, std::max(ImGui::GetContentRegionAvail().y, 6 * ImGui::GetTextLineHeightWithSpacing())}))
+        return; // in a low panel what is above scrolls away
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("What", 0, 3);
     ImGui::TableSetupColumn("What became of it", 0, 6);

@@ -37,13 +37,15 @@ void object_section(Editor& e, InstanceId id) {
                     e.locked.erase(one.value);
         });
     e.mark("inspector.locked");
-    form_row("Flip normals", "Reverse orientation: the other side is the front, for what emits or has a medium inside");
+    form_row(
+        "Swap sides",
+        "The other side is the front, where it shines or has a medium inside (reversed orientation, flipped normals)");
     if (bool flipped = instance.reverse_orientation; ImGui::Checkbox("##flip", &flipped))
         e.edit([id, flipped](const scene::Scene& s) {
-            return scene::modify(s, id, "Flip normals", [&](scene::Instance& i) { i.reverse_orientation = flipped; });
+            return scene::modify(s, id, "Swap sides", [&](scene::Instance& i) { i.reverse_orientation = flipped; });
         });
     e.mark("inspector.flip");
-    form_row("Opacity", "Share of the surface that is there (pbrt's alpha); 1 = all of it");
+    form_row("Opacity", "Share of the surface that is there: 1 = all of it (alpha)");
     if (const scene::Texture* cutout = e.scene().textures.find(instance.alpha_texture)) {
         if (ImGui::Button(("Cut out by " + cutout->name + "###cutout").c_str(), {ImGui::CalcItemWidth(), 0}))
             e.edit([id](const scene::Scene& s) {
@@ -60,7 +62,7 @@ void object_section(Editor& e, InstanceId id) {
     }
     e.mark("inspector.alpha");
     if (const scene::Mesh* mesh = e.scene().meshes.find(instance.mesh); mesh && mesh->data) {
-        form_row("Mesh", mesh->source_file.c_str());
+        form_row("Shape", mesh->source_file.empty() ? "The mesh it is made of" : mesh->source_file.c_str());
         ImGui::TextDisabled("%zu triangles", mesh->data->triangles.size());
     }
 }
@@ -86,7 +88,7 @@ void draw_inspector(Editor& e) {
     tip("The object's name");
     e.mark("inspector.name");
     const std::size_t count = e.selection.instances().size();
-    if (count > 1) ImGui::TextDisabled("and %zu more. Values are of this one; place and flags are of all.", count - 1);
+    if (count > 1) ImGui::TextDisabled("and %zu more: place, hidden and locked are of all.", count - 1);
     place_section(e);
     material_section(e, instance->material);
     emission_section(e, id);

@@ -72,7 +72,7 @@ bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, c
     float strength = std::max({value.x, value.y, value.z});
     glm::vec3 color = strength > 0 ? value / strength : glm::vec3(1);
     bool changed = false;
-    form_row("Colour", "Of the light; the brightest channel is 1");
+    form_row("Colour", "Of the light, without its brightness");
     if (color_field("##color", &color.x)) {
         if (const float most = std::max({color.x, color.y, color.z}); most > 0) color /= most;
         changed = true;
@@ -81,7 +81,7 @@ bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, c
     form_row("Temperature",
              "Sets the colour to that of a lamp: candle 1900 K, bulb 2700 K, noon 5500 K, overcast 7000 K");
     auto kelvin = float(session::color_temperature(glm::dvec3(color)));
-    const std::string shown = kelvin > 0 ? "%.0f K" : "none";
+    const std::string shown = kelvin > 0 ? "%.0f K" : "None";
     if (kelvin <= 0) kelvin = 6500;
     if (ImGui::SliderFloat("##kelvin", &kelvin, float(session::least_kelvin), 12000, shown.c_str(),
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {
@@ -89,7 +89,10 @@ bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, c
         changed = true;
     }
     e.mark(mark + ".kelvin");
-    form_row(strength_label, unit);
+    const std::string_view radiometry(unit);
+    form_row(strength_label, radiometry == "W/m²"   ? "Irradiance: power on each square metre that faces the light"
+                             : radiometry == "W/sr" ? "Radiant intensity: power in each direction"
+                                                    : "Radiance: the same from near and from far");
     const std::string format = fmt::format("%.4g {}", unit);
     changed |= ImGui::DragFloat("##strength", &strength, drag_speed(strength, 1e-3f), 0, 1e9f, format.c_str(),
                                 ImGuiSliderFlags_AlwaysClamp);
@@ -113,12 +116,12 @@ void emission_section(Editor& e, InstanceId id) {
     e.mark("light.emits");
     if (instance.emission) {
         scene::Emission emission = *instance.emission;
-        bool changed = light_value_rows(e, emission.radiance, "Radiance", "W/(m2 sr)", "light");
+        bool changed = light_value_rows(e, emission.radiance, "Brightness", "W/(m²sr)", "light");
         // Power of a Lambertian emitter: pi times area times radiance, twice with both sides.
         const double sides = pi * area_of(e, id) * (emission.two_sided ? 2 : 1);
         if (auto power = float(luminance(emission.radiance) * sides); sides > 0) {
             form_row("Power",
-                     "Of all of its surface, weighted by luminance; a larger object of the same radiance gives more");
+                     "Of the whole surface, as the eye weighs colours: a larger lamp of the same brightness has more");
             const float before = power;
             if (ImGui::DragFloat("##power", &power, drag_speed(power, 1e-3f), 0, 1e12f, "%.4g W",
                                  ImGuiSliderFlags_AlwaysClamp)) {
@@ -128,7 +131,7 @@ void emission_section(Editor& e, InstanceId id) {
             }
             e.mark("light.power");
         }
-        form_row("Two-sided", "Shines from the back of its triangles, too");
+        form_row("Two-sided", "Shines from the back of its surface, too");
         changed |= ImGui::Checkbox("##two-sided", &emission.two_sided);
         e.mark("light.two_sided");
         if (changed) ask_emission(e, id, emission, "inspector.emission");
@@ -145,20 +148,20 @@ void light_section(Editor& e, scene::Id<scene::Light> id) {
     if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });
     tip("The light's name");
     e.mark("light.name");
-    static constexpr const char* kinds[] = {"Point", "Spot", "Distant (sun)"};
+    static constexpr const char* kinds[] = {"Point", "Spot", "Sun"};
     int kind = int(light.kind) - 1;
     bool changed = false;
-    form_row("Kind", "Point: all around. Spot: a cone. Distant: parallel, from infinitely far");
+    form_row("Type", "Point: shines all around. Spot: a cone. Sun: parallel rays from far away (a distant light)");
     if (ImGui::Combo("##kind", &kind, kinds, IM_ARRAYSIZE(kinds))) {
         light.kind = RestageLightKind(kind + 1);
         changed = true;
     }
     e.mark("light.kind");
-    changed |= light_value_rows(e, light.value, light.kind == RESTAGE_LIGHT_DISTANT ? "Irradiance" : "Intensity",
-                                light.kind == RESTAGE_LIGHT_DISTANT ? "W/m2" : "W/sr", "light");
+    changed |=
+        light_value_rows(e, light.value, "Brightness", light.kind == RESTAGE_LIGHT_DISTANT ? "W/m²" : "W/sr", "light");
     if (light.kind != RESTAGE_LIGHT_DISTANT) {
         glm::dvec3 position(light.light_to_world[3]);
-        form_row("Position", "In scene units");
+        form_row("Position", "x, y, z in scene units");
         const double size = scene::world_bounds(e.scene()).radius();
         if (ImGui::DragScalarN("##position", ImGuiDataType_Double, &position.x, 3, float(std::max(size * 0.002, 1e-4)),
                                nullptr, nullptr, "%.3f")) {
@@ -169,25 +172,24 @@ void light_section(Editor& e, scene::Id<scene::Light> id) {
     }
     if (light.kind != RESTAGE_LIGHT_POINT) {
         Angles angles = angles_of(light.light_to_world, e.up());
-        form_row("Height", "How high above the horizon the light comes from [degrees]");
+        form_row("Height", "How high above the horizon the light comes from");
         const double lowest = -90, highest = 90;
         bool turn = ImGui::DragScalar("##elevation", ImGuiDataType_Double, &angles.elevation, 0.25f, &lowest, &highest,
-                                      "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
+                                      "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.elevation");
-        form_row("Around", "From which side it comes [degrees]");
-        turn |=
-            ImGui::DragScalar("##azimuth", ImGuiDataType_Double, &angles.azimuth, 0.5f, nullptr, nullptr, "%.1f deg");
+        form_row("Around", "From which side it comes");
+        turn |= ImGui::DragScalar("##azimuth", ImGuiDataType_Double, &angles.azimuth, 0.5f, nullptr, nullptr, "%.1f°");
         e.mark("light.azimuth");
         if (turn) light.light_to_world = turned(light.light_to_world, angles, e.up());
         changed |= turn;
     }
     if (light.kind == RESTAGE_LIGHT_SPOT) {
-        form_row("Cone", "Half of the cone's opening [degrees]");
-        changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
+        form_row("Cone", "From its middle to its edge: half of the opening");
+        changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.cone");
-        form_row("Soft edge", "Width of the edge where it fades [degrees]");
-        changed |= ImGui::SliderFloat("##edge", &light.cone_delta, 0, light.cone_angle, "%.1f deg",
-                                      ImGuiSliderFlags_AlwaysClamp);
+        form_row("Soft edge", "Width of the edge where it fades");
+        changed |=
+            ImGui::SliderFloat("##edge", &light.cone_delta, 0, light.cone_angle, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         light.cone_delta = std::min(light.cone_delta, light.cone_angle);
         e.mark("light.edge");
     }
@@ -195,7 +197,7 @@ void light_section(Editor& e, scene::Id<scene::Light> id) {
         e.edit([id, light](const scene::Scene& s) { return scene::set_light(s, id, light, "Change " + light.name); },
                "inspector.light");
     ImGui::Spacing();
-    if (ImGui::Button("Remove this light")) e.edit([id](const scene::Scene& s) { return scene::remove(s, id); });
+    if (ImGui::Button("Delete this light")) e.edit([id](const scene::Scene& s) { return scene::remove(s, id); });
     e.mark("light.remove");
 }
 

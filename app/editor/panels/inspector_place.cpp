@@ -85,7 +85,8 @@ void uniform_button(Editor& e) { // after the fields of a scale
     InspectorState& state = e.panel_state->inspector;
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (icon_button("##uniform", state.uniform_scale ? Icon::lock : Icon::lock_open, state.uniform_scale,
-                    "Locked: all three change together"))
+                    state.uniform_scale ? "All three change together. Click to change one alone"
+                                        : "Click to change all three together"))
         state.uniform_scale = !state.uniform_scale;
     e.mark("inspector.uniform");
 }
@@ -99,7 +100,7 @@ void one_object(Editor& e, InstanceId id) {
     const scene::Bounds bounds = scene::world_bounds(s, id);
     const double size = bounds.empty() ? 1 : std::max(bounds.radius(), 1e-6);
 
-    form_row("Position", "The middle of the object's box, in scene units");
+    form_row("Position", "x, y, z of the object's middle, in scene units");
     if (three("##position", p.pivot, size * 0.005, "%.3f"))
         ask_transform(e, id, placed(s, instance, linear, p.pivot), "Move", "inspector.position");
     e.mark("inspector.position");
@@ -112,9 +113,9 @@ void one_object(Editor& e, InstanceId id) {
             off = std::max(off, glm::length(same[c] - p.rotation[c]));
         if (off < 1e-6) p.euler = *state.euler;
     }
-    form_row("Rotation", "Turned about x, then y, then z [degrees]");
+    form_row("Rotation", "Turned about x, then y, then z");
     glm::dvec3 euler = p.euler + 0.0; // no negative zero
-    if (three("##rotation", euler, 0.5, "%.1f")) {
+    if (three("##rotation", euler, 0.5, "%.1f°")) {
         state.euler = euler;
         state.euler_of = id;
         ask_transform(e, id, placed(s, instance, rotation_from(euler) * glm::transpose(p.rotation) * linear, p.pivot),
@@ -140,8 +141,8 @@ void one_object(Editor& e, InstanceId id) {
     uniform_button(e);
 
     if (!bounds.empty()) {
-        form_row("Size", "Of the box along the world's axes, in scene units");
-        ImGui::TextDisabled("%.3g x %.3g x %.3g", bounds.size().x, bounds.size().y, bounds.size().z);
+        form_row("Size", "Of the box around it, along the world's axes, in scene units");
+        ImGui::TextDisabled("%.3g × %.3g × %.3g", bounds.size().x, bounds.size().y, bounds.size().z);
     }
     if (flow_button("Reset rotation", true)) {
         state.euler.reset();
@@ -183,11 +184,10 @@ void several_objects(Editor& e) {
         e.mark(mark);
     };
     const double before_scale[3] = {r.scale.x, r.scale.y, r.scale.z};
-    field("Move by", "##move", "All of them together, in scene units", r.move, size * 0.005, "%.3f",
-          "inspector.move_by");
-    field("Turn by", "##turn", "About the middle of all, about x, then y, then z [degrees]", r.turn, 0.5, "%.1f",
+    field("Move by", "##move", "x, y, z in scene units", r.move, size * 0.005, "%.3f", "inspector.move_by");
+    field("Turn by", "##turn", "About their common middle: about x, then y, then z", r.turn, 0.5, "%.1f°",
           "inspector.turn_by");
-    field("Scale by", "##scale", "About the middle of all", r.scale, 0.005, "%.3f", "inspector.scale_by");
+    field("Scale by", "##scale", "From their common middle", r.scale, 0.005, "%.3f", "inspector.scale_by");
     uniform_button(e);
     if (e.panel_state->inspector.uniform_scale)
         for (int i = 0; i < 3; ++i)
@@ -213,7 +213,7 @@ void several_objects(Editor& e) {
     if (!active && !changed) r = {}; // the fields start again at "no change"
     if (!bounds.empty()) {
         form_row("Size", "Of the box around all of them, in scene units");
-        ImGui::TextDisabled("%.3g x %.3g x %.3g", bounds.size().x, bounds.size().y, bounds.size().z);
+        ImGui::TextDisabled("%.3g × %.3g × %.3g", bounds.size().x, bounds.size().y, bounds.size().z);
     }
 }
 

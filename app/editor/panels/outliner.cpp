@@ -132,7 +132,7 @@ void instance_row(Editor& e, OutlinerState& state, const Row& row) {
     if (ImGui::BeginDragDropSource()) {
         if (!e.selection.contains(id)) e.selection.set(ids);
         ImGui::SetDragDropPayload("restage.objects", "", 1);
-        ImGui::Text("%zu object%s into a group", e.selection.instances().size(),
+        ImGui::Text("%zu object%s into a group, or below the list out of it", e.selection.instances().size(),
                     e.selection.instances().size() == 1 ? "" : "s");
         ImGui::EndDragDropSource();
     }
@@ -350,6 +350,11 @@ void draw_outliner(Editor& e) {
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
                 draw_row(e, state, state.rows[std::size_t(i)]);
+        if (const ImVec2 rest = ImGui::GetContentRegionAvail(); rest.y > 1) { // out of every group
+            ImGui::Dummy(rest);
+            drop_target(e, {});
+            e.mark("outliner.rest");
+        }
     }
     ImGui::EndChild();
     ImGui::PopStyleVar(2);

@@ -20,9 +20,8 @@ void draw_plugins(Editor& e) {
     ImGui::TextDisabled("%zu loaded, %zu refused", entries.size() - refused, refused);
     if (entries.empty()) {
         empty_note(
-            "No plugins were found: nothing can be opened or shaded. They are looked for beside the program, in the "
-            "folder "
-            "for a user's own, and in those that RESTAGE_PLUGIN_PATH names.");
+            "No plugins were found: nothing can be opened or rendered. They are looked for beside the program, in the "
+            "folder for a user's own, and in those that RESTAGE_PLUGIN_PATH names.");
         return;
     }
     if (!ImGui::BeginTable("plugins", 4,
@@ -46,7 +45,8 @@ void draw_plugins(Editor& e) {
             else
                 ImGui::TextUnformatted(entry->name().c_str());
             ImGui::TableNextColumn();
-            if (!entry->manifest.id.empty()) ImGui::TextDisabled("%s", plugin::to_string(entry->manifest.kind));
+            if (!entry->manifest.id.empty())
+                ImGui::TextDisabled("%s", choice_label(plugin::to_string(entry->manifest.kind)).c_str());
             ImGui::TableNextColumn();
             ImGui::TextDisabled("%s", entry->manifest.version.c_str());
             ImGui::TableNextColumn();
@@ -66,16 +66,19 @@ void draw_plugins(Editor& e) {
 
 void draw_log(Editor& e) {
     LogState& state = e.panel_state->log;
-    ImGui::Checkbox("Notes", &state.info);
-    e.mark("log.info");
-    ImGui::SameLine();
-    ImGui::Checkbox("Warnings", &state.warnings);
-    e.mark("log.warnings");
-    ImGui::SameLine();
-    ImGui::Checkbox("Errors", &state.errors);
-    e.mark("log.errors");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(140 * ImGui::GetStyle().FontScaleMain);
+    const auto filter = [&e](const char* label, bool& on, const char* tooltip, const char* mark, bool first = false) {
+        if (!first) flow(check_width(label));
+        ImGui::Checkbox(label, &on);
+        tip(tooltip);
+        e.mark(mark);
+    };
+    filter("Notes", state.info, "What was done", "log.info", true);
+    filter("Warnings", state.warnings, "What was done otherwise than asked for", "log.warnings");
+    filter("Errors", state.errors, "What could not be done", "log.errors");
+    filter("Details", state.details, "What the program notes of itself: for reports of faults", "log.details");
+    const float width = 110 * ImGui::GetStyle().FontScaleMain;
+    flow(width);
+    ImGui::SetNextItemWidth(width);
     ImGui::InputTextWithHint("##search", "Search", &state.search);
     e.mark("log.search");
     const auto lines = e.notices.lines();
@@ -83,13 +86,13 @@ void draw_log(Editor& e) {
     std::vector<const LogLine*> shown;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const LogLine& line = lines[i];
-        const bool wanted = line.level == LogLevel::error     ? state.errors
+        const bool wanted = line.level == LogLevel::debug     ? state.details
+                            : line.level == LogLevel::error   ? state.errors
                             : line.level == LogLevel::warning ? state.warnings
                                                               : state.info;
         if (first + i >= state.cleared && wanted && contains_word(line.text, state.search)) shown.push_back(&line);
     }
-    ImGui::SameLine();
-    if (ImGui::Button("Copy")) {
+    if (flow_button("Copy")) {
         std::string text;
         for (const LogLine* line : shown)
             text += fmt::format("{:8.1f} s  {}\n", line->time, line->text);
@@ -97,12 +100,13 @@ void draw_log(Editor& e) {
     }
     tip("Copy the lines that are shown to the clipboard");
     e.mark("log.copy");
-    ImGui::SameLine();
-    if (ImGui::Button("Clear")) state.cleared = total;
+    if (flow_button("Clear")) state.cleared = total;
+    tip("Empty this list; nothing else changes");
     e.mark("log.clear");
     ImGui::Separator();
     if (shown.empty())
-        empty_note(state.cleared == total || lines.empty() ? "Nothing has happened yet." : "No line fits the filter.");
+        empty_note(state.cleared == total || lines.empty() ? "Nothing has happened yet."
+                                                           : "Nothing has happened yet that is to be shown.");
     if (ImGui::BeginChild("lines")) {
         for (const LogLine* line : shown) {
             ImGui::TextDisabled("%7.1f s", line->time);

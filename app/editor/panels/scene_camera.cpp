@@ -28,15 +28,15 @@ struct Size {
     const char* label;
     std::uint32_t width, height;
 };
-constexpr Size sizes[] = {{"640 x 360", 640, 360},
-                          {"960 x 540", 960, 540},
-                          {"1280 x 720 (HD)", 1280, 720},
-                          {"1920 x 1080 (Full HD)", 1920, 1080},
-                          {"2560 x 1440", 2560, 1440},
-                          {"3840 x 2160 (4K)", 3840, 2160},
-                          {"1024 x 1024 (square)", 1024, 1024},
-                          {"1080 x 1920 (upright)", 1080, 1920},
-                          {"2480 x 3508 (A4, 300 dpi)", 2480, 3508}};
+constexpr Size sizes[] = {{"640 × 360", 640, 360},
+                          {"960 × 540", 960, 540},
+                          {"1280 × 720 (HD)", 1280, 720},
+                          {"1920 × 1080 (Full HD)", 1920, 1080},
+                          {"2560 × 1440", 2560, 1440},
+                          {"3840 × 2160 (4K)", 3840, 2160},
+                          {"1024 × 1024 (square)", 1024, 1024},
+                          {"1080 × 1920 (upright)", 1080, 1920},
+                          {"2480 × 3508 (A4, 300 dpi)", 2480, 3508}};
 
 void ask_film(Editor& e, const scene::Film& film, const char* label, const char* gesture) {
     e.edit(
@@ -61,7 +61,8 @@ void ask_film(Editor& e, const scene::Film& film, const char* label, const char*
 void filter_rows(Editor& e, scene::Film film) {
     static constexpr const char* kinds[] = {"Box", "Triangle", "Gaussian", "Mitchell", "Sinc"};
     int kind = int(film.filter.kind);
-    form_row("Pixel filter", "How samples around a pixel make it: wide ones are softer, Mitchell and sinc sharper");
+    form_row("Pixel filter",
+             "How a pixel is made of the samples around it: wide filters are softer, Mitchell and Sinc sharper");
     if (ImGui::Combo("##filter", &kind, kinds, IM_ARRAYSIZE(kinds))) {
         // pbrt-v4's defaults.
         static constexpr scene::Filter defaults[] = {{scene::FilterKind::box, {0.5f, 0.5f}, {0, 0}},
@@ -73,20 +74,20 @@ void filter_rows(Editor& e, scene::Film film) {
         ask_film(e, film, "Pixel filter", "");
     }
     e.mark("film.filter");
-    form_row("Radius", "Of the filter [pixels]");
+    form_row("Filter radius", "Across and up");
     bool changed =
         ImGui::SliderFloat2("##radius", &film.filter.radius.x, 0.5f, 5, "%.2f px", ImGuiSliderFlags_AlwaysClamp);
     e.mark("film.filter_radius");
     if (film.filter.kind == scene::FilterKind::gaussian) {
-        form_row("Sigma", "Standard deviation [pixels]");
+        form_row("Filter width", "Standard deviation of the Gaussian (sigma)");
         changed |=
             ImGui::SliderFloat("##sigma", &film.filter.params.x, 0.1f, 3, "%.2f px", ImGuiSliderFlags_AlwaysClamp);
         e.mark("film.sigma");
     } else if (film.filter.kind == scene::FilterKind::mitchell) {
-        form_row("B, C", "Mitchell and Netravali's blur and ringing");
+        form_row("Blur, ringing", "Mitchell and Netravali's B and C");
         changed |= ImGui::SliderFloat2("##bc", &film.filter.params.x, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     } else if (film.filter.kind == scene::FilterKind::sinc) {
-        form_row("Tau", "Cycles of the window");
+        form_row("Cycles", "Of the window around the sinc (tau)");
         changed |= ImGui::SliderFloat("##tau", &film.filter.params.x, 1, 8, "%.1f", ImGuiSliderFlags_AlwaysClamp);
     }
     if (changed) ask_film(e, film, "Pixel filter", "film.filter");
@@ -115,11 +116,12 @@ void camera_section(Editor& e) {
         e.mark("camera.active");
     }
     scene::Camera camera = e.camera();
-    form_row("Field of view", "Of the picture's shorter side [degrees]; small = telephoto");
-    bool changed = ImGui::SliderFloat("##fov", &camera.fov, 1, 150, "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
-    tip(fmt::format("As a {:.0f} mm lens in 35 mm photography", focal_length(camera) * 1000).c_str());
+    form_row("Field of view",
+             "How much is seen, along the picture's shorter side: small = telephoto, large = wide angle");
+    bool changed = ImGui::SliderFloat("##fov", &camera.fov, 1, 150, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+    tip(fmt::format("As a {:.0f} mm lens of a 35 mm camera", focal_length(camera) * 1000).c_str());
     e.mark("camera.fov");
-    form_row("Depth of field", "What is nearer or farther than the focus distance gets blurred");
+    form_row("Depth of field", "Blurs what is nearer or farther than the focus distance, as a real lens does");
     if (bool blur = camera.lens_radius > 0; ImGui::Checkbox("##dof", &blur)) {
         camera.lens_radius = blur ? float(focal_length(camera) / (2 * 2.8)) : 0;
         // Pinhole cameras come with a focus somewhere: the middle of the picture is a better start.
@@ -131,7 +133,9 @@ void camera_section(Editor& e) {
     }
     e.mark("camera.dof");
     if (camera.lens_radius > 0) {
-        form_row("Aperture", "As an f-number: small = more blur. For a film of 24 mm and a scene unit of one metre");
+        form_row(
+            "Aperture",
+            "Of the lens (f-number): small = more blur. As if a scene unit were a metre, the camera of 35 mm film");
         auto f_number = float(focal_length(camera) / (2 * double(camera.lens_radius)));
         if (ImGui::DragFloat("##fnumber", &f_number, drag_speed(f_number, 0.01f), 0.01f, 1000, "f/%.2f",
                              ImGuiSliderFlags_AlwaysClamp)) {
@@ -139,19 +143,20 @@ void camera_section(Editor& e) {
             changed = true;
         }
         e.mark("camera.fnumber");
-        form_row("Lens radius", "In scene units: what the file holds");
+        form_row("Lens radius", "The same as the aperture, in scene units: what the file holds");
         changed |= ImGui::DragFloat("##lens", &camera.lens_radius, drag_speed(camera.lens_radius, 1e-5f), 1e-6f, 1e6f,
-                                    "%.5f", ImGuiSliderFlags_AlwaysClamp);
+                                    "%.5f units", ImGuiSliderFlags_AlwaysClamp);
         e.mark("camera.lens");
     }
-    form_row("Focus distance", "Along the view, in scene units: what is there is sharp",
+    form_row("Focus distance", "What is so far away along the view is sharp",
              ImGui::CalcTextSize("Pick").x + 2 * ImGui::GetStyle().FramePadding.x);
-    changed |= ImGui::DragFloat("##focus", &camera.focal_distance, drag_speed(camera.focal_distance, 1e-3f), 1e-4f,
-                                1e9f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    changed |=
+        ImGui::DragFloat("##focus", &camera.focal_distance, drag_speed(camera.focal_distance, 1e-3f), 1e-4f, 1e9f,
+                         camera.focal_distance < 1e4f ? "%.3f units" : "%.0f units", ImGuiSliderFlags_AlwaysClamp);
     e.mark("camera.focus");
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Button("Pick")) e.pick_tool = focus_picker();
-    tip("Click in the picture what shall be sharp");
+    tip("Then click in the picture what shall be sharp");
     e.mark("camera.pick_focus");
     if (changed)
         e.edit(
@@ -168,8 +173,8 @@ void film_section(Editor& e) {
     if (!open) return;
     ImGui::PushID("film");
     scene::Film film = e.scene().film.value;
-    const std::string now = fmt::format("{} x {}", film.width, film.height);
-    form_row("Size", "Of the picture that is rendered to a file, and the shape of the live one [pixels]");
+    const std::string now = fmt::format("{} × {}", film.width, film.height);
+    form_row("Size", "Of the final picture, in pixels; the live one has its shape");
     if (ImGui::BeginCombo("##preset", now.c_str())) {
         for (const Size& size : sizes) {
             if (ImGui::Selectable(size.label, size.width == film.width && size.height == film.height)) {
@@ -184,13 +189,15 @@ void film_section(Editor& e) {
     e.mark("film.size");
     int wh[2] = {int(film.width), int(film.height)};
     bool& keep = e.panel_state->scene.keep_aspect;
-    form_row("Width, height", "Pixels", ImGui::GetFrameHeight());
+    form_row("Width, height", "Of the final picture", ImGui::GetFrameHeight());
     ImGui::DragInt2("##wh", wh, 2, 16, 16384, "%d px", ImGuiSliderFlags_AlwaysClamp);
     e.mark("film.wh");
     if (!ImGui::IsItemActive())
         e.panel_state->scene.aspect = e.film_aspect(); // of the start of a drag: rounding adds up
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    if (icon_button("##aspect", keep ? Icon::lock : Icon::lock_open, keep, "Locked: the shape stays")) keep = !keep;
+    if (icon_button("##aspect", keep ? Icon::lock : Icon::lock_open, keep,
+                    keep ? "The shape stays. Click to change width and height alone" : "Click to keep the shape"))
+        keep = !keep;
     e.mark("film.keep_aspect");
     const double aspect = e.panel_state->scene.aspect;
     const bool by_width = wh[0] != int(film.width), by_height = wh[1] != int(film.height);
@@ -204,10 +211,10 @@ void film_section(Editor& e) {
         ask_film(e, film, "Picture size", "film.size");
     }
     form_row("Exposure",
-             "Of the film: a factor on what the file is written with. The view's own exposure is above the picture");
-    if (ImGui::DragFloat("##exposure", &film.exposure, drag_speed(film.exposure, 1e-3f), 1e-6f, 1e6f, "%.4g x",
+             "Brightness of the pictures that are written, and of the live one, whose own exposure is above it");
+    if (ImGui::DragFloat("##exposure", &film.exposure, drag_speed(film.exposure, 1e-3f), 1e-6f, 1e6f, "%.4g×",
                          ImGuiSliderFlags_AlwaysClamp))
-        ask_film(e, film, "Film exposure", "film.exposure");
+        ask_film(e, film, "Exposure", "film.exposure");
     e.mark("film.exposure");
     filter_rows(e, film);
     ImGui::PopID();

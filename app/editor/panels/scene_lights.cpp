@@ -109,7 +109,7 @@ void lights_section(Editor& e) {
     ImGui::PushID("lights");
     std::size_t shown = 0;
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
-        static constexpr const char* kinds[] = {"", "point", "spot", "distant"};
+        static constexpr const char* kinds[] = {"", "Point", "Spot", "Sun"};
         ImGui::PushID(int(id.value));
         if (ImGui::Selectable(light.name.c_str(), e.selection.light() == id, ImGuiSelectableFlags_AllowOverlap))
             e.selection.set_light(id);
@@ -130,12 +130,12 @@ void lights_section(Editor& e) {
         if (ImGui::IsItemHovered()) e.hovered = id;
         e.mark("lights." + instance.name);
         ImGui::SameLine(ImGui::GetContentRegionAvail().x - 60 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextDisabled("object");
+        ImGui::TextDisabled("Object");
         ImGui::PopID();
         ++shown;
     });
-    if (emitters > most) ImGui::TextDisabled("and %zu more objects that emit", emitters - most);
-    if (shown == 0) empty_note("No lights besides the sky.");
+    if (emitters > most) ImGui::TextDisabled("and %zu more objects that shine", emitters - most);
+    if (shown == 0) empty_note("There are no lights but the sky.");
     if (flow_button("+ Point", true)) add_light(e, RESTAGE_LIGHT_POINT);
     tip("Shines all around, above what is in the middle of the picture");
     e.mark("lights.add_point");

@@ -21,33 +21,37 @@ void scene_rows(Editor& e) {
     scene::Settings settings = e.scene().settings.value;
     bool changed = false;
     int samples = int(settings.samples), depth = int(settings.max_depth);
-    form_row("Samples", "Paths a pixel: twice as many need twice the time and leave 0.7 of the noise");
+    form_row("Samples", "Light paths for each pixel: twice as many take twice the time and leave 0.7 of the noise");
     changed |= ImGui::DragInt("##samples", &samples, std::max(1.f, float(samples) * 0.01f), 1, 1 << 20, "%d a pixel",
                               ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.samples");
-    form_row("Longest path", "Bounces of light that are followed; glass and bright rooms need more (pbrt's maxdepth)");
+    form_row("Longest path",
+             "How often light is followed from surface to surface; glass and bright rooms need more (maximum depth)");
     changed |= ImGui::SliderInt("##depth", &depth, 0, 100, "%d bounces", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.depth");
-    form_row("Russian roulette", "Ends paths that carry little light at random, and makes up for it: faster, no bias");
+    form_row("End dim paths",
+             "Ends paths that carry little light at random, and makes up for it: faster, as right (Russian roulette)");
     changed |= ImGui::Checkbox("##roulette", &settings.russian_roulette);
     e.mark("render.roulette");
     const auto clamp_row = [&](const char* label, const char* tooltip, float& v, const char* mark) {
         form_row(label, tooltip);
-        changed |= ImGui::DragFloat(mark, &v, drag_speed(v, 0.01f), 0, 1e6f, v > 0 ? "%.3g (biased)" : "off",
+        changed |= ImGui::DragFloat(mark, &v, drag_speed(v, 0.01f), 0, 1e6f, v > 0 ? "%.3g (biased)" : "Off",
                                     ImGuiSliderFlags_AlwaysClamp);
         e.mark(mark + 2); // without the ##
     };
-    clamp_row("Clamp direct",
-              "Biased: cuts what one sample can add along light that comes straight to what is seen. 0 = off",
+    clamp_row("Limit direct",
+              "Cuts bright specks of light that comes straight from a lamp, and with them some light: the picture gets "
+              "too dark there (clamping, biased). 0 = off",
               settings.clamp_direct, "##render.clamp_direct");
-    clamp_row("Clamp indirect",
-              "Biased: the same for light after the first bounce; removes fireflies and some light. 0 = off",
+    clamp_row("Limit indirect",
+              "Cuts bright specks of light that was reflected before, and with them some light (clamping of fireflies, "
+              "biased). 0 = off",
               settings.clamp_indirect, "##render.clamp_indirect");
     form_row("Ray offset",
              "How far rays start from a surface. 0 = from the rounding error of each hit, which is right almost "
              "always; else a distance in scene units");
     changed |= ImGui::DragFloat("##epsilon", &settings.ray_epsilon, drag_speed(settings.ray_epsilon, 1e-6f), 0, 1,
-                                settings.ray_epsilon > 0 ? "%.2g units" : "automatic", ImGuiSliderFlags_AlwaysClamp);
+                                settings.ray_epsilon > 0 ? "%.2g units" : "Automatic", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.epsilon");
     settings.samples = std::uint32_t(samples);
     settings.max_depth = std::uint32_t(depth);
@@ -68,24 +72,25 @@ void live_rows(Editor& e) {
     if (!e.live().denoiser_missing().empty()) tip(e.live().denoiser_missing().c_str());
     e.mark("render.denoise");
     int samples = int(e.view.samples);
-    form_row("Stop at samples", "0 = at the scene's number");
-    if (ImGui::DragInt("##live samples", &samples, 1, 0, 1 << 20, samples ? "%d a pixel" : "as the scene says",
+    form_row("Stop at samples", "Of the live picture. 0 = at the scene's number of samples");
+    if (ImGui::DragInt("##live samples", &samples, 1, 0, 1 << 20, samples ? "%d a pixel" : "As above",
                        ImGuiSliderFlags_AlwaysClamp))
         e.view.samples = std::uint32_t(samples);
     e.mark("render.live_samples");
     auto seconds = float(e.view.seconds), error = float(e.view.error * 100);
     form_row("Stop after", "Time for each picture. 0 = no limit");
-    if (ImGui::DragFloat("##seconds", &seconds, 0.5f, 0, 86400, seconds > 0 ? "%.0f s" : "no limit",
+    if (ImGui::DragFloat("##seconds", &seconds, 0.5f, 0, 86400, seconds > 0 ? "%.0f s" : "No limit",
                          ImGuiSliderFlags_AlwaysClamp))
         e.view.seconds = double(seconds);
     e.mark("render.seconds");
-    form_row("Stop at error", "Estimated relative error of the picture, before denoising. 0 = no target");
-    if (ImGui::DragFloat("##error", &error, 0.02f, 0, 100, error > 0 ? "%.2f %%" : "no target",
+    form_row("Stop at error",
+             "Where the noise is so small: the estimated relative error before denoising. 0 = no target");
+    if (ImGui::DragFloat("##error", &error, 0.02f, 0, 100, error > 0 ? "%.2f %%" : "No target",
                          ImGuiSliderFlags_AlwaysClamp))
         e.view.error = double(error) / 100;
     e.mark("render.error");
-    form_row("Resolution", "Of the live picture: pixels for each of the screen");
-    ImGui::SliderFloat("##resolution", &e.view.resolution, 0.1f, 2, "%.2f x", ImGuiSliderFlags_AlwaysClamp);
+    form_row("Resolution", "Less is faster and coarser: pixels of the live picture for each of the screen");
+    ImGui::SliderFloat("##resolution", &e.view.resolution, 0.1f, 2, "%.2f×", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.resolution");
 }
 
@@ -94,7 +99,7 @@ void machine_rows(Editor& e) {
     const session::ViewStatus status = e.live().status();
     render::RendererOptions options = e.options().renderer;
     SceneState& state = e.panel_state->scene;
-    form_row("Tracer", "Embree: the CPU finds what rays hit. Vulkan: the GPU does, where it has ray tracing");
+    form_row("Ray tracing", "Embree: on the processor. Vulkan: on the graphics card, where it can");
     static constexpr const char* tracers[] = {"Automatic", "Embree", "Vulkan"};
     int tracer = options.tracer == "embree" ? 1 : options.tracer == "vulkan" ? 2 : 0;
     if (ImGui::Combo("##tracer", &tracer, tracers, IM_ARRAYSIZE(tracers))) {
@@ -103,9 +108,9 @@ void machine_rows(Editor& e) {
     }
     if (!status.tracer.empty()) tip(("In use: " + status.tracer).c_str());
     e.mark("render.tracer");
-    form_row("Device", "A number or part of a name; empty = the best there is");
+    form_row("Graphics card", "Its number or part of its name, as Vulkan lists them; empty = the best there is");
     if (!std::exchange(state.device_shown, true)) state.device = options.device;
-    ImGui::InputTextWithHint("##device", status.device.empty() ? "the best" : status.device.c_str(), &state.device);
+    ImGui::InputTextWithHint("##device", status.device.empty() ? "The best" : status.device.c_str(), &state.device);
     if (ImGui::IsItemDeactivatedAfterEdit() && state.device != options.device) {
         options.device = state.device;
         e.later([&e, options] { e.configure_renderer(options); });
@@ -113,8 +118,8 @@ void machine_rows(Editor& e) {
     e.mark("render.device");
     int threads = int(options.threads);
     const int most = int(Jobs::hardware());
-    form_row("Threads", "That trace rays on the CPU. 0 = all");
-    ImGui::SliderInt("##threads", &state.threads, 0, most, state.threads ? "%d" : fmt::format("all {}", most).c_str(),
+    form_row("Threads", "Of the processor, that trace rays. 0 = all");
+    ImGui::SliderInt("##threads", &state.threads, 0, most, state.threads ? "%d" : fmt::format("All {}", most).c_str(),
                      ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemDeactivatedAfterEdit() &&
         state.threads != threads) { // opens the renderer anew: not while it slides
@@ -125,7 +130,7 @@ void machine_rows(Editor& e) {
     }
     e.mark("render.threads");
     if (status.gpu_bytes) {
-        form_row("Memory", "Of the device, for the scene");
+        form_row("Memory", "That the scene takes on the graphics card, or of the processor that stands for one");
         ImGui::TextDisabled("%.0f MiB", double(status.gpu_bytes) / 1048576);
     }
     for (const auto& [type, count] : status.not_finite)

@@ -42,8 +42,7 @@ void ask_sky(Editor& e, std::optional<Environment> sky, const char* label, const
 
 void image_row(Editor& e, const Environment& sky) {
     const scene::Image* image = e.scene().images.find(sky.image);
-    form_row("Image",
-             image ? image->path.c_str() : "Where light comes from all around: an HDR or EXR panorama is best");
+    form_row("Image", image ? image->path.c_str() : "A panorama that shines from all around: HDR or EXR is best");
     if (ImGui::Button(image ? (image->name + "###image").c_str() : "Choose...###image", {ImGui::CalcItemWidth(), 0}))
         ImGui::OpenPopup("sky image");
     if (image && !image->data)
@@ -56,6 +55,7 @@ void image_row(Editor& e, const Environment& sky) {
             use_as_sky(e, static_cast<const char*>(payload->Data));
         ImGui::EndDragDropTarget();
     }
+    if (const std::string file = chosen_image_file(e, "sky"); !file.empty()) use_as_sky(e, file);
     if (!ImGui::BeginPopup("sky image")) return;
     std::vector<std::string> known = e.panel_state->assets.files_of(AssetKind::sky);
     e.scene().images.each([&](auto, const scene::Image& i) {
@@ -79,10 +79,7 @@ void image_row(Editor& e, const Environment& sky) {
             });
         ImGui::Separator();
     }
-    if (const std::string file = image_file_popup(e, "sky"); !file.empty()) {
-        use_as_sky(e, file);
-        ImGui::CloseCurrentPopup();
-    }
+    image_file_item(e, "sky");
     ImGui::EndPopup();
 }
 
@@ -156,8 +153,8 @@ void sky_section(Editor& e) {
         if (sky.image) {
             const double before = twist(sky.light_to_world, e.up());
             double angle = wrapped(before);
-            form_row("Rotation", "About the scene's up: drag to turn the sky, and the sun in it [degrees]");
-            if (ImGui::DragScalar("##rotation", ImGuiDataType_Double, &angle, 0.5f, nullptr, nullptr, "%.1f deg")) {
+            form_row("Rotation", "Turns the sky, and the sun in it, about the scene's up");
+            if (ImGui::DragScalar("##rotation", ImGuiDataType_Double, &angle, 0.5f, nullptr, nullptr, "%.1f°")) {
                 sky.light_to_world =
                     glm::rotate(glm::dmat4(1), glm::radians(angle - before), e.up()) * sky.light_to_world;
                 ask_sky(e, sky, "Rotate sky", "sky.rotation");
@@ -167,16 +164,24 @@ void sky_section(Editor& e) {
         float strength = std::max({sky.scale.x, sky.scale.y, sky.scale.z});
         glm::vec3 tint = strength > 0 ? sky.scale / strength : glm::vec3(1);
         form_row(sky.image ? "Tint" : "Colour",
-                 sky.image ? "Multiplies the image" : "Of the light that comes from everywhere");
+                 sky.image ? "Multiplies the image's colours" : "Of the light that comes from everywhere");
         if (color_field("##tint", &tint.x)) {
             if (const float most = std::max({tint.x, tint.y, tint.z}); most > 0) tint /= most;
             changed = true;
         }
         e.mark("sky.tint");
-        form_row("Strength", sky.image ? "Multiplies the image" : "Radiance [W/(m2 sr)]");
+        form_row("Strength", sky.image ? "Multiplies the image's brightness" : "How bright it is (radiance)");
         changed |= ImGui::DragFloat("##strength", &strength, drag_speed(strength, 1e-3f), 0, 1e6f,
-                                    sky.image ? "%.4g x" : "%.4g W/(m2 sr)", ImGuiSliderFlags_AlwaysClamp);
+                                    sky.image ? "%.4g×" : "%.4g W/(m²sr)", ImGuiSliderFlags_AlwaysClamp);
         e.mark("sky.strength");
+        form_row("Hide from view",
+                 "Black behind everything in the picture. It shines all the same, and mirrors and glass show it");
+        if (bool hidden = sky.hidden_from_camera; ImGui::Checkbox("##hidden", &hidden)) {
+            Environment other = *now;
+            other.hidden_from_camera = hidden;
+            ask_sky(e, other, hidden ? "Hide sky" : "Show sky");
+        }
+        e.mark("sky.hidden");
         if (changed) {
             sky.scale = tint * strength;
             ask_sky(e, sky, "Sky's light", "sky.scale");

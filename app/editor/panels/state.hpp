@@ -63,12 +63,11 @@ struct SceneState {
 
 struct ReportState {
     bool kept = false, approximated = true, dropped = true;
-    std::string search, folder, file;
-    scene::Id<scene::Image> relinking;
+    std::string search;
 };
 
 struct LogState {
-    bool info = true, warnings = true, errors = true;
+    bool details = false, info = true, warnings = true, errors = true;
     std::string search;
     std::size_t cleared = 0; // lines before this one are not shown
     std::size_t seen = 0;
@@ -104,7 +103,8 @@ struct PanelState {
     ConvergenceState convergence;
     AssetsState assets;
     std::size_t history_seen = 0;
-    std::string image_path, texture_search; // in popups that ask for an image
+    std::string texture_search; // in popups that ask for an image
+    std::pair<std::string, std::string> image_choice; // the mark that asked for an image file, and the file
 };
 
 } // namespace restage::editor

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preferences.hpp"
+
+#include "base/file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace restage::editor {
+
+namespace {
+
+std::filesystem::path file_in(const std::filesystem::path& config_dir) { return config_dir / "preferences.json"; }
+
+} // namespace
+
+Preferences read_preferences(const std::filesystem::path& config_dir) {
+    Preferences preferences;
+    if (config_dir.empty()) return preferences;
+    const auto text = read_file(file_in(config_dir));
+    const auto j = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+    if (!j.is_object()) return preferences;
+    if (const auto seen = j.find("hint_seen"); seen != j.end() && seen->is_boolean()) preferences.hint_seen = *seen;
+    if (const auto keys = j.find("keys"); keys != j.end() && *keys == "blender") preferences.keys = KeyPreset::blender;
+    return preferences;
+}
+
+void write_preferences(const std::filesystem::path& config_dir, const Preferences& preferences) {
+    if (config_dir.empty()) return;
+    const nlohmann::json j{{"hint_seen", preferences.hint_seen},
+                           {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"}};
+    // What cannot be remembered is no reason to bother anybody.
+    (void)write_file_atomic(file_in(config_dir), j.dump(1) + "\n");
+}
+
+} // namespace restage::editor

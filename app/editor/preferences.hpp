@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Preferences: what a user chose or has seen once, remembered in the configuration folder; no part of any document.
+#pragma once
+
+#include "actions.hpp"
+
+#include <filesystem>
+
+namespace restage::editor {
+
+struct Preferences {
+    bool hint_seen = false; // how to begin, over the first picture
+    KeyPreset keys = KeyPreset::standard;
+    bool operator==(const Preferences&) const = default;
+};
+
+// Defaults where there is no such file, or it holds nothing that can be read.
+Preferences read_preferences(const std::filesystem::path& config_dir);
+// Does nothing without a folder.
+void write_preferences(const std::filesystem::path& config_dir, const Preferences& preferences);
+
+} // namespace restage::editor

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the viewport says around and over the picture: the toolbar, its state, how to begin.
+#include "editor.hpp"
+#include "files.hpp"
+#include "theme.hpp"
+#include "widgets.hpp"
+
+#include "base/file.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace restage::editor {
+
+void Viewport::draw_toolbar(Editor& e) {
+    const float scale = ImGui::GetStyle().FontScaleMain, margin = 6 * scale;
+    ImGui::SetCursorPos({margin, ImGui::GetCursorPosY() + 4 * scale});
+    // What does not fit goes to the next line; `joined` ones stand close together.
+    const auto next = [&](float width, bool joined = false) {
+        ImGui::SameLine(0, joined ? 2 * scale : -1);
+        if (ImGui::GetContentRegionAvail().x >= width + margin) return;
+        ImGui::NewLine();
+        ImGui::SetCursorPosX(margin);
+    };
+    const auto button = [&](const char* id, const char* label, bool joined = false) {
+        next(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x, joined);
+        action_button(e, id, label);
+    };
+    action_button(e, "view.gizmo_select", "Select");
+    button("view.gizmo_move", "Move", true);
+    button("view.gizmo_rotate", "Rotate", true);
+    button("view.gizmo_scale", "Scale", true);
+    button("view.local", e.view.local_axes ? "Local axes" : "World axes");
+    const std::string missing = e.live().denoiser_missing();
+    ImGui::BeginDisabled(!missing.empty());
+    button("view.denoise", "Denoise");
+    ImGui::EndDisabled();
+    if (!missing.empty()) tip(("Not available: " + missing).c_str());
+    const auto combo = [&](const char* id, int& now, std::span<const char* const> choices, float width,
+                           const char* tooltip, const char* mark) {
+        next(width * scale);
+        ImGui::SetNextItemWidth(width * scale);
+        const bool changed = ImGui::Combo(id, &now, choices.data(), int(choices.size()));
+        tip(tooltip);
+        e.mark(mark);
+        return changed;
+    };
+    static constexpr const char* layers[] = {"Picture", "Albedo",    "Normals", "Distance",
+                                             "Objects", "Materials", "Error"};
+    int layer = int(e.view.display.layer);
+    if (combo("##layer", layer, layers, 96,
+              "What is shown: the picture, what the denoiser goes by (surface colours, normals, distance), objects and "
+              "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
+              "toolbar.layer"))
+        e.view.display.layer = session::Layer(layer);
+    next(84 * scale);
+    ImGui::SetNextItemWidth(84 * scale);
+    ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");
+    tip("Exposure of the view, in stops: +1 is twice as bright. Changes no file. Ctrl+click to type");
+    e.mark("toolbar.exposure");
+    static constexpr const char* tones[] = {"Standard", "Filmic"};
+    int tone = int(e.view.display.tone);
+    if (combo("##tone", tone, tones, 88,
+              "How light becomes screen colours. Standard: as in a saved PNG (sRGB), too bright is white. Filmic: "
+              "softer highlights",
+              "toolbar.tone"))
+        e.view.display.tone = session::ToneCurve(tone);
+}
+
+void Viewport::draw_status(Editor& e) {
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    const ImVec2 end(corner.x + size.x, corner.y + size.y);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const session::ViewStatus status = e.live().status();
+    std::string text;
+    if (status.state == session::ViewState::failed)
+        text = status.text;
+    else if (drawn_) {
+        const std::uint32_t samples = std::max(status.divider > 1 ? 1u : status.samples, 1u);
+        text = fmt::format("{} × {}, {} sample{} a pixel", drawn_->image.width, drawn_->image.height, samples,
+                           samples == 1 ? "" : "s");
+        if (drawn_->relative_error < 1) text += fmt::format(", error {:.1f} %", drawn_->relative_error * 100);
+        if (drawn_->denoised) text += ", denoised";
+    }
+    if (!text.empty() && (e.view.show_overlays || status.state == session::ViewState::failed)) {
+        const float wrap = std::max(size.x - 20 * scale, 60.f);
+        const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+        const ImVec2 a(corner.x + 8 * scale, end.y - extent.y - 10 * scale);
+        draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale},
+                            {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale}, IM_COL32(16, 16, 18, 180),
+                            3 * scale);
+        draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), a,
+                      ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
+                      text.c_str(), nullptr, wrap);
+    }
+    if (e.opening().running()) {
+        ImGui::SetCursorScreenPos({corner.x + 12 * scale, corner.y + 12 * scale});
+        ImGui::BeginChild("opening", {std::min(320 * scale, size.x - 24 * scale), 0},
+                          ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
+        ImGui::Text("Opening %s", e.opening().path().filename().string().c_str());
+        ImGui::ProgressBar(e.opening().progress(), {-1, 0}, e.opening().stage().c_str());
+        if (ImGui::Button("Cancel")) e.opening().cancel();
+        e.mark("opening.cancel");
+        ImGui::EndChild();
+    }
+}
+
+void Viewport::draw_hint(Editor& e) {
+    if (e.preferences.hint_seen || !drawn_) return;
+    if (navigation_ != Navigation::none || !e.selection.empty()) { // that is how
+        e.preferences.hint_seen = true;
+        return;
+    }
+    const bool blender = e.view.keys == KeyPreset::blender;
+    const std::string text = fmt::format(
+        "Click an object to select it; drag its handles to move it.\n"
+        "{} turns the view, {} shifts it, the wheel zooms.\n"
+        "Ctrl+Z takes anything back; ? shows every key.",
+        blender ? "Middle drag" : "Alt + drag", blender ? "Shift + middle drag" : "middle drag");
+    const float scale = ImGui::GetStyle().FontScaleMain, pad = 10 * scale;
+    const float wrap = std::max(size.x - 6 * pad, 60.f);
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 a(corner.x + (size.x - extent.x) / 2, corner.y + 3 * pad);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled({a.x - pad, a.y - pad}, {a.x + extent.x + pad, a.y + extent.y + pad}, IM_COL32(16, 16, 18, 215),
+                        4 * scale);
+    draw->AddRectFilled({a.x - pad, a.y - pad}, {a.x - pad + 3 * scale, a.y + extent.y + pad},
+                        ImGui::GetColorU32(colors::accent), 2 * scale);
+    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), a, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr,
+                  wrap);
+    e.mark("hint", a);
+}
+
+void Viewport::draw_welcome(Editor& e, ImVec2 origin, ImVec2 space) {
+    const float scale = ImGui::GetStyle().FontScaleMain, width = std::min(280 * scale, space.x - 20 * scale);
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    const auto& files = e.files().recent.files();
+    const std::size_t recent = std::min<std::size_t>(files.size(), 5);
+    const float height = (4.5f + (recent ? 1 + float(recent) : 0)) * line;
+    ImGui::SetCursorScreenPos({origin.x + (space.x - width) / 2, origin.y + std::max(0.f, (space.y - height) / 2)});
+    ImGui::BeginChild("welcome", {width, std::min(height, space.y)}, 0, ImGuiWindowFlags_NoBackground);
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    ImGui::TextWrapped("Drop a scene or a model here, or");
+    ImGui::PopStyleColor();
+    for (const auto& [id, label] : {std::pair("file.open", "Open..."), {"file.new", "New scene"}}) {
+        if (ImGui::Button(label, {-FLT_MIN, 0})) e.run(id);
+        tip(find_action(id)->tooltip);
+        e.mark(std::string("welcome.") + id);
+    }
+    if (const auto bin = executable_dir()) {
+        const auto room = bin->parent_path() / "share/restage/scenes/demo/demo.pbrt";
+        if (std::error_code none; std::filesystem::exists(room, none)) {
+            if (ImGui::Button("Open the example room", {-FLT_MIN, 0})) e.open(room);
+            tip("A furnished room to try things on");
+            e.mark("welcome.example");
+        }
+    }
+    if (recent) {
+        ImGui::Spacing();
+        ImGui::TextColored(colors::dim, "Recent");
+        for (std::size_t i = 0; i < recent; ++i) {
+            const std::filesystem::path path(files[i]);
+            if (ImGui::Selectable(fmt::format("{}##{}", path.filename().string(), i).c_str())) e.open(path);
+            tip(files[i].c_str());
+        }
+    }
+    ImGui::EndChild();
+}
+
+} // namespace restage::editor

@@ -1,0 +1,462 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A screenshot of every panel and dialog of the editor, in the states that matter, to be looked at by somebody:
+
+    RESTAGE_BIN=build/bin/restage build/venv/bin/python tests/ui/screens.py OUT [--size 1600x1000] [--scale 2] [STATE ...]
+
+Without states all of them; `--list` names them. Widgets are found by their marks (desk.py), so it is a test of those, too:
+it ends with 1 when a state could not be reached."""
+import argparse
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+import traceback
+
+from PIL import Image
+
+from desk import Desk, Editor
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DEMO = ROOT / "scenes/demo/demo.pbrt"
+# Things an importer cannot keep, and a file that is not there.
+TROUBLED = """LookAt 0 1 4  0 0.5 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 640 "integer yresolution" 360
+WorldBegin
+LightSource "infinite" "rgb L" [0.8 0.8 0.8]
+Texture "planks" "spectrum" "imagemap" "string filename" "textures/planks of the old floor.png"
+Texture "wool" "spectrum" "imagemap" "string filename" "textures/wool.png"
+Material "diffuse" "texture reflectance" "planks"
+Shape "disk" "float radius" 3
+Material "subsurface" "float scale" 10
+AttributeBegin
+  Translate 0 0.5 0
+  Material "hair" "float beta_m" 0.3
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+"""
+states = {}
+
+
+def state(function):
+    states[function.__name__] = function
+    return function
+
+
+class Screens:
+    def __init__(self, desk, binary, out, size, scale, jpeg, folder):
+        self.desk, self.binary, self.out, self.size, self.scale = desk, binary, out, size, scale
+        self.folder = pathlib.Path(folder)
+        self.jpeg = jpeg
+        self.editor, self.opened = None, None
+        self.failed = []
+
+    # --- reaching states ---
+    def start(self, *arguments, config="config", fresh=False, settle=True, hint=False, recover=False):
+        """An editor with these arguments; the one that runs, when it has them already."""
+        key = (config, *map(str, arguments))
+        if not fresh and self.opened == key and self.editor.process.poll() is None:
+            return self.editor
+        self.stop()
+        place = self.folder / config
+        if not recover:  # what editors left that were killed here
+            shutil.rmtree(place / "recovery", ignore_errors=True)
+        self.editor = Editor(self.desk, self.binary, "--scale", self.scale, *arguments, config=place,
+                             probe=self.folder / "probe.json", size=self.size, hint=hint)
+        self.opened = key
+        if settle:
+            self.editor.settled(samples=1, seconds=240)
+        return self.editor
+
+    def stop(self):
+        if self.editor:
+            self.editor.close()
+            self.editor = None
+        self.opened = None
+
+    def tab(self, name):
+        self.editor.click("tab." + name)
+        self.rest()
+
+    def rest(self):
+        """The mouse where it hovers over nothing."""
+        self.editor.move((self.size[0] - 3, 3))
+        time.sleep(0.3)
+
+    def show(self, mark, clicks=30):
+        """Scrolls the panel at the right until the widget is well inside the window."""
+        tab = self.editor.point("tab.Scene")
+        self.desk.xdotool("mousemove", tab[0], self.size[1] * 0.45)
+        for _ in range(clicks):
+            found = self.editor.state()["marks"].get(mark)
+            if found and found[3] < self.size[1] * 0.6:
+                break
+            self.desk.xdotool("click", 5)
+            time.sleep(0.12)
+
+    def top(self):
+        tab = self.editor.point("tab.Scene")
+        self.desk.xdotool("mousemove", tab[0], self.size[1] * 0.45, "click", "--repeat", 60, "--delay", 5, 4)
+        time.sleep(0.3)
+
+    def select(self, *names):
+        for i, name in enumerate(names):
+            self.editor.key("Escape") if i == 0 else None
+            self.editor.click("outliner.search")
+            self.editor.key("ctrl+a")
+            self.editor.type(name + "\n")
+            self.editor.click("outliner." + name, keys=["ctrl"] if i else [])
+        self.editor.click("outliner.search")
+        self.editor.key("ctrl+a", "BackSpace", "Return")
+        self.rest()
+
+    def dialog(self, keys, title):
+        self.editor.key(keys)
+        self.editor.wait(lambda s: s["modal"] == title, title)
+        self.rest()
+
+    def calm(self):
+        """Whatever the state before left open or pressed."""
+        if not self.editor or self.editor.process.poll() is not None:
+            return
+        self.rest()
+        self.desk.xdotool("mouseup", 1)
+        for _ in range(3):
+            self.editor.key("Escape")
+            if not self.editor.state()["modal"]:
+                break
+
+    # --- taking them ---
+    def shoot(self, name):
+        image = Image.fromarray(self.desk.screenshot()[: self.size[1], : self.size[0]])
+        if self.jpeg:
+            image.save(self.out / f"{name.replace('_', '-')}.jpg", quality=85, optimize=True)
+        else:
+            image.save(self.out / f"{name}.png")
+
+    def run(self, names):
+        for name in names:
+            begin = time.monotonic()
+            try:
+                self.calm()
+                states[name](self)
+                self.shoot(name)
+                print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
+            except Exception:  # the others are of interest all the same
+                traceback.print_exc()
+                self.failed.append(name)
+                self.shoot(name + ".failed")
+                self.stop()
+        self.stop()
+
+
+@state
+def opening(s):
+    s.stop()
+    scene = s.folder / "slow.pbrt"
+    ball = "AttributeBegin Translate {} {} 0 Shape \"sphere\" \"float radius\" 0.4 AttributeEnd\n"
+    scene.write_text("WorldBegin\n" + "".join(ball.format(i % 500, i // 500) for i in range(200000)))
+    s.start(scene, config="slow", fresh=True, settle=False)
+    time.sleep(0.7)
+    s.editor.wait(lambda t: "opening.cancel" in t["marks"], "the progress", 20)
+
+
+@state
+def first_start(s):
+    shutil.rmtree(s.folder / "first", ignore_errors=True)
+    s.start(DEMO, config="first", fresh=True, hint=True)
+
+
+@state
+def nothing_selected(s):
+    s.start(DEMO)
+    s.tab("Inspector")
+
+
+@state
+def object_place_and_material(s):
+    s.start(DEMO)
+    s.tab("Inspector")
+    s.select("Chair frame")
+    s.top()
+
+
+@state
+def texture_choice(s):
+    object_place_and_material(s)
+    s.select("Floor")
+    s.show("material.reflectance.texture")
+    s.editor.click("material.reflectance.texture")
+
+
+@state
+def material_type_choice(s):
+    s.start(DEMO)
+    object_place_and_material(s)
+    s.show("material.type")
+    s.editor.click("material.type")
+
+
+@state
+def material_choice(s):
+    object_place_and_material(s)
+    s.show("material.choose")
+    s.editor.click("material.choose")
+
+
+@state
+def object_light_and_flags(s):
+    s.start(DEMO)
+    object_place_and_material(s)
+    s.show("inspector.light")
+    s.editor.click("inspector.light")
+    s.editor.click("light.emits")
+    s.show("inspector.object")
+    s.editor.click("inspector.object")
+    s.show("inspector.flip")
+    s.rest()
+
+
+@state
+def several_selected(s):
+    s.start(DEMO)
+    s.tab("Inspector")
+    s.select("Chair frame", "Chair cushion")
+    s.top()
+
+
+@state
+def light_selected(s):
+    s.start(DEMO)
+    s.tab("Scene")
+    s.top()
+    s.show("scene.lights")
+    s.editor.click("scene.lights")
+    s.show("lights.add_spot")
+    s.editor.click("lights.add_spot")
+    s.tab("Inspector")
+    s.top()
+
+
+@state
+def scene_sky_and_camera(s):
+    s.start(DEMO)
+    s.tab("Scene")
+    s.top()
+
+
+@state
+def scene_depth_of_field(s):
+    scene_sky_and_camera(s)
+    s.show("camera.dof")
+    s.editor.click("camera.dof")
+    s.rest()
+
+
+@state
+def scene_picture(s):
+    s.start(DEMO)
+    s.tab("Scene")
+    s.show("scene.film")
+    s.editor.click("scene.film")
+    s.show("film.sigma")
+    s.rest()
+
+
+@state
+def scene_rendering(s):
+    s.start(DEMO)
+    s.tab("Scene")
+    s.show("scene.render")
+    s.editor.click("scene.render")
+    s.show("render.threads")
+    s.rest()
+
+
+@state
+def history(s):
+    s.start(DEMO)
+    s.tab("History")
+
+
+@state
+def assets(s):
+    s.start(DEMO)
+    s.tab("Assets")
+    time.sleep(2)
+
+
+@state
+def dragging_an_asset(s):
+    assets(s)
+    marks = s.editor.state()["marks"]
+    name = next(m for m in sorted(marks) if m.startswith("asset."))
+    s.editor.move(name)
+    s.desk.xdotool("mousedown", 1)
+    for i in range(1, 6):
+        x, y = s.editor.point(("picture", 0.5, 0.95 - 0.08 * i))
+        s.desk.xdotool("mousemove", x, y)
+        time.sleep(0.1)
+
+
+@state
+def convergence(s):
+    s.start(DEMO)
+    s.tab("Convergence")
+    s.editor.settled(samples=12, seconds=400)
+
+
+@state
+def plugins(s):
+    s.start(DEMO)
+    s.editor.click("menu.panels")
+    s.editor.click("panels.Plugins")
+    s.tab("Plugins")
+
+
+@state
+def log(s):
+    s.start(DEMO)
+    s.tab("Log")
+
+
+@state
+def import_report(s):
+    scene = s.folder / "troubled.pbrt"
+    scene.write_text(TROUBLED)
+    s.start(scene)
+    s.tab("Import report")
+
+
+@state
+def help_panel(s):
+    s.start(DEMO)
+    s.editor.key("question")
+    s.rest()
+
+
+@state
+def outliner_menu(s):
+    s.start(DEMO)
+    s.editor.click("outliner.search")
+    s.editor.type("chair\n")
+    s.editor.click("outliner.Chair frame", button=3)
+
+
+@state
+def file_menu(s):
+    s.start(DEMO)
+    s.editor.click("menu.file")
+
+
+@state
+def file_browser(s):
+    s.start(DEMO)
+    s.dialog("ctrl+o", "Open")
+
+
+@state
+def save_as(s):
+    s.start(DEMO)
+    s.dialog("ctrl+s", "Save as")
+
+
+@state
+def export(s):
+    s.start(DEMO)
+    s.dialog("ctrl+e", "Export")
+
+
+@state
+def save_picture(s):
+    s.start(DEMO)
+    s.dialog("ctrl+shift+e", "Save picture")
+
+
+@state
+def final_picture(s):
+    s.start(DEMO)
+    s.dialog("ctrl+r", "Final picture")
+
+
+@state
+def final_picture_goes_on(s):
+    final_picture(s)
+    s.editor.click("final.choose")
+    s.editor.wait(lambda t: t["modal"] == "Final picture as", "the browser")
+    s.editor.key("ctrl+a")
+    s.editor.type(str(s.folder / "final.png"))
+    s.editor.key("Return")
+    s.editor.wait(lambda t: t["jobs"] and t["job"] > 0.01, "the job", 120)
+    s.rest()
+
+
+@state
+def pixel_values(s):
+    s.stop()
+    s.start(DEMO)
+    s.editor.key("i")
+    s.editor.move(("picture", 0.4, 0.6))
+    time.sleep(0.5)
+
+
+@state
+def unsaved(s):
+    s.start(DEMO)
+    s.editor.key("ctrl+a", "h")
+    s.editor.wait(lambda t: t["modified"], "a change")
+    s.dialog("ctrl+q", "Unsaved changes")
+
+
+@state
+def recovery(s):
+    s.stop()
+    s.start(DEMO, "--autosave", 0.3, config="crash")
+    s.editor.key("ctrl+a", "h")
+    s.editor.wait(lambda t: t["modified"] and t["recovery"] and pathlib.Path(t["recovery"]).exists(), "work written aside")
+    s.stop()
+    s.start(config="crash", settle=False, recover=True)
+    s.editor.wait(lambda t: t["modal"] == "Unsaved work was found", "the offer")
+    s.rest()
+
+
+@state
+def empty(s):
+    s.stop()
+    s.start(config="nothing", settle=False)
+    time.sleep(1)
+
+
+def main():
+    parse = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parse.add_argument("out", type=pathlib.Path, nargs="?")
+    parse.add_argument("states", nargs="*")
+    parse.add_argument("--size", default="1280x720")
+    parse.add_argument("--scale", type=float, default=1)
+    parse.add_argument("--jpeg", action="store_true", help="for docs/images/editor: named with dashes")
+    parse.add_argument("--list", action="store_true")
+    given = parse.parse_intermixed_args()
+    if given.list or not given.out:
+        print("\n".join(states))
+        return 0
+    unknown = set(given.states) - set(states)
+    assert not unknown, f"no such state: {', '.join(sorted(unknown))}"
+    size = tuple(int(v) for v in given.size.split("x"))
+    binary = pathlib.Path(os.environ.get("RESTAGE_BIN", ROOT / "build/bin/restage"))
+    given.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        desk = Desk(pathlib.Path(folder) / "desk", size)
+        screens = Screens(desk, binary, given.out, size, given.scale, given.jpeg, folder)
+        try:
+            screens.run([name for name in states if not given.states or name in given.states])
+        finally:
+            screens.stop()
+            desk.close()
+    return 1 if screens.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
