@@ -181,6 +181,26 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
     });
 }
 
+TEST_CASE("labels fit at any scale, and panels in any window", "[ui]") {
+    for (const float scale : {1.f, 2.f}) {
+        Headless h("demo/demo.pbrt", scale, {1600, 1000});
+        h.play("layout", [&](ImGuiTestContext* ctx) {
+            ctx->Yield(3);
+            const auto width = [](const char* panel) { return ImGui::FindWindowByName(panel)->Size.x; };
+            IM_CHECK(width("Inspector") >= 290 * scale); // three numbers beside a label
+            IM_CHECK(width("Outliner") >= 200 * scale);
+            IM_CHECK(width("Viewport") > 0.5f * 1600);
+            for (const char* panel : {"Inspector", "Scene"}) {
+                h.focus(ctx, panel);
+                h.select("Floor");
+                ctx->Yield(3);
+                const ImGuiWindow* window = ImGui::FindWindowByName(panel);
+                IM_CHECK(window->ContentSize.x <= window->Size.x); // nothing runs out of it
+            }
+        });
+    }
+}
+
 TEST_CASE("the outliner finds, selects, hides, locks and renames", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.play("outliner", [&](ImGuiTestContext* ctx) {
