@@ -52,7 +52,7 @@ class Monkey {
                     environment->mapping = pick(2) ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL;
                     environment->scale = vec();
                     environment->light_to_world = matrix();
-                    environment->hidden_from_camera = pick(2);
+                    environment->hidden_from_camera = environment->mapping == RESTAGE_OCTAHEDRAL; // draws no number
                     environment->origin = origin();
                 }
                 e = set_environment(s, environment);
