@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <algorithm>
+#include <cfloat>
 
 namespace restage::editor {
 
@@ -89,7 +90,7 @@ void BackgroundJobs::update(Editor& editor) {
     const ImGuiViewport* main = ImGui::GetMainViewport();
     ImGui::SetNextWindowPos({main->WorkPos.x + main->WorkSize.x / 2, main->WorkPos.y + main->WorkSize.y - 12 * scale},
                             ImGuiCond_Always, {0.5f, 1.f});
-    ImGui::SetNextWindowSize({420 * scale, 0});
+    ImGui::SetNextWindowSizeConstraints({420 * scale, 0}, {420 * scale, FLT_MAX});
     if (ImGui::Begin("##background", nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings |
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
