@@ -72,6 +72,7 @@ def measure(binary, scene, picture_of_object):
             rows["gizmo drag"] = during(editor, lambda: editor.drag((x, y), (x + 60, y), steps=40))
             editor.key("ctrl+z")
             rows["material type, new code"] = new_type(editor, "plastic")
+            editor.reveal("material.roughness")
             x, y = editor.point("material.roughness")
             rows["material value"] = during(editor, lambda: editor.drag((x - 30, y), (x + 30, y), steps=40))
             frames = editor.state()["latency"]["frames"]

@@ -58,7 +58,7 @@ class Editor:
     """A running `restage edit`."""
 
     def __init__(self, desk, binary, *arguments, config, probe, environment=None, size=(1280, 720), hint=False):
-        self.desk, self.probe = desk, pathlib.Path(probe)
+        self.desk, self.probe, self.size = desk, pathlib.Path(probe), size
         preferences = pathlib.Path(config) / "preferences.json"
         if not hint and not preferences.exists():  # the hint of a first start lies over the picture
             preferences.parent.mkdir(parents=True, exist_ok=True)
@@ -123,6 +123,15 @@ class Editor:
             x0, y0, x1, y1 = self.state()["marks"]["picture"]
             return int(x0 + where[1] * (x1 - x0)), int(y0 + where[2] * (y1 - y0))
         return where
+
+    def reveal(self, mark):
+        """Scrolls the panel at the right down until this mark is inside of the window."""
+        for _ in range(30):
+            x, y = self.point(mark)
+            if y < self.size[1] - 24:
+                return
+            self.click((x, int(self.size[1] * 0.85)), button=5)
+        raise Timeout(f"{mark} cannot be scrolled to")
 
     def move(self, where):
         self.desk.xdotool("mousemove", *self.point(where))

@@ -161,10 +161,12 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     state = editor.wait(lambda s: s["selection"], "the worktop to be selected")
     assert state["selection"][0]["material"] == "SmallWorktop" and state["selection"][0]["type"] == "coateddiffuse"
     top = kitchen.region()
+    editor.reveal("material.uroughness")
     x, y = editor.point("material.uroughness")
     editor.drag((x, y), (x + 25, y))
     rough = kitchen.step(4, "the roughness as one step")["material"]["uroughness"]["value"][0]
     assert rough != state["material"]["uroughness"]["value"][0]
+    editor.reveal("material.type")
     editor.click("material.type")
     editor.click("material.type.diffuse")
     state = kitchen.step(5, "the new type")
