@@ -278,9 +278,12 @@ std::string_view key_text(ImGuiKeyChord key) { return key ? ImGui::GetKeyChordNa
 void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
     const ImGuiIO& io = ImGui::GetIO();
     // While text is typed, a dialog is open, or the camera flies on WASD, keys mean something else.
-    if (io.WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ||
-        ImGui::IsMouseDown(ImGuiMouseButton_Right))
-        return;
+    const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    // Dear ImGui closes menus and lists with Esc only where it also navigates by keys. Dialogs do it themselves.
+    if (popup && keys && std::find(keys->begin(), keys->end(), ImGuiKey_Escape) != keys->end() &&
+        !ImGui::GetTopMostPopupModal())
+        ImGui::ClosePopupToLevel(0, true);
+    if (io.WantTextInput || popup || ImGui::IsMouseDown(ImGuiMouseButton_Right)) return;
     for (const Action& action : actions) {
         const ImGuiKeyChord key = key_of(action, editor.view.keys);
         if (key == ImGuiKey_Escape && editor.pick_tool) continue; // gives up that, not the selection
