@@ -33,7 +33,8 @@ class Renderer {
     // Follows the scene. When something changed that the picture shows, the film starts again.
     Result<void> sync(const scene::Scene& scene);
     // Adds `samples` to every pixel; first starts the film again if something compiled has changed the picture.
-    // `keep_going` is asked every few ms; false stops early and is no error.
+    // `keep_going` is asked between batches of work (a wave of 65536 paths, a rectangle of the film) and while shaders
+    // compile; false stops early and is no error.
     Result<void> trace(std::uint32_t samples, std::function<bool()> keep_going = {});
 
     // What workers compile now; nullopt: the picture is (or, before trace() has begun, may be) the scene's own.

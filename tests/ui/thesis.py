@@ -8,7 +8,9 @@ is where it shall be, the script reads the editor's own account of it (--probe).
 
 writes before.png, kitchen.png and materials.png (what `restage render` makes of the projects, denoised), the projects, and
 prints the gestures, how long the script took, and how long a person would, by the keystroke-level model (S. Card, T. Moran,
-A. Newell, "The keystroke-level model for user performance time with interactive systems", CACM 23(7), 1980)."""
+A. Newell, "The keystroke-level model for user performance time with interactive systems", CACM 23(7), 1980).
+
+Unfinished: it was run as far as the first wall's colour, never to its end, and the part with other materials never."""
 import pathlib
 import struct
 import subprocess
