@@ -4,6 +4,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 
+#include <imgui_internal.h>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -84,6 +85,8 @@ std::string Editor::probe() const {
                  {"first_clean_seconds", latency_.clean_seconds},
                  {"denoised_seconds", clean ? clean->seconds : 0.0},
                  {"hovered", hovered.value}};
+    if (const ImGuiInputTextState* input = ImGui::GetInputTextState(ImGui::GetActiveID()))
+        j["typing"] = std::string(input->TextSrc, std::size_t(input->TextLen)); // the text field that has the keyboard
     j["latency"] = {{"count", latency_.count},
                     {"nframes", ImGui::GetFrameCount()},
                     {"pixels", latency_.pixels},

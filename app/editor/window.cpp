@@ -2,6 +2,7 @@
 #include "window.hpp"
 
 #include "canvas.hpp"
+#include "chords.hpp"
 #include "damage.hpp"
 #include "gpu/device.hpp"
 #include "theme.hpp"
@@ -270,7 +271,7 @@ Result<bool> Window::begin_frame() {
     if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return false;
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    ImGui::NewFrame();
+    begin_imgui_frame();
     return true;
 }
 
