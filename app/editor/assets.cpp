@@ -46,7 +46,7 @@ bool kind_of_file(const fs::path& file, AssetKind& kind) {
     };
     if (is({".pbrt", ".gltf", ".glb", ".restage"}))
         kind = AssetKind::scene;
-    else if (is({".hdr", ".exr"}))
+    else if (is({".hdr", ".exr", ".pfm"}))
         kind = AssetKind::sky;
     else if (is({".png", ".jpg", ".jpeg", ".tga", ".bmp"}))
         kind = AssetKind::texture;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "chords.hpp"
 
-#include <algorithm>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <algorithm>
 #include <vector>
 
 namespace restage::editor {

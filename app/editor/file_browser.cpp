@@ -434,7 +434,7 @@ bool Browser::draw_buttons(Editor& e) {
 }
 
 bool Browser::draw(Editor& e) {
-    if (act(e)) return false;
+    const bool chosen = act(e); // its last frame is drawn like the others
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 room = ImGui::GetMainViewport()->WorkSize;
     const ImVec2 size(std::min(820 * scale, room.x - 60 * scale), std::min(480 * scale, room.y - 80 * scale));
@@ -456,7 +456,7 @@ bool Browser::draw(Editor& e) {
     draw_list(e, height);
     draw_name(e);
     ImGui::TextColored(colors::warning, "%s", problem_.c_str());
-    return draw_buttons(e);
+    return draw_buttons(e) && !chosen;
 }
 
 } // namespace

@@ -252,8 +252,9 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
         return;
     }
     InstanceId id = pickable(picked_at(e, io.MousePos));
-    // The same place again: what is behind.
-    const bool again = std::abs(io.MousePos.x - last_click_.x) + std::abs(io.MousePos.y - last_click_.y) < 3;
+    // The same place again, with what was picked there still selected: what is behind.
+    const bool again = !e.selection.instances().empty() &&
+                       std::abs(io.MousePos.x - last_click_.x) + std::abs(io.MousePos.y - last_click_.y) < 3;
     behind_ = again && mode == Selection::Mode::replace ? behind_ + 1 : 0;
     last_click_ = io.MousePos;
     if (behind_ > 0) {

@@ -52,7 +52,7 @@ void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values)
         case RESTAGE_INT: {
             int i = int(v.v[0]);
             changed =
-                ImGui::DragInt("##value", &i, 1, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
+                ImGui::DragInt("##value", &i, 1.f, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
             v.v[0] = float(i);
             break;
         }

@@ -186,6 +186,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; another zero is uploaded, no harm
         if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
             continue; // another name
         instances_.set(i, record);

@@ -2,18 +2,24 @@
 #include "scene/history.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <unordered_map>
 
 namespace restage::scene {
 
 namespace {
 
-template <class T>
-bool same_target(const Change<T>& a, const Change<T>& b) {
-    return a.id == b.id;
-}
-template <class T>
-bool same_target(const ChangeOne<T>&, const ChangeOne<T>&) {
-    return true;
+// Of what a change is: its type and, where there are many of that, its id.
+std::uint64_t target(const AnyChange& change) {
+    const std::uint32_t id = std::visit(
+        []<class C>(const C& c) -> std::uint32_t {
+            if constexpr (requires { c.id; })
+                return c.id.value;
+            else
+                return 0;
+        },
+        change);
+    return std::uint64_t(change.index()) << 32 | id;
 }
 
 void drop_idle_changes(Edit& edit) {
@@ -25,17 +31,17 @@ void drop_idle_changes(Edit& edit) {
 // `later` happened after `edit`: each target keeps its first `before` and gets the last `after`. Changes of different
 // targets commute, and an insert stays where it was first.
 void merge(Edit& edit, const Edit& later) {
-    for (const AnyChange& change : later.changes)
-        std::visit(
-            [&]<class C>(const C& c) {
-                for (AnyChange& earlier : edit.changes)
-                    if (auto* e = std::get_if<C>(&earlier); e && same_target(*e, c)) {
-                        e->after = c.after;
-                        return;
-                    }
-                edit.changes.push_back(c);
-            },
-            change);
+    std::unordered_map<std::uint64_t, std::size_t> place;
+    place.reserve(edit.changes.size());
+    for (std::size_t i = 0; i < edit.changes.size(); ++i)
+        place.emplace(target(edit.changes[i]), i);
+    for (const AnyChange& change : later.changes) {
+        const auto [found, is_new] = place.emplace(target(change), edit.changes.size());
+        if (is_new)
+            edit.changes.push_back(change);
+        else
+            std::visit([&]<class C>(const C& c) { std::get<C>(edit.changes[found->second]).after = c.after; }, change);
+    }
     drop_idle_changes(edit);
 }
 

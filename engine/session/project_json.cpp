@@ -98,7 +98,10 @@ bool decode(const json& j, std::vector<T>& values) {
         const int digit = value_of[static_cast<unsigned char>(c)];
         if (digit < 0) return false;
         word = word << 6 | std::uint32_t(digit);
-        if ((bits += 6) >= 8) bytes += char(word >> (bits -= 8) & 255);
+        bits += 6;
+        if (bits < 8) continue;
+        bits -= 8;
+        bytes += char(word >> bits & 255);
     }
     if (bytes.size() % sizeof(T)) return false;
     values.resize(bytes.size() / sizeof(T));

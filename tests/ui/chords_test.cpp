@@ -2,9 +2,9 @@
 // Chords that end in the frame in which their last key goes down.
 #include "editor/chords.hpp"
 
+#include <imgui.h>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
-#include <imgui.h>
 #include <string>
 
 using namespace restage::editor;

@@ -79,12 +79,10 @@ def changed_in(before, after, regions, least):
     assert np.percentile(d[outside], 90) < 0.06, f"the picture changed elsewhere: {np.percentile(d[outside], 90):.3f}"
 
 
-def drop(editor, path, where):
-    x, y = editor.point(where)
-    commands = pathlib.Path(str(editor.probe) + ".in")
-    partial = commands.with_suffix(".partial")
-    partial.write_text(f"drop {path} {x} {y}\n")
-    partial.rename(commands)
+def shown_in(region, before, after, least):
+    """The region changed by `least` in the mean, and more than the picture around it."""
+    d = difference(before, after)
+    assert d[region].mean() > max(least, 4 * d.mean()), f"{d[region].mean():.4f} there, {d.mean():.4f} in the whole picture"
 
 
 def type_path(editor, path):
@@ -116,7 +114,12 @@ def restage(binary, *arguments):
 def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     scene = pathlib.Path(SCENES) / "kitchen/scene.pbrt"
     assert scene.exists(), f"{scene} is missing, and RESTAGE_SCENES says it is there"
-    editor = launch(scene, size=(1000, 560))
+    write_checks(tmp_path / "checks.tga")
+    write_sky(tmp_path / "redblue.pfm")
+    config = tmp_path / "config"
+    config.mkdir()
+    (config / "assets.json").write_text(json.dumps({"textures": [str(tmp_path / "checks.tga")], "skies": [str(tmp_path / "redblue.pfm")]}))
+    editor = launch(scene, size=(1000, 560), config=config)
     kitchen = Kitchen(editor)
     opened = editor.wait(lambda s: s["counts"]["instances"] == 299 and not s["opening"], "the kitchen", 60)
     first = kitchen.picture()
@@ -161,29 +164,32 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     state = editor.wait(lambda s: s["selection"], "the worktop to be selected")
     assert state["selection"][0]["material"] == "SmallWorktop" and state["selection"][0]["type"] == "coateddiffuse"
     top = kitchen.region()
+    before_material = kitchen.picture()
+    editor.click(WORKTOP)
     editor.reveal("material.uroughness")
     x, y = editor.point("material.uroughness")
     editor.drag((x, y), (x + 25, y))
     rough = kitchen.step(4, "the roughness as one step")["material"]["uroughness"]["value"][0]
     assert rough != state["material"]["uroughness"]["value"][0]
+    after_value = kitchen.picture()
+    shown_in(top, before_material, after_value, 0.01)
+    editor.click(WORKTOP)
     editor.reveal("material.type")
     editor.click("material.type")
     editor.click("material.type.diffuse")
     state = kitchen.step(5, "the new type")
     assert state["selection"][0]["type"] == "diffuse"
     after_material = kitchen.picture()
+    shown_in(top, after_value, after_material, 0.02)
 
-    # A texture is dropped on it.
-    write_checks(tmp_path / "checks.tga")
-    drop(editor, tmp_path / "checks.tga", WORKTOP)
+    # A texture is dragged onto it from the list of assets, then a sky.
+    editor.click("tab.Assets")
+    editor.drag("asset.checks", WORKTOP)
     state = kitchen.step(6, "the texture")
     assert state["counts"]["textures"] == opened["counts"]["textures"] + 1
     after_texture = kitchen.picture()
     changed_in(after_material, after_texture, [top], 0.15)
-
-    # A sky, seen from outside, and turned.
-    write_sky(tmp_path / "redblue.pfm")
-    drop(editor, tmp_path / "redblue.pfm", WORKTOP)
+    editor.drag("asset.redblue", WORKTOP)
     state = kitchen.step(7, "the sky")
     assert state["sky"] == "redblue"
     editor.key("Home")
@@ -238,7 +244,9 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
 
     # Reopened and re-imported: the picture that was left.
     for path in (project, exported):
-        drop(editor, path, WORKTOP)
+        editor.key("ctrl+o")
+        editor.wait(lambda s: s["modal"] == "Open", "the question which")
+        type_path(editor, path)
         state = editor.wait(lambda s: s["path"] == str(path) and not s["opening"] and s["history"]["size"] == 0, f"{path.name} to be open", 60)
         assert state["counts"]["instances"] == 299 and state["sky"] and not state["modified"]
         assert np.allclose(state["camera"], turned["camera"], atol=1e-5)

@@ -116,6 +116,10 @@ def test_a_click_on_the_same_place_picks_what_is_behind(editor):
     first = names(editor.wait(lambda s: s["selection"], "a selection"))
     editor.click(CHAIR)
     editor.wait(lambda s: names(s) != first and s["selection"], "something behind it")
+    editor.key("Escape")
+    editor.wait(lambda s: not s["selection"], "an empty selection")
+    editor.click(CHAIR)
+    assert names(editor.wait(lambda s: s["selection"], "a selection")) == first, "nothing is before it"
 
 
 def test_a_box_picks_all_that_is_seen_in_it(editor):

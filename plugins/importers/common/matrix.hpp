@@ -24,8 +24,8 @@ inline Vec3 normalized(Vec3 a, Vec3 otherwise = {0, 0, 1}) {
 
 struct Matrix {
     std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    double& at(int row, int column) { return m[static_cast<std::size_t>(column * 4 + row)]; }
-    double at(int row, int column) const { return m[static_cast<std::size_t>(column * 4 + row)]; }
+    double& at(int row, int column) { return m[static_cast<unsigned>(column) * 4 + static_cast<unsigned>(row)]; }
+    double at(int row, int column) const { return m[static_cast<unsigned>(column) * 4 + static_cast<unsigned>(row)]; }
     Vec3 column(int c) const { return {at(0, c), at(1, c), at(2, c)}; }
     void set_column(int c, Vec3 v) {
         for (int r = 0; r < 3; ++r)
