@@ -187,7 +187,7 @@ void check_rest(const Scene& scene, Findings& out) {
         if (!finite(scene.environment.value->scale))
             out.error("environment", "the environment's scale is not a finite number");
     }
-    if (!scene.active_camera.value) out.error("camera", "there is no camera to look through");
+    if (!scene.active_camera.value) out.error("camera", no_camera);
     const Film& film = scene.film.value;
     if (film.width == 0 || film.height == 0 || film.width > longest_film_side || film.height > longest_film_side ||
         std::uint64_t{film.width} * film.height > most_film_pixels)

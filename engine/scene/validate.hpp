@@ -16,6 +16,9 @@ struct Problem {
     bool operator==(const Problem&) const = default;
 };
 
+// The sentence of a scene that cannot be rendered yet, and nothing else.
+inline constexpr const char* no_camera = "there is no camera to look through";
+
 // In the order of the tables. Of one kind of problem in many places the first few are listed and the rest counted.
 std::vector<Problem> validate(const Scene&);
 // Of one mesh: 'vertex 17 is not a finite number', or "" when all is well. Importers' data goes through here.

@@ -79,7 +79,8 @@ class Reader : public ValueReader {
         Scene result = base;
         apply(result, doc_.changes);
         for (const Problem& problem : validate(result))
-            if (problem.severity == Problem::Severity::error) return fail(path_ + ": " + problem.sentence);
+            if (problem.severity == Problem::Severity::error && problem.sentence != no_camera) // it may get one yet
+                return fail(path_ + ": " + problem.sentence);
         return std::move(doc_);
     }
 

@@ -45,6 +45,20 @@ TEST_CASE("Any edits come back exactly from a project file", "[project]") {
     CHECK(read_file(files.at("back.restage")).value() == read_file(files.at("edited.restage")).value());
 }
 
+TEST_CASE("A scene that has no camera yet is saved and opened", "[project]") {
+    const Fixture files;
+    session::Session session(files.registry), other(files.registry);
+    Edit edit{"Paint", {}};
+    edit.changes.push_back(
+        Change<Material>{session.scene().materials.next(), std::nullopt, Material{.name = "red", .type = "diffuse"}});
+    REQUIRE(session.edit(std::move(edit)));
+    REQUIRE(session.save_project(files.at("bare.restage")));
+    const auto opened = other.open(files.at("bare.restage"));
+    INFO((opened ? "" : opened.error().message));
+    REQUIRE(opened);
+    check_same(session.scene(), other.scene());
+}
+
 TEST_CASE("A project holds what changed and nothing else", "[project]") {
     const Fixture files;
     session::Session session(files.registry);
