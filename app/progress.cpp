@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -35,7 +36,7 @@ void on_interrupt(int) {
 }
 
 std::string clock_text(double seconds) {
-    const int s = int(seconds + 0.5);
+    const long s = std::lround(seconds);
     return s < 60 ? fmt::format("{} s", s) : fmt::format("{}:{:02} min", s / 60, s % 60);
 }
 

@@ -31,10 +31,8 @@ Result<int> run(Context& context, bool json) {
         return names;
     };
     nlohmann::json list = nlohmann::json::array();
-    std::size_t refused = 0;
     for (const auto* entry : registry.entries()) {
         const bool loaded = entry->state == plugin::State::loaded;
-        refused += !loaded;
         const auto names = provides(entry);
         if (json) {
             list.push_back({{"id", entry->manifest.id},

@@ -30,9 +30,9 @@ struct Size {
 // --- colour spaces (of the supplement; D65 as the matrix's own white)
 // -------------------------------------------------
 
-const glm::mat3 rgb_to_xyz = glm::transpose(glm::mat3(
-    10135552.f / 24577794, 8788810.f / 24577794, 4435075.f / 24577794, 2613072.f / 12288897, 8788810.f / 12288897,
-    887015.f / 12288897, 1425312.f / 73733382, 8788810.f / 73733382, 70074185.f / 73733382));
+const glm::mat3 rgb_to_xyz = glm::transpose(glm::dmat3(10135552. / 24577794, 8788810. / 24577794, 4435075. / 24577794,
+                                                       2613072. / 12288897, 8788810. / 12288897, 887015. / 12288897,
+                                                       1425312. / 73733382, 8788810. / 73733382, 70074185. / 73733382));
 const glm::vec3 white = rgb_to_xyz * glm::vec3(1);
 
 glm::vec3 rgb_to_ycxcz(glm::vec3 rgb) { // linearised CIELab, opponent

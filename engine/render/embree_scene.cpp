@@ -108,7 +108,7 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
                                    g->positions_offset, 12, g->vertex_count);
         rtcSetSharedGeometryBuffer(mesh->geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g->buffer.mapped(),
                                    g->indices_offset, 12, g->triangle_count);
-        rtcSetGeometryUserData(mesh->geometry, &scene_);
+        rtcSetGeometryUserData(mesh->geometry, static_cast<void*>(&scene_));
         rtcCommitGeometry(mesh->geometry);
         rtcAttachGeometryByID(mesh->scene, mesh->geometry, 0);
         rtcReleaseGeometry(mesh->geometry);

@@ -25,6 +25,7 @@
 #define FORWARD scene, ray, args
 #endif
 
+// NOLINTBEGIN(bugprone-reserved-identifier): the linker's --wrap asks for these names
 extern "C" {
 void __real_rtcIntersect1(INTERSECT_ARGS);
 void __real_rtcOccluded1(OCCLUDED_ARGS);
@@ -33,6 +34,7 @@ void __wrap_rtcOccluded1(OCCLUDED_ARGS);
 RTCScene __real_rtcNewScene(RTCDevice);
 RTCScene __wrap_rtcNewScene(RTCDevice);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace restage::bench {
 namespace {
@@ -120,6 +122,7 @@ std::uint64_t trace_plainly(const std::vector<RecordedRay>& rays, Jobs& jobs) {
 
 } // namespace restage::bench
 
+// NOLINTBEGIN(bugprone-reserved-identifier): the linker's --wrap asks for these names
 extern "C" {
 void __wrap_rtcIntersect1(INTERSECT_ARGS) {
     if (restage::bench::recording.load(std::memory_order_relaxed)) restage::bench::note(scene, ray->ray, false);

@@ -10,7 +10,6 @@
 using restage::pbrt::test::Folder;
 using restage::pbrt::test::Named;
 using restage::pbrt::test::Recorder;
-using restage::pbrt::test::Value;
 
 namespace {
 

@@ -199,8 +199,7 @@ KeptLine split_directive(std::string_view line) {
         const std::string_view first = line.substr(i + 1, end - i - 2);
         // `Film "float iso" [..]`: the first string declares a parameter already.
         const std::size_t next = skip_space(line, end);
-        const bool declares =
-            first.find(' ') != std::string_view::npos && next < line.size() && (line[next] == '[' || line[next] != '"');
+        const bool declares = first.find(' ') != std::string_view::npos && next < line.size() && line[next] != '"';
         if (!declares) {
             out.name = first;
             i = next;

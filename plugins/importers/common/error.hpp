@@ -23,7 +23,7 @@ int guarded_load(const char* path, const RestageSceneWriter1& out, Body&& body) 
     try {
         body();
         return 1;
-    } catch (const Cancelled&) {
+    } catch (const Cancelled&) { // NOLINT(bugprone-empty-catch): 0 says it
     } catch (const ImportError& error) {
         out.error(out.ctx, error.file.empty() ? path : error.file.c_str(), error.line, error.column,
                   error.message.c_str());

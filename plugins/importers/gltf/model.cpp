@@ -119,9 +119,12 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
     if (binary) check_header(bytes);
     const auto size = static_cast<unsigned>(bytes.size());
     const bool read =
-        binary ? reader.LoadBinaryFromMemory(&model, &errors, &warnings,
-                                             reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-               : reader.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), size, folder);
+        binary
+            ? reader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                          reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
+            : reader.LoadASCIIFromString(&model, &errors, &warnings,
+                                         bytes.data(), // NOLINT(bugprone-suspicious-stringview-data-usage): with size
+                                         size, folder);
     for (const std::string& name : model.extensionsRequired) // known even when the rest could not be read for it
         if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
             throw ImportError{"its geometry is compressed (" + name +

@@ -57,7 +57,8 @@ bool Builder::realistic_camera(const Directive& d, RestageCamera& out) {
     try {
         for (double value = 0; lexer.number(value);)
             rows.push_back(value);
-    } catch (const ImportError&) { // a word among the numbers: reduce refuses what is left, or it is enough
+    } catch (const ImportError&) { // NOLINT(bugprone-empty-catch): a word among the numbers: reduce refuses what is
+                                   // left, or it is enough
     }
     const auto lens = reduce(rows);
     if (!lens) {

@@ -35,7 +35,8 @@ bool Builder::run(SceneFile& scene) {
         if (directive.verb == Verb::film) film_ = &directive; // a camera before it may ask for its size
     std::size_t done = 0;
     for (Directive& directive : scene.directives) {
-        if (++done % 16 == 0 &&
+        ++done;
+        if (done % 16 == 0 &&
             !import_.out.progress(import_.out.ctx,
                                   static_cast<float>(done) / static_cast<float>(scene.directives.size()), "reading"))
             return false;

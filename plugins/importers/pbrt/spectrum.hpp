@@ -11,9 +11,9 @@ namespace restage::pbrt {
 
 struct Rgb {
     double r = 0, g = 0, b = 0;
-    friend Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-    friend Rgb operator*(Rgb a, double s) { return {a.r * s, a.g * s, a.b * s}; }
-    friend Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+    friend Rgb operator*(Rgb x, Rgb y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
+    friend Rgb operator*(Rgb x, double s) { return {x.r * s, x.g * s, x.b * s}; }
+    friend Rgb operator+(Rgb x, Rgb y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
     bool operator==(const Rgb&) const = default;
 };
 inline double luminance(Rgb c) { return 0.212639 * c.r + 0.715169 * c.g + 0.072192 * c.b; } // of sRGB primaries
