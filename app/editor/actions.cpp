@@ -200,9 +200,10 @@ constexpr auto actions = std::to_array<Action>({
      drop_to_floor},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
-    {"select.none", "None", ImGuiKey_Escape, 0, "Select nothing; leave the entered group",
-     [](const Editor& e) { return has_selection(e) || e.selection.entered(); },
+    {"select.none", "None", ImGuiKey_Escape, 0, "Select nothing; leave the entered group; before that, close the help",
+     [](const Editor& e) { return e.panel_open("Help") || has_selection(e) || e.selection.entered(); },
      [](Editor& e) {
+         if (e.panel_open("Help")) return e.open_panel("Help", false);
          e.selection.clear();
          e.selection.enter({});
      }},

@@ -52,7 +52,10 @@ void Viewport::inspect_pixel(Editor& e, bool over) {
     if (!ImGui::BeginTooltip()) return;
     ImGui::TextColored(colors::dim, "pixel %u, %u of %ux%u", x, y, image.width, image.height);
     ImGui::Text("radiance   %.4g  %.4g  %.4g", double(c.x), double(c.y), double(c.z));
-    ImGui::Text("std error  %.2g  %.2g  %.2g", double(s.x), double(s.y), double(s.z));
+    if (image.samples > 1)
+        ImGui::Text("std error  %.2g  %.2g  %.2g", double(s.x), double(s.y), double(s.z));
+    else
+        ImGui::TextUnformatted("std error  from two samples on");
     ImGui::Text("object     %s", instance ? instance->name.c_str() : "none");
     ImGui::Text("material   %s", material ? material->name.c_str() : "none");
     if (instance) {

@@ -137,3 +137,4 @@ RTCScene __wrap_rtcNewScene(RTCDevice device) {
     return __real_rtcNewScene(device);
 }
 }
+// NOLINTEND(bugprone-reserved-identifier)

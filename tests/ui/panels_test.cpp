@@ -254,7 +254,12 @@ TEST_CASE("log, report, convergence, assets and help answer", "[ui]") {
         h.click(ctx, "help.blender");
         IM_CHECK(h.editor().view.keys == editor::KeyPreset::blender);
         h.click(ctx, "help.standard");
-        h.editor().open_panel("Help", false); // it floats over others
+        h.editor().run("select.all");
+        h.editor().run("select.none"); // Esc closes what floats over others, first
+        IM_CHECK(!h.editor().panel_open("Help"));
+        IM_CHECK(!h.editor().selection.instances().empty());
+        h.editor().run("select.none");
+        IM_CHECK(h.editor().selection.instances().empty());
     });
     h.play("assets", [&](ImGuiTestContext* ctx) {
         h.focus(ctx, "Assets");

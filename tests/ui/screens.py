@@ -143,6 +143,7 @@ class Screens:
             try:
                 self.calm()
                 states[name](self)
+                time.sleep(0.7)  # what a click opened appears in the next frames
                 self.shoot(name)
                 print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
             except Exception:  # the others are of interest all the same

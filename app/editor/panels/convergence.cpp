@@ -7,8 +7,11 @@
 #include "theme.hpp"
 #include "widgets.hpp"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <implot.h>
+#include <string>
+#include <vector>
 
 namespace restage::editor {
 
@@ -28,6 +31,27 @@ void follow_convergence(Editor& e) {
     curve.samples.push_back(samples);
     curve.error.push_back(frame->relative_error * 100);
 }
+
+namespace {
+
+// 1, 2 and 5 of every decade: ImPlot's own ticks are whole decades, of which a short curve may hold none.
+void one_two_five(ImAxis axis) {
+    static const auto ticks = [] {
+        std::pair<std::vector<double>, std::vector<std::string>> made;
+        for (double decade = 1e-3; decade < 1e7; decade *= 10)
+            for (const int digit : {1, 2, 5}) {
+                made.first.push_back(decade * digit);
+                made.second.push_back(fmt::format("{:.6g}", decade * digit));
+            }
+        return made;
+    }();
+    std::vector<const char*> labels;
+    for (const std::string& label : ticks.second)
+        labels.push_back(label.c_str());
+    ImPlot::SetupAxisTicks(axis, ticks.first.data(), int(ticks.first.size()), labels.data());
+}
+
+} // namespace
 
 void draw_convergence(Editor& e) {
     ConvergenceState& state = e.panel_state->convergence;
@@ -60,6 +84,8 @@ void draw_convergence(Editor& e) {
                       ImPlotAxisFlags_AutoFit);
     ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
     ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
+    one_two_five(ImAxis_X1);
+    one_two_five(ImAxis_Y1);
     ImPlot::SetupLegend(ImPlotLocation_NorthEast);
     const auto line = [&](const char* name, const Curve& curve, const ImVec4& color) {
         if (curve.error.empty()) return;
