@@ -256,9 +256,11 @@ TEST_CASE("log, report, convergence, assets and help answer", "[ui]") {
         h.click(ctx, "help.standard");
         h.editor().run("select.all");
         h.editor().run("select.none"); // Esc closes what floats over others, first
+        ctx->Yield(2);
         IM_CHECK(!h.editor().panel_open("Help"));
         IM_CHECK(!h.editor().selection.instances().empty());
         h.editor().run("select.none");
+        ctx->Yield(2);
         IM_CHECK(h.editor().selection.instances().empty());
     });
     h.play("assets", [&](ImGuiTestContext* ctx) {

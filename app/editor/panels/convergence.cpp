@@ -7,11 +7,10 @@
 #include "theme.hpp"
 #include "widgets.hpp"
 
-#include <fmt/format.h>
 #include <imgui.h>
 #include <implot.h>
-#include <string>
-#include <vector>
+#include <algorithm>
+#include <utility>
 
 namespace restage::editor {
 
@@ -31,27 +30,6 @@ void follow_convergence(Editor& e) {
     curve.samples.push_back(samples);
     curve.error.push_back(frame->relative_error * 100);
 }
-
-namespace {
-
-// 1, 2 and 5 of every decade: ImPlot's own ticks are whole decades, of which a short curve may hold none.
-void one_two_five(ImAxis axis) {
-    static const auto ticks = [] {
-        std::pair<std::vector<double>, std::vector<std::string>> made;
-        for (double decade = 1e-3; decade < 1e7; decade *= 10)
-            for (const int digit : {1, 2, 5}) {
-                made.first.push_back(decade * digit);
-                made.second.push_back(fmt::format("{:.6g}", decade * digit));
-            }
-        return made;
-    }();
-    std::vector<const char*> labels;
-    for (const std::string& label : ticks.second)
-        labels.push_back(label.c_str());
-    ImPlot::SetupAxisTicks(axis, ticks.first.data(), int(ticks.first.size()), labels.data());
-}
-
-} // namespace
 
 void draw_convergence(Editor& e) {
     ConvergenceState& state = e.panel_state->convergence;
@@ -82,10 +60,18 @@ void draw_convergence(Editor& e) {
     if (!ImPlot::BeginPlot("##error", {-1, -1}, ImPlotFlags_NoMouseText)) return;
     ImPlot::SetupAxes(state.against_samples ? "Samples a pixel" : "Time (s)", "Error (%)", ImPlotAxisFlags_AutoFit,
                       ImPlotAxisFlags_AutoFit);
-    ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
-    ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
-    one_two_five(ImAxis_X1);
-    one_two_five(ImAxis_Y1);
+    // Logarithmic over more than a decade; in less of one there are no ticks to read it by.
+    const auto scale_of = [&](auto values) {
+        double least = 1e30, most = 0;
+        for (const Curve* curve : {&std::as_const(state.previous), &now})
+            for (const double value : (*curve).*values) {
+                least = std::min(least, value);
+                most = std::max(most, value);
+            }
+        return most > 10 * least ? ImPlotScale_Log10 : ImPlotScale_Linear;
+    };
+    ImPlot::SetupAxisScale(ImAxis_X1, scale_of(state.against_samples ? &Curve::samples : &Curve::seconds));
+    ImPlot::SetupAxisScale(ImAxis_Y1, scale_of(&Curve::error));
     ImPlot::SetupLegend(ImPlotLocation_NorthEast);
     const auto line = [&](const char* name, const Curve& curve, const ImVec4& color) {
         if (curve.error.empty()) return;
