@@ -122,6 +122,31 @@ def test_a_click_on_the_same_place_picks_what_is_behind(editor):
     assert names(editor.wait(lambda s: s["selection"], "a selection")) == first, "nothing is before it"
 
 
+def test_what_is_selected_slides_over_the_floor_and_with_shift_a_copy_does(editor):
+    editor.click(CHAIR)
+    start = editor.wait(lambda s: s["selection"], "a selection")["selection"]
+    rail, there = ("picture", 0.66, 0.735), ("picture", 0.76, 0.775)  # of its back, beside the handles
+    editor.drag(rail, there, steps=16)
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "the drag as one step")
+    for part, was in zip(state["selection"], start):
+        moved = np.array(part["position"]) - was["position"]
+        assert min(abs(moved[:2])) > 0.02 and np.hypot(moved[0], moved[1]) > 0.2 and abs(moved[2]) < 1e-6, f"not over the floor: {moved}"
+    editor.settled(1)
+    editor.drag(there, rail, keys=["shift"], steps=16)
+    state = editor.wait(lambda s: s["history"]["position"] == 2, "the copy as one step")
+    assert state["counts"]["instances"] == 121 and names(state) == ["Chair cushion 4", "Chair frame 4"]
+    assert np.allclose([part["position"] for part in state["selection"]], [was["position"] for was in start], atol=0.03), "back again"
+
+
+def test_a_box_to_the_right_picks_what_is_inside_and_to_the_left_what_it_touches(editor):
+    editor.key("q")
+    upper, lower = ("picture", 0.53, 0.70), ("picture", 0.80, 0.92)  # the chair but for the ends of its legs
+    editor.drag(upper, lower)
+    assert "Chair frame" not in names(editor.state())
+    editor.drag(lower, upper)
+    editor.wait(lambda s: {"Chair cushion", "Chair frame"} <= set(names(s)), "the chair")
+
+
 def test_a_box_picks_all_that_is_seen_in_it(editor):
     editor.key("q")  # no handles
     editor.drag(("picture", 0.02, 0.02), ("picture", 0.98, 0.98))
