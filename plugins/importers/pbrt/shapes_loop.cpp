@@ -109,7 +109,7 @@ std::vector<std::uint32_t> ring_of(const std::vector<std::pair<std::uint32_t, st
     if (boundary) {
         for (const auto& [a, b] : links) {
             const bool has_before =
-                std::any_of(links.begin(), links.end(), [a = a](const auto& other) { return other.second == a; });
+                std::any_of(links.begin(), links.end(), [from = a](const auto& other) { return other.second == from; });
             if (!has_before) start = a;
         }
     }
