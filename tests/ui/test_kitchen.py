@@ -42,14 +42,14 @@ class Kitchen:
     def __init__(self, editor):
         self.editor = editor
 
-    def picture(self, deselect=True):
+    def picture(self, deselect=True, samples=SAMPLES):
         """Without selection and what else lies over it, and with the mouse away."""
         if deselect:
             self.editor.key("Escape")
             self.editor.wait(lambda s: not s["selection"], "nothing selected")
         self.editor.key("v")  # nothing lies over the picture
         self.editor.move(("picture", 0.06, 0.05))
-        self.editor.settled(SAMPLES)
+        self.editor.settled(samples)
         seen = self.editor.picture()
         self.editor.key("v")
         return seen
@@ -80,9 +80,9 @@ def changed_in(before, after, regions, least):
 
 
 def shown_in(region, before, after, least):
-    """The region changed by `least` in the mean, and more than the picture around it."""
+    """The region changed by `least` in the mean, and clearly more than the whole picture, in which there is noise."""
     d = difference(before, after)
-    assert d[region].mean() > max(least, 4 * d.mean()), f"{d[region].mean():.4f} there, {d.mean():.4f} in the whole picture"
+    assert d[region].mean() > max(least, 2 * d.mean()), f"{d[region].mean():.4f} there, {d.mean():.4f} in the whole picture"
 
 
 def type_path(editor, path):
@@ -164,14 +164,14 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     state = editor.wait(lambda s: s["selection"], "the worktop to be selected")
     assert state["selection"][0]["material"] == "SmallWorktop" and state["selection"][0]["type"] == "coateddiffuse"
     top = kitchen.region()
-    before_material = kitchen.picture()
+    before_material = kitchen.picture(samples=8)
     editor.click(WORKTOP)
     editor.reveal("material.uroughness")
     x, y = editor.point("material.uroughness")
-    editor.drag((x, y), (x + 25, y))
+    editor.drag((x, y), (x + 40, y))
     rough = kitchen.step(4, "the roughness as one step")["material"]["uroughness"]["value"][0]
     assert rough != state["material"]["uroughness"]["value"][0]
-    after_value = kitchen.picture()
+    after_value = kitchen.picture(samples=8)
     shown_in(top, before_material, after_value, 0.01)
     editor.click(WORKTOP)
     editor.reveal("material.type")
@@ -179,7 +179,7 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     editor.click("material.type.diffuse")
     state = kitchen.step(5, "the new type")
     assert state["selection"][0]["type"] == "diffuse"
-    after_material = kitchen.picture()
+    after_material = kitchen.picture(samples=8)
     shown_in(top, after_value, after_material, 0.02)
 
     # A texture is dragged onto it from the list of assets, then a sky.
