@@ -30,7 +30,7 @@ struct Request {
     ViewOptions options;
     std::uint64_t number = 0;
     Clock::time_point time;
-    scene::Version film_version = 0; // of the scene as it came; 0 = not looked at yet
+    std::optional<scene::Film> film; // of the scene as it came, without what is done with a finished picture
 };
 
 } // namespace
@@ -92,7 +92,7 @@ struct LiveView::Impl {
         std::optional<Request> request;
         scene::Version film_version = std::uint64_t(1) << 62; // of the films of other resolutions
         std::uint64_t document = 0;
-        scene::Version film_source = 0;                             // of the scene's own film
+        std::optional<scene::Film> film;                            // the scene's own
         std::uint64_t shown = 0; // number of the request the film is of; 0 = none
         glm::uvec2 size{0}; // of the full picture
         std::uint32_t divider = 1;
@@ -211,10 +211,13 @@ struct LiveView::Impl {
     bool sync(Work& work) {
         scene::Scene& scene = work.request->scene;
         const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
-        if (!work.request->film_version) work.request->film_version = scene.film.version;
-        if (std::exchange(work.film_source, work.request->film_version) != work.request->film_version)
-            ++work.film_version;
         scene::Film& film = scene.film.value;
+        if (!work.request->film) {
+            work.request->film = film;
+            work.request->film->exposure = 1;
+            work.request->film->filename.clear();
+        }
+        if (std::exchange(work.film, work.request->film) != work.request->film) ++work.film_version;
         film.width = size.x;
         film.height = size.y;
         film.crop = {0, 1, 0, 1};

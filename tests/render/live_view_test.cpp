@@ -104,6 +104,11 @@ TEST_CASE("live view: what does not show goes on with the picture that is there"
         scene::Camera other = b.scene.cameras[b.scene.active_camera.value];
         b.scene.cameras.set(b.scene.cameras.next(), other, ++b.scene.clock);
     }
+    SECTION("the exposure and the file's name") {
+        b.scene.film.value.exposure = 2;
+        b.scene.film.value.filename = "other.exr";
+        b.scene.film.version = ++b.scene.clock;
+    }
     view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 12});
     REQUIRE(view.wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.samples == 12; }));
     CHECK(view.live.frame()->image.samples == 12);
@@ -129,6 +134,10 @@ TEST_CASE("live view: what shows begins again") {
         auto i = s.instances[ball];
         i.object_to_world[3].x += 0.25;
         s.instances.set(ball, i, ++s.clock);
+    });
+    change("filtered", [&] {
+        s.film.value.filter.radius = glm::vec2(3);
+        s.film.version = ++s.clock;
     });
     change("hidden", [&] {
         auto i = s.instances[ball];
