@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "progress.hpp"
 #include "rendering.hpp"
+#include "scene/validate.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -19,6 +20,8 @@ Result<int> run(Context& context, Options& o) {
     RESTAGE_CHECK(check_picture_path(o.output));
     RESTAGE_TRY(auto imported, open_scene(context, o.scene));
     scene::Scene& scene = imported.scene;
+    if (!scene.active_camera.value) // importers make one up; a project may have none yet
+        return fail(o.scene + ": " + scene::no_camera + "; add one to the scene it began with");
     RESTAGE_CHECK(apply_options(o, scene));
     o.renderer.strategy = o.strategy == "light"  ? render::Strategy::light_only
                           : o.strategy == "bsdf" ? render::Strategy::bsdf_only

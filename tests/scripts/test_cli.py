@@ -51,6 +51,13 @@ def test_what_cannot_be_done_says_why(args, says, tmp_path):
     assert not list(tmp_path.iterdir()), "a failed command leaves nothing behind"
 
 
+def test_a_project_without_a_camera_is_not_rendered(tmp_path):
+    (tmp_path / "bare.restage").write_text('{"restage": 1}')
+    done = restage("render", tmp_path / "bare.restage", "-o", tmp_path / "x.png", "--size", "8x8", "--spp", 1)
+    assert done.returncode == 1 and "bare.restage: there is no camera to look through" in done.stderr
+    assert not (tmp_path / "x.png").exists()
+
+
 def test_render_writes_layers_and_settings_and_a_seed_repeats_it(tmp_path):
     for name, seed in (("a", 1), ("b", 1), ("c", 2)):
         done = restage("render", CORNELL, "-o", tmp_path / f"{name}.exr", "--size", "64x48", "--spp", 8, "--seed", seed)
