@@ -2,7 +2,7 @@
 // Random directions and random parameter sets drawn from a material's own table.
 #pragma once
 
-#include "gpu/bsdf_lab.hpp"
+#include "gpu/bench.hpp"
 
 #include <algorithm>
 #include <cmath>

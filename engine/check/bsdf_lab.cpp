@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gpu/bsdf_lab.hpp"
+#include "check/bsdf_lab.hpp"
 
 #include "render/material_composer.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
-namespace restage::test {
+namespace restage::check {
 namespace {
 
 // One call site for eval: it is called in a loop, so that the driver compiles it once.
@@ -59,72 +58,38 @@ struct Push {
     std::uint32_t count, words, repeats, pad;
 };
 
-template <class T>
-T value(Result<T> result, const std::string& doing) {
-    if (!result) throw std::runtime_error(doing + ": " + result.error().message);
-    return std::move(*result);
-}
-void value(Result<void> result, const std::string& doing) {
-    if (!result) throw std::runtime_error(doing + ": " + result.error().message);
-}
-
 } // namespace
 
-Bench& Bench::get() {
-    static Bench bench;
-    return bench;
-}
-
-Bench::Bench()
-    : log_([](LogLevel level, std::string_view line) {
-          if (level == LogLevel::error) throw std::runtime_error(std::string(line));
-      }),
-      registry_(log_) {
-    const plugin::SearchPath paths[] = {{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true}};
-    registry_.scan(paths);
-    for (const plugin::Entry* entry : registry_.entries())
-        if (entry->state == plugin::State::refused)
-            throw std::runtime_error(entry->name() + " was refused: " + entry->reason);
-    device_ = value(gpu::Device::create({}, log_), "device");
-    compiler_ = std::make_unique<gpu::ShaderCompiler>(
-        gpu::ShaderCompilerOptions{.include_dirs = {std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"},
-                                   .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
-}
-
-const plugin::MaterialEntry& Bench::material(const char* type) const {
-    const plugin::MaterialEntry* entry = registry_.find_material(type);
-    if (!entry) throw std::runtime_error(std::string("no plugin provides the material ") + type);
-    return *entry;
-}
-
-BsdfLab::BsdfLab(Bench& bench, const plugin::MaterialEntry& material) : bench_(bench), material_(material) {
-    const std::string who = table().type;
+Result<BsdfLab> BsdfLab::create(gpu::Device& device, const gpu::ShaderCompiler& compiler,
+                                const render::MaterialPlugin& material) {
+    BsdfLab lab(device, material);
+    const std::string who = material.table->type;
     render::MaterialType type;
     type.type = who;
-    type.plugin = {material.table, material.plugin->folder};
+    type.plugin = material;
     gpu::ShaderSource source = render::compose_material(type, "bsdf_lab_main.glsl", gpu::ShaderStage::compute);
     source.files["bsdf_lab_main.glsl"] = kernel;
-    const gpu::Spirv spirv = value(bench.compiler().compile(source), who);
+    RESTAGE_TRY(const gpu::Spirv spirv, compiler.compile(source));
     const auto constants = render::spec_constants({}, false, render::Strategy::mis, &type);
-    pipeline_ = value(gpu::ComputePipeline::create(bench.device(), spirv, sizeof(Push), constants, who.c_str()), who);
+    RESTAGE_TRY(lab.pipeline_, gpu::ComputePipeline::create(device, spirv, sizeof(Push), constants, who.c_str()));
+    return lab;
 }
 
-std::vector<BsdfAnswer> BsdfLab::run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
-                                     std::uint32_t repeats) {
+Result<std::vector<BsdfAnswer>> BsdfLab::run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
+                                             std::uint32_t repeats) {
     std::vector<std::uint32_t> words;
     for (const scene::ParamSet& set : configs) {
         const auto packed = render::pack_material(table(), set);
         words.insert(words.end(), packed.begin(), packed.end());
     }
-    const std::string who = table().type;
-    gpu::Device& device = bench_.device();
+    const auto count_of = static_cast<std::uint32_t>(words.size() / configs.size());
     words.resize(words.size() + 4); // a material without parameters still needs memory
-    const gpu::Buffer params = value(device.create_buffer_of<std::uint32_t>(words, "lab params"), who);
+    RESTAGE_TRY(const gpu::Buffer params, device_->create_buffer_of<std::uint32_t>(words, "lab params"));
     std::vector<BsdfAnswer> answers(jobs.size());
     constexpr std::size_t most = 1 << 17; // a dispatch
-    gpu::Buffer in = value(device.create_buffer(most * sizeof(BsdfJob), gpu::BufferKind::host, "lab jobs"), who);
-    gpu::Buffer out =
-        value(device.create_buffer(most * sizeof(BsdfAnswer), gpu::BufferKind::readback, "lab answers"), who);
+    RESTAGE_TRY(gpu::Buffer in, device_->create_buffer(most * sizeof(BsdfJob), gpu::BufferKind::host, "lab jobs"));
+    RESTAGE_TRY(gpu::Buffer out,
+                device_->create_buffer(most * sizeof(BsdfAnswer), gpu::BufferKind::readback, "lab answers"));
     for (std::size_t first = 0; first < jobs.size(); first += most) {
         const std::size_t count = std::min(most, jobs.size() - first);
         std::copy_n(jobs.data() + first, count, in.span<BsdfJob>().data());
@@ -132,15 +97,15 @@ std::vector<BsdfAnswer> BsdfLab::run(std::span<const scene::ParamSet> configs, s
                         .jobs = in.address(),
                         .answers = out.address(),
                         .count = static_cast<std::uint32_t>(count),
-                        .words = static_cast<std::uint32_t>((words.size() - 4) / configs.size()),
+                        .words = count_of,
                         .repeats = repeats,
                         .pad = 0};
-        gpu::CommandList list = value(device.begin(), who);
+        RESTAGE_TRY(gpu::CommandList list, device_->begin());
         list.dispatch(pipeline_, gpu::push_bytes(push), static_cast<std::uint32_t>((count + 63) / 64));
-        value(device.submit_and_wait(list), who);
+        RESTAGE_CHECK(device_->submit_and_wait(list));
         std::copy_n(out.span<BsdfAnswer>().data(), count, answers.data() + first);
     }
     return answers;
 }
 
-} // namespace restage::test
+} // namespace restage::check

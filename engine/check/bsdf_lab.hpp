@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // BsdfLab: runs a material's real GLSL, composed as the renderer composes it, on lists of directions, and returns what
-// eval, pdf, sample and albedo said. What to make of it is the tests' affair.
+// eval, pdf, sample and albedo said. What to make of it is others' affair.
 #pragma once
 
 #include "gpu/compiler.hpp"
 #include "gpu/device.hpp"
 #include "gpu/pipeline.hpp"
-#include "plugin/registry.hpp"
+#include "render/material_types.hpp"
 #include "scene/params.hpp"
 
 #include <array>
-#include <memory>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-namespace restage::test {
+namespace restage::check {
 
 using Vec3 = std::array<float, 3>;
 
@@ -38,40 +38,25 @@ struct BsdfAnswer {
     Vec3 albedo;
 };
 
-inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4;
-
-// Everything the tests of this folder share: device, compiler, and the plugins of this build.
-class Bench {
-  public:
-    static Bench& get(); // made at first use; throws what is missing as a sentence
-    gpu::Device& device() { return *device_; }
-    gpu::ShaderCompiler& compiler() { return *compiler_; }
-    const std::vector<plugin::MaterialEntry>& materials() const { return registry_.materials(); }
-    const plugin::MaterialEntry& material(const char* type) const;
-
-  private:
-    Bench();
-    Log log_;
-    plugin::Registry registry_;
-    std::unique_ptr<gpu::Device> device_;
-    std::unique_ptr<gpu::ShaderCompiler> compiler_;
-};
+inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4; // BSDF_* of shaders/lib/bsdf.glsl
 
 class BsdfLab {
   public:
-    BsdfLab(Bench& bench, const plugin::MaterialEntry& material); // throws std::runtime_error
+    // The plugin's table outlives it; device and compiler too. Errors are the compiler's, with the plugin's own file.
+    static Result<BsdfLab> create(gpu::Device&, const gpu::ShaderCompiler&, const render::MaterialPlugin&);
 
     // `repeats` > 1 averages eval over that many random streams (stochastic materials).
-    std::vector<BsdfAnswer> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
-                                std::uint32_t repeats = 1);
+    Result<std::vector<BsdfAnswer>> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
+                                        std::uint32_t repeats = 1);
     const RestageMaterial1& table() const { return *material_.table; }
-    const std::filesystem::path& folder() const { return material_.plugin->folder; }
+    const std::filesystem::path& folder() const { return material_.folder; }
     bool is(std::uint32_t flag) const { return (table().flags & flag) != 0; }
 
   private:
-    Bench& bench_;
-    plugin::MaterialEntry material_;
+    BsdfLab(gpu::Device& device, render::MaterialPlugin material) : device_(&device), material_(std::move(material)) {}
+    gpu::Device* device_;
+    render::MaterialPlugin material_;
     gpu::ComputePipeline pipeline_;
 };
 
-} // namespace restage::test
+} // namespace restage::check

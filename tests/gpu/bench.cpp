@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/bench.hpp"
+
+#include <stdexcept>
+
+namespace restage::test {
+namespace {
+
+template <class T>
+T value(Result<T> result, const std::string& doing) {
+    if (!result) throw std::runtime_error(doing + ": " + result.error().message);
+    return std::move(*result);
+}
+
+} // namespace
+
+Bench& Bench::get() {
+    static Bench bench;
+    return bench;
+}
+
+Bench::Bench()
+    : log_([](LogLevel level, std::string_view line) {
+          if (level == LogLevel::error) throw std::runtime_error(std::string(line));
+      }),
+      registry_(log_) {
+    const plugin::SearchPath paths[] = {{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true}};
+    registry_.scan(paths);
+    for (const plugin::Entry* entry : registry_.entries())
+        if (entry->state == plugin::State::refused)
+            throw std::runtime_error(entry->name() + " was refused: " + entry->reason);
+    device_ = value(gpu::Device::create({}, log_), "device");
+    compiler_ = std::make_unique<gpu::ShaderCompiler>(
+        gpu::ShaderCompilerOptions{.include_dirs = {std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"},
+                                   .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
+}
+
+const plugin::MaterialEntry& Bench::material(const char* type) const {
+    const plugin::MaterialEntry* entry = registry_.find_material(type);
+    if (!entry) throw std::runtime_error(std::string("no plugin provides the material ") + type);
+    return *entry;
+}
+
+BsdfLab::BsdfLab(Bench& bench, const plugin::MaterialEntry& material)
+    : lab_(value(check::BsdfLab::create(bench.device(), bench.compiler(), {material.table, material.plugin->folder}),
+                 material.table->type)) {}
+
+std::vector<BsdfAnswer> BsdfLab::run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
+                                     std::uint32_t repeats) {
+    return value(lab_.run(configs, jobs, repeats), table().type);
+}
+
+} // namespace restage::test

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the material tests of this folder share: device, compiler, the plugins of this build, and check::BsdfLab with
+// exceptions in place of results, so that a test reads as what it computes.
+#pragma once
+
+#include "check/bsdf_lab.hpp"
+#include "plugin/registry.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace restage::test {
+
+using check::BsdfAnswer, check::BsdfJob, check::Vec3;
+using check::delta, check::reflect, check::transmit;
+
+class Bench {
+  public:
+    static Bench& get(); // made at first use; throws what is missing as a sentence
+    gpu::Device& device() { return *device_; }
+    const gpu::ShaderCompiler& compiler() { return *compiler_; }
+    const std::vector<plugin::MaterialEntry>& materials() const { return registry_.materials(); }
+    const plugin::MaterialEntry& material(const char* type) const;
+
+  private:
+    Bench();
+    Log log_;
+    plugin::Registry registry_;
+    std::unique_ptr<gpu::Device> device_;
+    std::unique_ptr<gpu::ShaderCompiler> compiler_;
+};
+
+class BsdfLab {
+  public:
+    BsdfLab(Bench& bench, const plugin::MaterialEntry& material); // throws std::runtime_error
+    std::vector<BsdfAnswer> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
+                                std::uint32_t repeats = 1);
+    const RestageMaterial1& table() const { return lab_.table(); }
+    const std::filesystem::path& folder() const { return lab_.folder(); }
+    bool is(std::uint32_t flag) const { return lab_.is(flag); }
+
+  private:
+    check::BsdfLab lab_;
+};
+
+} // namespace restage::test
