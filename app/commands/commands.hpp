@@ -18,6 +18,7 @@ void add_info(CLI::App& program, Context& context);
 void add_convert(CLI::App& program, Context& context);
 void add_compare(CLI::App& program, Context& context);
 void add_plugins(CLI::App& program, Context& context);
+void add_check(CLI::App& program, Context& context);
 
 // What `compare` does with two scenes instead of two pictures (compare_scenes.cpp).
 bool is_scene_file(const std::string& path);
@@ -25,7 +26,7 @@ Result<int> compare_scenes(Context& context, const std::string& a, const std::st
 
 // In the order `restage --help` shows them.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
-    add_edit, add_demo, add_render, add_info, add_convert, add_compare, add_plugins,
+    add_edit, add_demo, add_render, add_info, add_convert, add_compare, add_plugins, add_check,
 };
 
 } // namespace restage::app

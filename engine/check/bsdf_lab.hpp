@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,19 @@ struct BsdfAnswer {
     Vec3 albedo;
 };
 
+struct BsdfDrawn { // one sample
+    Vec3 wi, weight;
+    float pdf;
+    std::uint32_t flags;
+    float eta;
+};
+
+struct BsdfLooked { // eval and pdf in one direction; means of the repeats
+    Vec3 eval;
+    float eval_sq; // mean square of its luminance
+    float pdf;
+};
+
 inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4; // BSDF_* of shaders/lib/bsdf.glsl
 
 class BsdfLab {
@@ -48,8 +62,18 @@ class BsdfLab {
     // `repeats` > 1 averages eval over that many random streams (stochastic materials).
     Result<std::vector<BsdfAnswer>> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
                                         std::uint32_t repeats = 1);
+    // `count` samples of one wo, from random numbers made on the device. Same seed, same samples.
+    Result<std::vector<BsdfDrawn>> draw(const scene::ParamSet& config, const Vec3& wo, std::uint32_t seed,
+                                        std::size_t count);
+    Result<std::vector<BsdfLooked>> look(const scene::ParamSet& config, const Vec3& wo, std::span<const Vec3> wi,
+                                         std::uint32_t repeats = 1, std::uint32_t seed = 0);
+
+    // Called after every dispatch (progress; a supervisor's sign of life).
+    std::function<void()> on_dispatch;
+
     const RestageMaterial1& table() const { return *material_.table; }
     const std::filesystem::path& folder() const { return material_.folder; }
+    std::size_t spirv_bytes() const { return pipeline_.shader_bytes(); }
     bool is(std::uint32_t flag) const { return (table().flags & flag) != 0; }
 
   private:
@@ -57,6 +81,12 @@ class BsdfLab {
     gpu::Device* device_;
     render::MaterialPlugin material_;
     gpu::ComputePipeline pipeline_;
+    gpu::Buffer in_, out_; // of one dispatch; kept
+
+    struct Push;
+    template <class In, class Out>
+    Result<std::vector<Out>> dispatch(Push, std::span<const scene::ParamSet> configs, std::span<const In> in,
+                                      std::size_t count);
 };
 
 } // namespace restage::check

@@ -15,6 +15,7 @@
 
 #include <elf.h>
 #include <cstring>
+#include <fstream>
 #endif
 
 namespace restage::plugin {
@@ -58,14 +59,14 @@ namespace {
 // program with SIGBUS, and one for another processor is reported as "no such file". So the ELF header is read first.
 Result<> check_elf(const std::filesystem::path& path) {
     RESTAGE_TRY(const std::string bytes, read_file(path));
-    RESTAGE_TRY(const std::string self, read_file("/proc/self/exe"));
-    const auto broken = [&](const std::string& what) -> Result<> { return fail(path.string() + ": " + what); };
     Elf64_Ehdr header, ours;
+    std::ifstream self("/proc/self/exe", std::ios::binary);
+    if (!self.read(reinterpret_cast<char*>(&ours), sizeof ours)) return fail("/proc/self/exe: cannot be read");
+    const auto broken = [&](const std::string& what) -> Result<> { return fail(path.string() + ": " + what); };
     if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
         return broken("is no shared library (no ELF file)");
     if (bytes.size() < sizeof header) return broken("is truncated");
     std::memcpy(&header, bytes.data(), sizeof header);
-    std::memcpy(&ours, self.data(), sizeof ours);
     if (std::memcmp(header.e_ident, ours.e_ident, EI_VERSION) != 0 || header.e_machine != ours.e_machine)
         return broken("was built for another processor");
     if (header.e_ident[EI_CLASS] != ELFCLASS64) return {};

@@ -4,7 +4,7 @@
 //   { "id": "org.example.velvet", "kind": "material", "version": "1.0.0", "abi": {"min": 1, "max": 1},
 //     "licence": "MIT", "library": "velvet", "files": ["velvet.glsl"] }
 // "abi": 1 is short for min = max = 1. "library" without an extension gets that of the platform. Paths are relative to
-// the manifest's folder and stay inside it. Other keys are ignored.
+// the manifest's folder and stay inside it. Other keys are ignored (`restage check` reads "exceptions").
 #pragma once
 
 #include "base/result.hpp"

@@ -3,7 +3,7 @@
 // exceptions in place of results, so that a test reads as what it computes.
 #pragma once
 
-#include "check/bsdf_lab.hpp"
+#include "check/configs.hpp"
 #include "plugin/registry.hpp"
 
 #include <memory>
@@ -11,8 +11,9 @@
 
 namespace restage::test {
 
-using check::BsdfAnswer, check::BsdfJob, check::Vec3;
-using check::delta, check::reflect, check::transmit;
+using check::BsdfAnswer, check::BsdfJob, check::Vec3, check::delta, check::reflect, check::transmit;
+using check::choice, check::describe, check::luminance, check::random_config, check::white_config, check::wide_config;
+using check::Engine, check::uniform, check::unit, check::unit3, check::direction, check::random_direction;
 
 class Bench {
   public:

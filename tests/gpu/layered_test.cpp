@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coated materials against brute force (layered_reference.hpp): the distribution of the light that leaves, bin by bin,
 // from eval and from sample; and the closed form of the smooth clear coat against its integral in double precision.
-#include "gpu/bsdf_configs.hpp"
+#include "gpu/bench.hpp"
 #include "gpu/layered_reference.hpp"
 
 #include <catch2/catch_test_macros.hpp>

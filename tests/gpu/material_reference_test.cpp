@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GLSL of each closed-form material against the formula of its paper in double precision (bsdf_reference.hpp), at
 // random parameters and directions, both anywhere and where the material's own lobes are.
-#include "gpu/bsdf_configs.hpp"
+#include "gpu/bench.hpp"
 #include "gpu/bsdf_reference.hpp"
 
 #include <catch2/catch_test_macros.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every material promises (engine/sdk/restage/material.h), tested on every material plugin the registry lists:
 // the GLSL contract under random parameters, sample against eval and pdf, energy, furnace, reciprocity.
-#include "gpu/bsdf_configs.hpp"
+#include "gpu/bench.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 
@@ -269,9 +269,6 @@ TEST_CASE("materials: no energy out of nothing, and a white furnace where it is 
                 CHECK(mean <= 1 + 4.5 * sigma + 0.015);
                 if (lab.is(RESTAGE_MATERIAL_LOSSLESS) && i / views % 4 == 0)
                     CHECK(std::abs(mean - 1) <= 4.5 * sigma + 1e-4);
-                // albedo is approximate; it knows no masking.
-                const double albedo = answers[i * draws].albedo[static_cast<std::size_t>(c)];
-                if (i / views == 1) CHECK(std::abs(mean - albedo) < 0.3);
             }
         }
     });

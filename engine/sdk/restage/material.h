@@ -8,7 +8,8 @@
  *                                                        transmission, Veach 1997 sec. 5.2); 0 for delta lobes
  *   float      p_pdf   (p_Params m, vec3 wo, vec3 wi)    solid-angle density of p_sample [1/sr]; 0 for delta lobes
  *   BsdfSample p_sample(p_Params m, vec3 wo, vec3 u)     u in [0,1)^3; see shaders/lib/bsdf.glsl
- *   vec3       p_albedo(p_Params m, vec3 wo)             directional albedo, approximate; guides and light budget
+ *   vec3       p_albedo(p_Params m, vec3 wo)             directional albedo, approximate (at the defaults within 0.3,
+ *                                                        seen at up to 75 degrees); guides and light budget
  *
  * Of a material with RESTAGE_MATERIAL_STOCHASTIC, eval, pdf and sample take `inout Rng rng` as last argument, and the
  * expectation of eval is f*|cos|. `p_Params` is written by the host from the table (fields in its order, already

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage check PLUGIN...: does a plugin do what it promises? Each is tested in a process of its own.
+#include "check/report.hpp"
+#include "check/supervise.hpp"
+#include "commands.hpp"
+
+#include "base/file.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace restage::app {
+namespace {
+
+struct Options {
+    std::vector<std::string> plugins;
+    std::string json, junit, markdown, pictures;
+    check::CheckOptions check;
+    double time_limit = 60;
+    bool in_process = false;
+};
+
+Result<int> run(const Options& o, Context& context) {
+    if (o.in_process) {
+        check::check_in_process(o.plugins.empty() ? "" : o.plugins[0], o.check);
+        return exit_ok;
+    }
+    RESTAGE_TRY(const auto program, executable_path());
+    RESTAGE_TRY(const auto folders, check::find_plugins(program, o.plugins));
+    std::vector<check::PluginReport> reports;
+    bool passed = true;
+    const bool text = o.json != "-";
+    for (const auto& folder : folders) {
+        check::Supervision s;
+        s.program = program, s.folder = folder, s.options = o.check;
+        s.answer_limit = std::chrono::milliseconds(static_cast<long>(o.time_limit * 1000));
+        bool begun = false;
+        s.on_step = [&](const check::PluginReport& so_far, const check::StepResult& step) {
+            if (!text || (context.quiet && step.verdict != check::Verdict::fail)) return;
+            if (!std::exchange(begun, true)) std::printf("%s\n", check::headline(so_far).c_str());
+            std::fputs(check::text_of(step, so_far).c_str(), stdout);
+            std::fflush(stdout);
+        };
+        RESTAGE_TRY(check::PluginReport report, check::check_plugin(s));
+        if (report.steps.empty()) return fail(folder.string() + ": no step is called \"" + o.check.only + "\" for it");
+        passed = passed && report.passed();
+        if (text) std::printf("  %s\n", check::verdict_line(report).c_str());
+        reports.push_back(std::move(report));
+    }
+    if (!o.json.empty()) {
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
+        for (const auto& r : reports)
+            all.push_back(check::to_json(r));
+        const std::string out = all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+        if (o.json == "-")
+            std::fputs(out.c_str(), stdout);
+        else
+            RESTAGE_CHECK(write_file_atomic(o.json, out));
+    }
+    if (!o.junit.empty()) RESTAGE_CHECK(write_file_atomic(o.junit, check::junit(reports)));
+    if (!o.markdown.empty()) RESTAGE_CHECK(write_file_atomic(o.markdown, check::markdown(reports)));
+    return passed ? exit_ok : exit_failed;
+}
+
+} // namespace
+
+void add_check(CLI::App& program, Context& context) {
+    auto o = std::make_shared<Options>();
+    auto* command = program.add_subcommand("check", "Test plugins: do they do what they promise?");
+    command->add_option("PLUGIN", o->plugins, "Folder with a plugin.json, id, or what it provides (default: all)");
+    command->add_option("--json", o->json, "Write the reports as JSON (- = stdout, and no text)")->type_name("FILE");
+    command->add_option("--junit", o->junit, "Write them as JUnit XML, for CI")->type_name("FILE");
+    command->add_option("--markdown", o->markdown, "Write them as a table in Markdown")->type_name("FILE");
+    command->add_option("--seed", o->check.seed, "Seed of all random numbers; replays a failure")
+        ->capture_default_str();
+    std::string names;
+    for (const auto* steps :
+         {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(), &check::importer_steps()})
+        for (const check::Step& s : *steps)
+            names += (names.empty() ? "" : ", ") + std::string(s.name);
+    command->add_option("--only", o->check.only, "One step alone: " + names)->type_name("STEP");
+    command->add_flag("--quick", o->check.quick, "A few seconds a plugin: fewer configurations and samples");
+    command->add_option("--time-limit", o->time_limit, "Longest time without an answer from the plugin or the GPU [s]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_flag("--in-process", o->in_process)->group(""); // what we start ourselves
+    command->callback([&context, o] { context.choose([&context, o] { return run(*o, context); }); });
+}
+
+} // namespace restage::app

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/configs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+namespace restage::check {
+
+using scene::ParamSet;
+using scene::Value;
+
+namespace {
+
+template <class F>
+void each_line(const RestageMaterial1& table, F&& f) {
+    for (std::uint32_t i = 0; i < table.param_count; ++i)
+        f(table.params[i]);
+}
+
+Value bound(const RestageParam& p, float x) {
+    switch (p.type) {
+        case RESTAGE_COLOR:
+            return Value::color(x, x, x);
+        case RESTAGE_INT:
+            return Value::integer(static_cast<int>(std::lround(x)));
+        default:
+            return Value::number(x);
+    }
+}
+
+} // namespace
+
+float uniform(Engine& e, float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(e); }
+
+Vec3 direction(float z, float phi) {
+    const float r = std::sqrt(std::max(0.f, 1 - z * z));
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+Vec3 from_degrees(double theta, double phi) {
+    const double t = theta * std::numbers::pi / 180, p = phi * std::numbers::pi / 180;
+    return {static_cast<float>(std::sin(t) * std::cos(p)), static_cast<float>(std::sin(t) * std::sin(p)),
+            static_cast<float>(std::cos(t))};
+}
+
+Vec3 random_direction(Engine& e, float z_min) {
+    const float z = uniform(e, z_min, 1);
+    return direction(z, uniform(e, 0, 2 * std::numbers::pi_v<float>));
+}
+
+std::string choice(const RestageParam& p, std::size_t i) {
+    std::stringstream all(p.choices);
+    std::string word;
+    for (std::size_t k = 0; k <= i; ++k)
+        std::getline(all, word, '|');
+    return word;
+}
+
+std::size_t choices(const RestageParam& p) {
+    const std::string_view text = p.choices;
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) + 1;
+}
+
+void keep_sum(const RestageMaterial1& table, ParamSet& set) {
+    if (!(table.flags & RESTAGE_MATERIAL_ADDITIVE)) return;
+    float sum = 0;
+    each_line(table, [&](const RestageParam& p) {
+        if (p.type != RESTAGE_COLOR || is_opacity(p)) return;
+        const auto c = set.color(p.id, {p.def[0], p.def[1], p.def[2]});
+        sum += std::max({c[0], c[1], c[2]});
+    });
+    each_line(table, [&](const RestageParam& p) {
+        if (p.type != RESTAGE_COLOR || is_opacity(p)) return;
+        const auto c = set.color(p.id, {p.def[0], p.def[1], p.def[2]});
+        const float s = 1 / std::max(1.f, sum);
+        set.set(p.id, Value::color(c[0] * s, c[1] * s, c[2] * s));
+    });
+}
+
+ParamSet random_config(const RestageMaterial1& table, Engine& e) {
+    ParamSet set;
+    const auto number = [&](const RestageParam& p) {
+        const float x = uniform(e);
+        return x < 0.1f ? p.min : x < 0.2f ? p.max : uniform(e, p.min, p.max);
+    };
+    each_line(table, [&](const RestageParam& p) {
+        switch (p.type) {
+            case RESTAGE_FLOAT:
+                set.set(p.id, Value::number(number(p)));
+                break;
+            case RESTAGE_COLOR: {
+                const float r = number(p), g = number(p), b = number(p);
+                set.set(p.id, Value::color(r, g, b));
+                break;
+            }
+            case RESTAGE_INT:
+                set.set(p.id, Value::integer(static_cast<int>(std::lround(number(p)))));
+                break;
+            case RESTAGE_BOOL:
+                set.set(p.id, Value::boolean(uniform(e) < 0.5f));
+                break;
+            case RESTAGE_ENUM:
+                set.set(p.id, Value::choice(choice(p, e() % choices(p))));
+                break;
+            default:
+                break;
+        }
+    });
+    keep_sum(table, set);
+    return set;
+}
+
+ParamSet wide_config(const RestageMaterial1& table, Engine& e) {
+    ParamSet set = random_config(table, e);
+    each_line(table, [&](const RestageParam& p) {
+        if (is_roughness(p)) set.set(p.id, Value::number(uniform(e, 0.2f, 0.8f)));
+        if (std::string_view(p.id) == "remap") set.set(p.id, Value::choice("none"));
+        if (p.type == RESTAGE_INT) set.set(p.id, Value::integer(static_cast<int>(p.def[0])));
+    });
+    return set;
+}
+
+ParamSet white_config(const RestageMaterial1& table) {
+    ParamSet set;
+    each_line(table, [&](const RestageParam& p) {
+        if (p.type == RESTAGE_COLOR) set.set(p.id, Value::color(1, 1, 1));
+    });
+    keep_sum(table, set);
+    return set;
+}
+
+ParamSet rough_config(const RestageMaterial1& table, float r, float r_other) {
+    ParamSet set;
+    bool second = false;
+    each_line(table, [&](const RestageParam& p) {
+        if (!is_roughness(p) || p.type != RESTAGE_FLOAT) return;
+        set.set(p.id, Value::number(std::clamp(second ? r_other : r, p.min, p.max)));
+        second = !second;
+    });
+    return set;
+}
+
+std::vector<ParamSet> config_grid(const RestageMaterial1& table, Engine& e, std::size_t count) {
+    std::vector<ParamSet> grid{{}};
+    const auto add = [&](ParamSet set) {
+        keep_sum(table, set);
+        if (grid.size() < count && std::find(grid.begin(), grid.end(), set) == grid.end())
+            grid.push_back(std::move(set));
+    };
+    add(rough_config(table, 0.1f, 0.4f));
+    add(rough_config(table, 0.5f, 0.5f));
+    add(wide_config(table, e));
+    add(rough_config(table, 0.003f, 0.003f));
+    add(rough_config(table, 1, 1));
+    add(random_config(table, e));
+    add(rough_config(table, 0, 0));
+    const ParamSet base = rough_config(table, 0.3f, 0.3f);
+    each_line(table, [&](const RestageParam& p) {
+        ParamSet set = base;
+        if (p.type == RESTAGE_ENUM) {
+            for (std::size_t i = 0; i < choices(p); ++i)
+                if (i != static_cast<std::size_t>(p.def[0])) set.set(p.id, Value::choice(choice(p, i))), add(set);
+        } else if (p.type == RESTAGE_BOOL) {
+            set.set(p.id, Value::boolean(p.def[0] == 0)), add(set);
+        } else if (p.type == RESTAGE_FLOAT || p.type == RESTAGE_INT || p.type == RESTAGE_COLOR) {
+            if (is_roughness(p)) return;
+            for (const float x : {p.max, p.min})
+                if (x != p.def[0]) set.set(p.id, bound(p, x)), add(set);
+        }
+    });
+    while (grid.size() < count && table.param_count > 0) {
+        const std::size_t before = grid.size();
+        add(wide_config(table, e)), add(random_config(table, e));
+        if (grid.size() == before) break; // nothing in the table can be drawn anew
+    }
+    return grid;
+}
+
+std::string describe(const ParamSet& set) {
+    if (set.entries().empty()) return "the defaults";
+    std::ostringstream out;
+    out.precision(9);
+    for (const auto& [id, v] : set.entries()) {
+        out << (&id == &set.entries().front().id ? "" : " ") << id << '=';
+        if (v.type == RESTAGE_ENUM)
+            out << v.text;
+        else if (v.type == RESTAGE_COLOR)
+            out << '(' << v.v[0] << ' ' << v.v[1] << ' ' << v.v[2] << ')';
+        else
+            out << v.v[0];
+    }
+    return out.str();
+}
+
+std::string describe(const Vec3& v) {
+    std::ostringstream out;
+    out.precision(9);
+    out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
+    return out.str();
+}
+
+std::string describe(const BsdfJob& job, const BsdfAnswer& a) {
+    std::ostringstream out;
+    out.precision(9);
+    out << "wo " << describe(job.wo) << " wi " << describe(job.wi) << " u " << describe(job.u) << " seed " << job.seed
+        << " -> eval " << describe(a.eval) << " pdf " << a.pdf << " sample: wi " << describe(a.wi) << " weight "
+        << describe(a.weight) << " pdf " << a.sample_pdf << " flags " << a.flags << " eta " << a.eta << " there: eval "
+        << describe(a.eval_sampled) << " reverse " << describe(a.eval_reverse) << " albedo " << describe(a.albedo)
+        << " pdf " << a.pdf_sampled;
+    return out.str();
+}
+
+} // namespace restage::check

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/density.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace restage::check {
+namespace {
+
+constexpr std::size_t pilot_draws = 1 << 16;
+constexpr std::size_t most_in_cell = 160; // of the pilot's samples: 0.24 %
+constexpr std::size_t most_evaluations = 3'000'000;
+// How large the error of an expected count may be, in its standard deviations: adds 1 % to chi-square at most.
+constexpr double integral_sigma = 0.1;
+
+bool is_spread(const BsdfDrawn& s) { return s.flags != 0 && (s.flags & delta) == 0; }
+
+std::string say_cell(const SphereCells& cells, std::size_t i, double expected, double counted) {
+    const Vec3 w = cells.cell(i).at(0.5, 0.5);
+    return fmt::format("{} samples around wi {}, {:.1f} expected by pdf", counted, describe(w), expected);
+}
+
+} // namespace
+
+Result<DensityResult> measure_density(BsdfLab& lab, const DensityCase& c, std::size_t draws) {
+    DensityResult result;
+    result.draws = static_cast<double>(draws);
+    RESTAGE_TRY(const std::vector<BsdfDrawn> pilot, lab.draw(c.config, c.wo, c.seed * 2 + 1, pilot_draws));
+    std::vector<Vec3> directions;
+    for (const BsdfDrawn& s : pilot)
+        if (is_spread(s)) directions.push_back(s.wi);
+    const SphereCells cells(directions, most_in_cell);
+
+    RESTAGE_TRY(const std::vector<BsdfDrawn> samples, lab.draw(c.config, c.wo, c.seed * 2, draws));
+    std::vector<double> observed(cells.size()), expected(cells.size());
+    for (const BsdfDrawn& s : samples) {
+        const bool spread = is_spread(s);
+        result.spread += spread / result.draws;
+        if (spread) observed[cells.find(s.wi)] += 1;
+        for (std::size_t k = 0; k < 3; ++k)
+            result.weight[k].add(spread ? double(s.weight[k]) : 0);
+    }
+
+    const auto evaluate = [&](std::span<const Vec3> wi) -> Result<std::vector<Integrand>> {
+        RESTAGE_TRY(const std::vector<BsdfLooked> looked, lab.look(c.config, c.wo, wi));
+        std::vector<Integrand> values(looked.size());
+        for (std::size_t i = 0; i < looked.size(); ++i) {
+            const BsdfLooked& l = looked[i];
+            const bool sound = std::isfinite(l.pdf) && l.pdf >= 0;
+            if (!sound) result.bad_pdf += 1;
+            values[i] = {sound ? double(l.pdf) : 0, l.eval[0], l.eval[1], l.eval[2]};
+        }
+        return values;
+    };
+    const auto tolerance = [&](double p) { return integral_sigma * std::sqrt(p * result.draws + 1) / result.draws; };
+    const auto doubtful = [&](std::size_t cell, double value) {
+        const double n = value * result.draws;
+        return std::abs(observed[cell] - n) > 2.5 * std::sqrt(n + 1);
+    };
+    RESTAGE_TRY(const Quadrature q, integrate(cells, {evaluate, tolerance, most_evaluations, doubtful}));
+    result.evaluations = q.evaluations;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const CellIntegral& cell = q.cells[i];
+        expected[i] = cell.value[0] * result.draws;
+        result.pdf_integral += cell.value[0], result.pdf_error += cell.error;
+        for (std::size_t k = 0; k < 3; ++k)
+            result.eval_integral[k] += cell.value[k + 1];
+        // What quadrature cannot settle (a discontinuity finer than float directions) says nothing about the samples.
+        if (cell.error * result.draws > 0.5 * std::sqrt(expected[i] + 1)) {
+            result.unresolved += cell.value[0];
+            observed[i] = expected[i] = 0;
+            continue;
+        }
+        const double sigma = std::abs(observed[i] - expected[i]) / std::sqrt(expected[i] + 1);
+        if (sigma > result.worst_sigma) {
+            result.worst_sigma = sigma;
+            result.worst = say_cell(cells, i, expected[i], observed[i]);
+        }
+    }
+    result.chi = chi_square(observed, expected);
+    return result;
+}
+
+} // namespace restage::check

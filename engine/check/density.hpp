@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// One set of parameters and one wo: a million samples against the density and the value that the material states.
+// For materials whose eval and pdf are functions; of stochastic ones see expectation.hpp.
+#pragma once
+
+#include "check/configs.hpp"
+#include "check/sphere_cells.hpp"
+#include "check/statistics.hpp"
+
+#include <string>
+
+namespace restage::check {
+
+struct DensityCase {
+    scene::ParamSet config;
+    Vec3 wo{};
+    std::uint32_t seed = 0;
+};
+
+struct DensityResult {
+    double draws = 0;
+    ChiSquare chi;           // samples against pdf
+    std::string worst;       // the cell that differs most: where, expected and counted
+    double worst_sigma = 0;
+    double spread = 0;       // share of samples that are neither delta nor absorbed
+    double pdf_integral = 0, pdf_error = 0;
+    double unresolved = 0;   // share of pdf in cells whose integral stayed uncertain
+    Mean weight[3];          // of the spread samples, over all draws
+    double eval_integral[3] = {};
+    double bad_pdf = 0;      // directions whose pdf is not finite or negative (then nothing else is said)
+    std::size_t evaluations = 0;
+};
+
+Result<DensityResult> measure_density(BsdfLab& lab, const DensityCase& c, std::size_t draws);
+
+} // namespace restage::check

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps, one function each; their names and order are in steps.cpp.
+#pragma once
+
+#include "check/subject.hpp"
+
+namespace restage::check {
+
+// steps_plugin.cpp
+Result<StepResult> check_manifest(Subject&);
+Result<StepResult> check_load(Subject&);
+Result<StepResult> check_reload(Subject&);
+Result<StepResult> check_denoiser(Subject&);
+Result<StepResult> check_importer(Subject&);
+// steps_glsl.cpp
+Result<StepResult> check_glsl(Subject&);
+Result<StepResult> check_names(Subject&);
+Result<StepResult> check_cost(Subject&);
+// steps_sound.cpp
+Result<StepResult> check_sound(Subject&);
+// steps_density.cpp
+Result<StepResult> check_chi_square(Subject&);
+Result<StepResult> check_integral(Subject&);
+Result<StepResult> check_weight(Subject&);
+// steps_energy.cpp
+Result<StepResult> check_energy(Subject&);
+Result<StepResult> check_furnace(Subject&);
+Result<StepResult> check_albedo(Subject&);
+// steps_symmetry.cpp
+Result<StepResult> check_reciprocity(Subject&);
+Result<StepResult> check_limit(Subject&);
+
+} // namespace restage::check

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/subject.hpp"
+
+#include "base/file.hpp"
+
+#include <fmt/format.h>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace restage::check {
+
+namespace fs = std::filesystem;
+
+const char* to_string(Verdict v) { return v == Verdict::pass ? "pass" : v == Verdict::fail ? "fail" : "skipped"; }
+
+bool PluginReport::passed() const {
+    bool any = false;
+    for (const StepResult& s : steps) {
+        if (s.verdict == Verdict::fail) return false;
+        any = any || s.verdict == Verdict::pass;
+    }
+    return any;
+}
+
+Subject::Subject(fs::path f, CheckOptions o, std::function<void()> a)
+    : folder(std::move(f)),
+      options(std::move(o)),
+      alive(std::move(a)),
+      log_([this](LogLevel level, std::string_view l) {
+          if (level >= LogLevel::warning) log_lines.emplace_back(l);
+      }) {
+    // The keys of the manifest that are ours alone; what is wrong with it is the manifest step's affair.
+    const auto text = read_file(folder / "plugin.json");
+    const auto json = nlohmann::json::parse(text ? *text : "", nullptr, false);
+    if (json.is_object() && json.contains("exceptions") && json["exceptions"].is_array())
+        for (const auto& e : json["exceptions"])
+            if (e.is_object()) exceptions_[e.value("step", "")] = {e.value("limit", 0.0), e.value("why", "")};
+}
+
+Result<> Subject::load() {
+    log_lines.clear();
+    registry_ = std::make_unique<plugin::Registry>(log_);
+    const plugin::SearchPath path[] = {{folder, true}};
+    registry_->scan(path);
+    for (const plugin::Entry* e : registry_->entries())
+        entry_ = e;
+    if (!entry_) return fail(folder.string() + ": there is no plugin.json in this folder");
+    if (entry_->state == plugin::State::refused) return fail(entry_->reason);
+    return {};
+}
+
+void Subject::choose(const RestageMaterial1* table) {
+    table_ = table;
+    lab_.reset();
+    densities_.reset();
+    density_cases_.clear();
+}
+
+Result<gpu::Device*> Subject::device() {
+    if (!device_) {
+        RESTAGE_TRY(device_, gpu::Device::create({}, log_));
+        alive();
+    }
+    return device_.get();
+}
+
+Result<gpu::ShaderCompiler*> Subject::compiler() {
+    if (!compiler_) {
+        RESTAGE_TRY(const fs::path bin, executable_dir());
+        const fs::path shaders = bin.parent_path() / "share/restage/shaders";
+        if (!fs::exists(shaders / "check_lab.glsl"))
+            return fail(shaders.string() + ": Restage's shaders are not there; the installation is incomplete");
+        // No cache: compiling is one of the things that are measured.
+        compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{.include_dirs = {shaders}});
+    }
+    return compiler_.get();
+}
+
+Result<BsdfLab*> Subject::lab() {
+    if (!lab_) {
+        RESTAGE_TRY(gpu::Device* const device_used, device());
+        RESTAGE_TRY(gpu::ShaderCompiler* const compiler_used, compiler());
+        RESTAGE_TRY(BsdfLab made, BsdfLab::create(*device_used, *compiler_used, {table_, folder}));
+        lab_ = std::make_unique<BsdfLab>(std::move(made));
+        lab_->on_dispatch = alive;
+    }
+    return lab_.get();
+}
+
+const std::vector<DensityCase>& Subject::density_cases() {
+    if (!density_cases_.empty()) return density_cases_;
+    Engine e = random("density");
+    const auto grid = config_grid(*table_, e, size(12, 4));
+    std::vector<double> angles = {0, 45, 75, 89.9, 20, 60, 85, 150, 110, 90.1};
+    if (options.quick) angles = {30, 80, 89.9, 130};
+    for (const scene::ParamSet& set : grid)
+        for (const double theta : angles)
+            density_cases_.push_back({set, from_degrees(theta, uniform(e, 0, 360)), e()});
+    return density_cases_;
+}
+
+Result<const std::vector<DensityResult>*> Subject::densities() {
+    if (!densities_) {
+        RESTAGE_TRY(BsdfLab* const used, lab());
+        std::vector<DensityResult> all;
+        for (const DensityCase& c : density_cases()) {
+            RESTAGE_TRY(DensityResult r, measure_density(*used, c, size(1'000'000, 200'000)));
+            all.push_back(std::move(r));
+        }
+        densities_ = std::move(all);
+    }
+    return &*densities_;
+}
+
+std::optional<Exception> Subject::exception(const std::string& step) const {
+    const auto it = exceptions_.find(step);
+    return it == exceptions_.end() ? std::nullopt : std::optional(it->second);
+}
+
+Engine Subject::random(const char* step) const {
+    return Engine(static_cast<std::uint32_t>(hash64(step, options.seed)));
+}
+
+std::string degrees(const Vec3& w) {
+    const double theta = std::atan2(std::hypot(w[0], w[1]), w[2]) * 180 / std::numbers::pi;
+    return fmt::format("{:.4g} degrees{}", theta, w[2] < 0 ? ", back side" : "");
+}
+
+std::string where(const scene::ParamSet& config, const Vec3& wo) {
+    return fmt::format("{}; wo {} ({})", describe(config), describe(wo), degrees(wo));
+}
+
+void run_steps(Subject& subject, const std::function<void(const std::string&, const std::string&)>& begun,
+               const std::function<void(const StepResult&)>& done) {
+    std::string broken; // why nothing that follows makes sense
+    const auto run_all = [&](const std::vector<Step>& steps, const std::string& of) {
+        for (const Step& step : steps) {
+            if (!subject.options.only.empty() && subject.options.only != step.name && std::string(step.name) != "load")
+                continue;
+            begun(step.name, of);
+            const auto start = std::chrono::steady_clock::now();
+            StepResult result;
+            if (!broken.empty()) {
+                result = StepResult::skip(broken);
+            } else {
+                auto answer = step.run(subject);
+                result = answer ? std::move(*answer) : StepResult::failed(answer.error().message);
+            }
+            result.step = step.name, result.of = of;
+            if (result.verdict == Verdict::fail && result.cause.empty()) result.cause = step.cause;
+            result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            // Without a manifest, a loaded library or GLSL that compiles there is nothing to measure.
+            const std::string name = step.name;
+            if (result.verdict == Verdict::fail && (name == "manifest" || name == "load" || name == "glsl"))
+                broken = "step " + name + " failed";
+            done(result);
+        }
+    };
+    run_all(plugin_steps(), "");
+    if (!broken.empty()) return;
+    for (const auto& m : subject.registry().materials()) {
+        broken.clear();
+        subject.choose(m.table);
+        run_all(material_steps(), m.table->type);
+    }
+    if (!subject.registry().denoisers().empty())
+        run_all(denoiser_steps(), subject.registry().denoisers()[0].table->type);
+    if (!subject.registry().importers().empty())
+        run_all(importer_steps(), subject.registry().importers()[0].table->format);
+}
+
+} // namespace restage::check

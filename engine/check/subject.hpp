@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plugin under test and what its steps share: its registry of its own, the device, and the material's lab.
+#pragma once
+
+#include "check/configs.hpp"
+#include "check/density.hpp"
+#include "check/step.hpp"
+#include "plugin/registry.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace restage::check {
+
+struct CheckOptions {
+    std::uint32_t seed = 1;
+    bool quick = false;
+    std::string only;               // a step's name; empty: all
+    std::filesystem::path pictures; // folder for the pages; empty: none
+};
+
+// plugin.json's "exceptions": [{"step": "energy", "limit": 1.015, "why": "..."}]: what a published model is known to
+// break, and by how much. The report states it; beyond its limit the step fails all the same.
+struct Exception {
+    double limit = 0;
+    std::string why;
+};
+
+class Subject {
+  public:
+    Subject(std::filesystem::path folder, CheckOptions options, std::function<void()> alive);
+
+    const std::filesystem::path folder;
+    const CheckOptions options;
+    const std::function<void()> alive; // a sign of life for who supervises us
+    std::vector<std::string> log_lines; // warnings and errors of the last load
+
+    Result<> load(); // scans the folder, alone
+    plugin::Registry& registry() { return *registry_; }
+    const plugin::Entry* entry() const { return entry_; } // null before load
+
+    // The material that the following steps are about.
+    void choose(const RestageMaterial1* table);
+    const RestageMaterial1& table() const { return *table_; }
+    bool is(std::uint32_t flag) const { return (table_->flags & flag) != 0; }
+    Result<gpu::Device*> device();
+    Result<gpu::ShaderCompiler*> compiler();
+    Result<BsdfLab*> lab(); // compiled at first use
+    // Of the material's density tests; measured at first use.
+    Result<const std::vector<DensityResult>*> densities();
+    const std::vector<DensityCase>& density_cases();
+
+    std::optional<Exception> exception(const std::string& step) const;
+    Engine random(const char* step) const; // the same numbers whatever other steps do
+    std::size_t size(std::size_t full, std::size_t quick) const { return options.quick ? quick : full; }
+
+  private:
+    Log log_;
+    std::unique_ptr<plugin::Registry> registry_;
+    const plugin::Entry* entry_ = nullptr;
+    const RestageMaterial1* table_ = nullptr;
+    std::map<std::string, Exception> exceptions_;
+    std::unique_ptr<gpu::Device> device_;
+    std::unique_ptr<gpu::ShaderCompiler> compiler_;
+    std::unique_ptr<BsdfLab> lab_;
+    std::vector<DensityCase> density_cases_;
+    std::optional<std::vector<DensityResult>> densities_;
+};
+
+// "roughness=0.3, wo (0.5, 0, 0.866) (30 degrees)"
+std::string where(const scene::ParamSet& config, const Vec3& wo);
+std::string degrees(const Vec3& w);
+
+struct Step {
+    const char* name;
+    const char* tests; // one line for --help and the documents
+    Result<StepResult> (*run)(Subject&);
+    const char* cause; // what usually makes it fail
+};
+const std::vector<Step>& plugin_steps();   // of every plugin, once
+const std::vector<Step>& material_steps(); // of every material of the plugin
+const std::vector<Step>& denoiser_steps();
+const std::vector<Step>& importer_steps();
+
+// All steps in order. `begun` is called before each, `done` after it.
+void run_steps(Subject& subject, const std::function<void(const std::string& step, const std::string& of)>& begun,
+               const std::function<void(const StepResult&)>& done);
+
+} // namespace restage::check
