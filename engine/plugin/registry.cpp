@@ -99,7 +99,7 @@ Registry::~Registry() {
         plugins_.pop_back();
 }
 
-std::vector<SearchPath> Registry::default_paths() {
+std::vector<SearchPath> Registry::default_paths(fs::path prefix) {
     std::vector<SearchPath> paths;
     if (const auto user = user_data_dir()) paths.push_back({*user / "plugins", false});
 #if defined(_WIN32)
@@ -115,8 +115,8 @@ std::vector<SearchPath> Registry::default_paths() {
             rest.remove_prefix(std::min(end + 1, rest.size()));
         }
     }
-    if (const auto here = executable_dir())
-        paths.push_back({here->parent_path() / "lib" / "restage" / "plugins", false});
+    if (const auto here = executable_dir(); prefix.empty() && here) prefix = here->parent_path();
+    if (!prefix.empty()) paths.push_back({prefix / "lib" / "restage" / "plugins", false});
     return paths;
 }
 

@@ -55,8 +55,9 @@ class Registry {
     Registry(const Registry&) = delete;
     Registry& operator=(const Registry&) = delete;
 
-    // The user's folder, then RESTAGE_PLUGIN_PATH, then <program>/../lib/restage/plugins. Of one id the first wins.
-    static std::vector<SearchPath> default_paths();
+    // The user's folder, then RESTAGE_PLUGIN_PATH, then <prefix>/lib/restage/plugins. Of one id the first wins.
+    // `prefix`: where Restage is installed; empty = the folder above the program's.
+    static std::vector<SearchPath> default_paths(std::filesystem::path prefix = {});
     void scan(std::span<const SearchPath>);
 
     // Everything that was found, in the order of finding; pointers stay valid.

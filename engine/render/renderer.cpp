@@ -92,7 +92,7 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
 Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_going) {
     if (tracer_->adopt()) reset();
     TraceRequest request;
-    request.first_sample = samples_;
+    request.first_sample = first_sample_ + samples_;
     request.samples = samples;
     request.seed = options_.seed;
     request.crop_x = crop_origin_.x;

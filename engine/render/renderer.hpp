@@ -47,6 +47,13 @@ class Renderer {
         samples_ = 0;
         if (film_) film_->clear();
     }
+    // The film starts again with other random numbers: of this seed, from this sample of a pixel on. Ranges of samples
+    // of one seed, rendered apart, are together what rendering them in one go gives.
+    void restart(std::uint32_t seed, std::uint32_t first_sample = 0) {
+        options_.seed = seed;
+        first_sample_ = first_sample;
+        reset();
+    }
 
     const TraceStats& stats() const { return tracer_->stats(); }
     void reset_stats() { tracer_->reset_stats(); }
@@ -70,7 +77,7 @@ class Renderer {
     std::unique_ptr<Tracer> tracer_;
     std::optional<Film> film_;
     glm::uvec2 crop_origin_{0};
-    std::uint32_t samples_ = 0;
+    std::uint32_t samples_ = 0, first_sample_ = 0;
 };
 
 } // namespace restage::render

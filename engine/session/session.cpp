@@ -114,6 +114,10 @@ Result<bool> Session::set_material(Instances ids, Id<Material> material) {
 }
 
 Result<bool> Session::set_param(Id<Material> id, std::string_view param, Value value, std::string_view gesture) {
+    return edit(param_edit(id, param, std::move(value)), gesture);
+}
+
+Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value value) const {
     const Material* material = scene_.materials.find(id);
     const auto* plugin = material ? registry_.find_material(material->type) : nullptr;
     const bool common = param == "bump" || param == "normalmap";
@@ -137,7 +141,7 @@ Result<bool> Session::set_param(Id<Material> id, std::string_view param, Value v
                 return fail(who + ": " + std::to_string(value.v[static_cast<std::size_t>(i)]) +
                             " is out of its range, " + std::to_string(line->min) + " to " + std::to_string(line->max));
     }
-    return edit(scene::set_param(scene_, id, param, std::move(value)), gesture);
+    return scene::set_param(scene_, id, param, std::move(value));
 }
 
 Result<Id<Material>> Session::add_material(std::string name, std::string type) {

@@ -63,6 +63,8 @@ class Session {
     // material whose plugin is missing takes any.
     Result<bool> set_param(scene::Id<scene::Material>, std::string_view param, scene::Value,
                            std::string_view gesture = {});
+    // The same, not applied yet.
+    Result<scene::Edit> param_edit(scene::Id<scene::Material>, std::string_view param, scene::Value) const;
     Result<scene::Id<scene::Material>> add_material(std::string name, std::string type);
     // The objects of another file become new objects here, as one step of the history; what became of them is added to
     // the report. `stand`: the middle of their underside is put there.

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Restage: open 3D scenes, change them, path-trace them, write them back.
+
+    import restage
+
+    with restage.open("room.pbrt") as session:
+        session.find("Chair").duplicate(by=(1.2, 0, 0)).rotate(30)
+        session.materials["Wall paint"]["reflectance"] = (0.07, 0.17, 0.19)
+        picture = session.render(size=(640, 360), samples=64, denoise=True)
+        picture.save("room.png")
+        wall = picture.mask(session.materials["Wall paint"])  # bool (H, W)
+        session.undo()
+        session.export("edited.pbrt")
+
+Lengths are in the scene's own unit, angles in degrees, colours linear sRGB. Every change goes through the session's
+history, as in the editor. What cannot be done raises restage.Error with a sentence. Warnings of the engine go to the
+logger "restage" of Python's logging.
+"""
+import pathlib as _pathlib
+
+from . import _core
+from ._core import (
+    Camera, Cameras, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
+    Plugin, Progress, Report, ReportEntry, Selection, Session, Sky, Step, Texture, Textures,
+    load_plugins, material_types, merge, new, open, plugins,
+)
+from .bsdf import Bsdf, BsdfSample
+
+__version__ = "0.1.0"
+
+_here = _pathlib.Path(__file__).parent
+# In a wheel all is inside the package; in a build tree or an installed one the package is lib/python/restage.
+_core._set_home(_here if (_here / "share").is_dir() else _pathlib.Path(_core.__file__).parents[3])
+
+
+
+def _program() -> _pathlib.Path:
+    """The program `restage` of this installation."""
+    program = _pathlib.Path(_core._home()) / "bin" / "restage"
+    if not program.exists():
+        raise Error(f"{program}: the program is not there; the installation is incomplete")
+    return program
+
+
+__all__ = [
+    "Bsdf", "BsdfSample", "Camera", "Cameras", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
+    "Object", "Objects", "Parameter", "Picture", "Plugin", "Progress", "Report", "ReportEntry", "Selection", "Session",
+    "Sky", "Step", "Texture", "Textures", "load_plugins", "material_types", "merge", "new", "open", "plugins",
+]

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host.hpp"
+
+#include <algorithm>
+
+namespace restage::python {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path& home_path() {
+    static fs::path path;
+    return path;
+}
+
+int python_level(LogLevel level) { // of Python's logging
+    switch (level) {
+        case LogLevel::debug:
+            return 10;
+        case LogLevel::info:
+            return 20;
+        case LogLevel::warning:
+            return 30;
+        case LogLevel::error:
+            break;
+    }
+    return 40;
+}
+
+} // namespace
+
+void Host::set_home(fs::path path) { home_path() = std::move(path); }
+const fs::path& Host::home() { return home_path(); }
+
+const std::shared_ptr<Host>& Host::get() {
+    static const auto host = std::make_shared<Host>(home());
+    host->flush_log();
+    return host;
+}
+
+Host::Host(const fs::path& home)
+    : log_([this](LogLevel level, std::string_view line) {
+          const std::lock_guard lock(queue_mutex_);
+          queue_.emplace_back(level, line);
+      }),
+      registry_(log_) {
+    registry_.scan(plugin::Registry::default_paths(home));
+}
+
+std::vector<const plugin::Entry*> Host::load(const fs::path& folder) {
+    const std::unique_lock alone(in_use_, std::try_to_lock);
+    if (!alone)
+        throw Failure(folder.string() +
+                      ": plugins cannot be loaded while a scene is read, written or rendered; wait "
+                      "for that first");
+    if (!fs::is_directory(folder)) throw Failure(folder.string() + ": there is no such folder");
+    const auto before = registry_.entries();
+    const plugin::SearchPath paths[] = {{folder, true}};
+    registry_.scan(paths);
+    std::vector<const plugin::Entry*> found;
+    for (const plugin::Entry* entry : registry_.entries())
+        if (std::find(before.begin(), before.end(), entry) == before.end()) found.push_back(entry);
+    flush_log();
+    if (found.empty()) throw Failure(folder.string() + ": holds no plugin (a folder with a plugin.json) that is new");
+    return found;
+}
+
+void Host::flush_log() {
+    std::vector<std::pair<LogLevel, std::string>> lines;
+    {
+        const std::lock_guard lock(queue_mutex_);
+        lines.swap(queue_);
+    }
+    if (lines.empty()) return;
+    const nb::object logger = nb::module_::import_("logging").attr("getLogger")("restage");
+    for (const auto& [level, line] : lines)
+        logger.attr("log")(python_level(level), "%s", line);
+}
+
+} // namespace restage::python

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights without a surface, cameras, and the sky.
+#include "values.hpp"
+
+#include "session/sky.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace restage::python {
+
+using namespace scene;
+
+namespace {
+
+using LightHandle = Handle<Light>;
+using CameraHandle = Handle<Camera>;
+
+const char* kind_of(RestageLightKind kind) {
+    return kind == RESTAGE_LIGHT_POINT ? "point" : kind == RESTAGE_LIGHT_SPOT ? "spot" : "distant";
+}
+
+// Looks from `from` to `to` along +z with +y near `up`; `mirrored` frames have a negative determinant.
+glm::dmat4 look_at(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& up, bool mirrored) {
+    const glm::dvec3 z = to - from;
+    const glm::dvec3 x = glm::cross(up, z);
+    if (!(glm::length(z) > 0)) throw Failure("look_at: the target is where it looks from");
+    if (!(glm::length(x) > 1e-9 * glm::length(z) * glm::length(up)))
+        throw Failure("look_at: up is the direction of the view; name another up");
+    const glm::dvec3 ez = glm::normalize(z), ex = glm::normalize(x), ey = glm::cross(ez, ex);
+    return {glm::dvec4(mirrored ? -ex : ex, 0), glm::dvec4(ey, 0), glm::dvec4(ez, 0), glm::dvec4(from, 1)};
+}
+
+bool is_mirrored(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
+
+template <class T, auto Field>
+void bind_place(nb::class_<Handle<T>>& c, const char* label) {
+    using H = Handle<T>;
+    c.def_prop_rw(
+         "transform", [](const H& h) { return to_numpy(h.get().*Field); },
+         [label](const H& h, nb::handle matrix) {
+             h.change(label, [m = to_matrix(matrix)](T& thing) { thing.*Field = m; });
+         },
+         "To world: array (4, 4) float64, for column vectors; it looks or shines along its +z, +y is up.",
+         nb::for_getter(nb::rv_policy::automatic),
+         nb::for_getter(nb::sig("def transform(self) -> numpy.typing.NDArray[numpy.float64]")),
+         nb::for_setter(nb::sig("def transform(self, matrix: numpy.typing.ArrayLike, /) -> None")))
+        .def_prop_rw(
+            "position", [](const H& h) { return triple(glm::dvec3((h.get().*Field)[3])); },
+            [label](const H& h, const Three& place) {
+                h.change(label, [&](T& thing) { (thing.*Field)[3] = glm::dvec4(vec(place), 1); });
+            },
+            "Where it is, world space [scene units].")
+        .def(
+            "look_at",
+            [label](const H& h, const Three& target, const std::optional<Three>& from, const std::optional<Three>& up) {
+                const glm::dmat4 before = h.get().*Field;
+                const glm::dvec3 eye = from ? vec(*from) : glm::dvec3(before[3]);
+                const glm::dmat4 m = look_at(eye, vec(target), up ? vec(*up) : h.in->up(), is_mirrored(before));
+                h.change(label, [&](T& thing) { thing.*Field = m; });
+            },
+            "target"_a, "position"_a = nb::none(), "up"_a = nb::none(),
+            "Turns it towards a point, from where it is or from `position`; `up`: default the scene's.");
+}
+
+template <class T, class Get, class Set>
+void field(nb::class_<Handle<T>>& c, const char* name, const char* label, const char* doc, Get get, Set set) {
+    using H = Handle<T>;
+    using V = std::remove_cvref_t<decltype(get(std::declval<const T&>()))>;
+    using In = std::conditional_t<std::is_same_v<V, Triple>, Three, V>;
+    c.def_prop_rw(
+        name, [get](const H& h) { return get(h.get()); },
+        [label, set](const H& h, const In& value) { h.change(label, [&](T& thing) { set(thing, value); }); }, doc);
+}
+
+void bind_light(nb::module_& m) {
+    nb::class_<LightHandle> c(m, "Light",
+                              "A light without a surface: point, spot or distant. What has a surface is an "
+                              "Object with an emission.");
+    bind_handle(c, "Light");
+    bind_place<Light, &Light::light_to_world>(c, "Move light");
+    c.def_prop_ro("kind", [](const LightHandle& h) { return kind_of(h.get().kind); }, "point, spot or distant.");
+    field<Light>(
+        c, "value", "Change light",
+        "Linear sRGB; point and spot: intensity [W/sr]; distant: irradiance at normal incidence [W/m^2].",
+        [](const Light& l) { return triple(l.value); }, [](Light& l, const Three& v) { l.value = glm::vec3(vec(v)); });
+    field<Light>(
+        c, "cone_angle", "Change light", "Of a spot: half angle [deg].",
+        [](const Light& l) { return exact(l.cone_angle); }, [](Light& l, double v) { l.cone_angle = float(v); });
+    field<Light>(
+        c, "cone_delta", "Change light", "Of a spot: width of the smooth edge [deg].",
+        [](const Light& l) { return exact(l.cone_delta); }, [](Light& l, double v) { l.cone_delta = float(v); });
+    c.def("remove", [](const LightHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); }, "Removes it.");
+}
+
+void bind_camera(nb::module_& m) {
+    nb::class_<CameraHandle> c(m, "Camera", "A camera; Session.camera is the one that is rendered from.");
+    bind_handle(c, "Camera");
+    bind_place<Camera, &Camera::camera_to_world>(c, "Move camera");
+    field<Camera>(
+        c, "fov", "Change camera", "Field of view of the shorter side of the picture [deg].",
+        [](const Camera& v) { return exact(v.fov); }, [](Camera& v, double x) { v.fov = float(x); });
+    field<Camera>(
+        c, "lens_radius", "Change camera", "Radius of the lens [scene units]; 0 = a pinhole.",
+        [](const Camera& v) { return exact(v.lens_radius); }, [](Camera& v, double x) { v.lens_radius = float(x); });
+    field<Camera>(
+        c, "focal_distance", "Change camera", "Distance of what is sharp [scene units].",
+        [](const Camera& v) { return exact(v.focal_distance); },
+        [](Camera& v, double x) { v.focal_distance = float(x); });
+    c.def(
+        "remove", [](const CameraHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
+        "Removes it; refused for the active one.");
+}
+
+} // namespace
+
+void bind_lights(nb::module_& m) {
+    bind_light(m);
+    bind_camera(m);
+    nb::class_<Environment>(m, "Sky", "What lights a scene from all around, as it is now; Session.set_sky changes it.")
+        .def_prop_ro("name", [](const Environment& e) { return e.name; })
+        .def_prop_ro(
+            "is_image", [](const Environment& e) { return bool(e.image); }, "False: one colour everywhere.")
+        .def_prop_ro(
+            "mapping", [](const Environment& e) { return e.mapping == RESTAGE_EQUIRECT ? "equirect" : "octahedral"; },
+            "equirect (a panorama) or octahedral (square, equal-area).")
+        .def_prop_ro(
+            "color", [](const Environment& e) { return triple(e.scale); },
+            "Radiance of a sky of one colour, or what its image is multiplied by.")
+        .def_prop_ro(
+            "transform", [](const Environment& e) { return to_numpy(e.light_to_world); }, nb::rv_policy::automatic,
+            "Rotation: array (4, 4); a panorama's pole is +z.")
+        .def_prop_ro("hidden_from_camera", [](const Environment& e) { return e.hidden_from_camera; })
+        .def("__repr__", [](const Environment& e) {
+            return e.image ? "<restage.Sky \"" + e.name + "\", an image>" : std::string("<restage.Sky of one colour>");
+        });
+}
+
+} // namespace restage::python

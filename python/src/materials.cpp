@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials and textures: types, and values by parameter id, held to the tables of the plugins.
+#include "values.hpp"
+
+#include "scene/uses.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace restage::python {
+
+using namespace scene;
+
+namespace {
+
+using MaterialHandle = Handle<Material>;
+using TextureHandle = Handle<Texture>;
+
+// What any material may have besides its table.
+constexpr RestageParam common[] = {{.id = "bump", .label = "Bump", .type = RESTAGE_TEXTURE},
+                                   {.id = "normalmap", .label = "Normal map", .type = RESTAGE_TEXTURE}};
+
+const RestageParam* find_line(std::span<const RestageParam> table, const std::string& id) {
+    for (const RestageParam& line : table)
+        if (id == line.id) return &line;
+    for (const RestageParam& line : common)
+        if (id == line.id) return &line;
+    return nullptr;
+}
+
+nb::object get_param(const MaterialHandle& h, const std::string& id) {
+    const Material& material = h.get();
+    if (const Value* value = material.params.find(id)) return to_python(h.in, *value);
+    const auto table = table_of(*h.in, material.type);
+    const RestageParam* line = find_line(table, id);
+    if (!line)
+        throw nb::key_error(
+            ("material \"" + material.name + "\": parameter \"" + id + "\" is not one of a " + material.type).c_str());
+    return to_python(h.in, default_value(*line));
+}
+
+void set_param(const MaterialHandle& h, const std::string& id, nb::handle given) {
+    const Material& material = h.get();
+    const std::string who = "material \"" + material.name + "\": parameter \"" + id + "\"";
+    const auto table = table_of(*h.in, material.type);
+    const RestageParam* line = find_line(table, id);
+    if (!line && !table.empty()) throw Failure(who + " is not one of a " + material.type);
+    const auto type = line ? static_cast<RestageType>(line->type) : guess_type(material.params.find(id), given);
+    const bool image = type == RESTAGE_FLOAT || type == RESTAGE_COLOR || type == RESTAGE_TEXTURE;
+    if (const auto path = image ? to_path(given) : std::nullopt) {
+        if (line && type != RESTAGE_TEXTURE && !(line->flags & RESTAGE_PARAM_TEXTURABLE))
+            throw Failure(who + " takes no texture");
+        // Colours are painted for the eye; heights, normals and roughness are data.
+        Image pixels = read_image(*h.in, *path, type == RESTAGE_COLOR ? RESTAGE_SRGB : RESTAGE_LINEAR);
+        h.in->edit(
+            set_image_texture(h.in->scene(), h.id, id, type, type == RESTAGE_FLOAT || id == "bump", std::move(pixels)));
+        return;
+    }
+    if (type == RESTAGE_TEXTURE && given.is_none()) {
+        h.in->edit(reset_param(h.in->scene(), h.id, id));
+        return;
+    }
+    h.in->edit(h.in->session().param_edit(h.id, id, to_value(h.in.get(), type, given, who)));
+}
+
+std::vector<std::string> param_ids(const MaterialHandle& h) { // the table's, then what else is set
+    std::vector<std::string> ids;
+    const Material& material = h.get();
+    for (const RestageParam& line : table_of(*h.in, material.type))
+        ids.emplace_back(line.id);
+    for (const auto& entry : material.params.entries())
+        if (std::find(ids.begin(), ids.end(), entry.id) == ids.end()) ids.push_back(entry.id);
+    return ids;
+}
+
+struct Parameter { // of a table; strings live as long as the plugin
+    const RestageParam* line;
+};
+
+std::string type_name(const RestageParam& line) {
+    static constexpr const char* names[] = {"?",    "float", "color",    "int",    "bool",
+                                            "enum", "text",  "material", "texture"};
+    return line.type < std::size(names) ? names[line.type] : "?";
+}
+
+void bind_parameter(nb::module_& m) {
+    const auto text = [](const char* s) { return std::string(s ? s : ""); };
+    nb::class_<Parameter>(m, "Parameter", "One line of a material type's parameter table.")
+        .def_prop_ro(
+            "id", [text](const Parameter& p) { return text(p.line->id); }, "Its key: m[id].")
+        .def_prop_ro(
+            "label", [text](const Parameter& p) { return text(p.line->label); }, "Its name in the editor.")
+        .def_prop_ro(
+            "type", [](const Parameter& p) { return type_name(*p.line); },
+            "float, color, int, bool, enum, text, material or texture.")
+        .def_prop_ro(
+            "unit", [text](const Parameter& p) { return text(p.line->unit); }, "Unit, or \"\".")
+        .def_prop_ro(
+            "range", [](const Parameter& p) { return std::make_tuple(exact(p.line->min), exact(p.line->max)); },
+            "Least and largest value, of each component.")
+        .def_prop_ro(
+            "default", [](const Parameter& p) { return to_python({}, default_value(*p.line)); },
+            "What holds while nothing is set.")
+        .def_prop_ro(
+            "choices",
+            [text](const Parameter& p) {
+                std::vector<std::string> out;
+                std::string rest = text(p.line->choices);
+                for (std::size_t bar; (bar = rest.find('|')) != std::string::npos; rest.erase(0, bar + 1))
+                    out.push_back(rest.substr(0, bar));
+                if (!rest.empty()) out.push_back(rest);
+                return out;
+            },
+            "Of an enum: the words it may be.")
+        .def_prop_ro(
+            "texturable", [](const Parameter& p) { return (p.line->flags & RESTAGE_PARAM_TEXTURABLE) != 0; },
+            "May a texture stand for it?")
+        .def_prop_ro(
+            "tooltip", [text](const Parameter& p) { return text(p.line->tooltip); }, "One sentence on it.")
+        .def("__repr__", [](const Parameter& p) {
+            return "<restage.Parameter " + std::string(p.line->id) + ": " + type_name(*p.line) + ">";
+        });
+}
+
+std::vector<Parameter> parameters(std::span<const RestageParam> table) {
+    std::vector<Parameter> out;
+    for (const RestageParam& line : table)
+        out.push_back({&line});
+    return out;
+}
+
+void bind_material(nb::module_& m) {
+    nb::class_<MaterialHandle> c(
+        m, "Material",
+        "A material: a type and values by parameter id. m[\"roughness\"] reads, m[\"roughness\"] = 0.2 edits; a value "
+        "may\n"
+        "be a number, a colour (three numbers, linear sRGB), a word, a Texture, or the path of an image.");
+    bind_handle(c, "Material");
+    c.def("__getitem__", &get_param, "id"_a, "The value, or the default where nothing is set.")
+        .def("__setitem__", &set_param, "id"_a, "value"_a.none(),
+             nb::sig("def __setitem__(self, id: str, value: float | int | bool | str | os.PathLike | "
+                     "collections.abc.Sequence[float] | Texture | Material | None) -> None"))
+        .def(
+            "__delitem__",
+            [](const MaterialHandle& h, const std::string& id) {
+                (void)get_param(h, id);
+                h.in->edit(reset_param(h.in->scene(), h.id, id));
+            },
+            "id"_a, "Back to the default.")
+        .def("__contains__",
+             [](const MaterialHandle& h, const std::string& id) {
+                 const auto ids = param_ids(h);
+                 return std::find(ids.begin(), ids.end(), id) != ids.end();
+             })
+        .def(
+            "__iter__", [](const MaterialHandle& h) { return nb::iter(nb::cast(param_ids(h))); },
+            nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"))
+        .def("__len__", [](const MaterialHandle& h) { return param_ids(h).size(); })
+        .def("keys", &param_ids, "The ids of all parameters: dict(m) is a copy of the values.")
+        .def(
+            "update",
+            [](const MaterialHandle& h, const nb::kwargs& values) {
+                h.in->begin_step("Change " + h.get().name);
+                try {
+                    for (const auto& [id, value] : values)
+                        set_param(h, nb::cast<std::string>(id), value);
+                } catch (...) {
+                    h.in->end_step();
+                    throw;
+                }
+                h.in->end_step();
+            },
+            "values"_a, "Sets several parameters as one step of the history.")
+        .def_prop_rw(
+            "type", [](const MaterialHandle& h) { return h.get().type; },
+            [](const MaterialHandle& h, const std::string& type) {
+                const auto after = table_of(*h.in, type);
+                if (!h.in->host().registry().find_material(type))
+                    throw Failure("there is no material type \"" + type + "\"; see restage.material_types()");
+                h.in->edit(switch_material_type(h.in->scene(), h.id, type, table_of(*h.in, h.get().type), after));
+            },
+            "Its type, \"dielectric\"; another one keeps the values both have in common.")
+        .def_prop_ro(
+            "parameters", [](const MaterialHandle& h) { return parameters(table_of(*h.in, h.get().type)); },
+            "The table of its type: a list of Parameter.")
+        .def_prop_ro(
+            "objects",
+            [](const MaterialHandle& h) {
+                (void)h.get();
+                std::vector<Handle<Instance>> users;
+                h.in->scene().instances.each([&](Id<Instance> id, const Instance& instance) {
+                    if (instance.material == h.id) users.push_back({h.in, id});
+                });
+                return users;
+            },
+            "The objects that have it.")
+        .def(
+            "remove", [](const MaterialHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
+            "Removes it; refused while something has it.");
+}
+
+void bind_texture(nb::module_& m) {
+    nb::class_<TextureHandle> c(m, "Texture",
+                                "A texture; its values are read and set as a material's: t[\"uscale\"] = 2.0.");
+    bind_handle(c, "Texture");
+    c.def_prop_ro(
+         "type", [](const TextureHandle& h) { return h.get().type; },
+         "imagemap, constant, scale, mix, checkerboard, or one that is only kept.")
+        .def_prop_ro(
+            "scalar", [](const TextureHandle& h) { return h.get().is_float; },
+            "One channel (True) or a colour (False).")
+        .def_prop_ro(
+            "image_path",
+            [](const TextureHandle& h) -> std::optional<std::string> {
+                const Image* image = h.in->scene().images.find(h.get().image);
+                if (!image || image->path.empty()) return std::nullopt;
+                return image->path;
+            },
+            "File of its image, or None.")
+        .def(
+            "__getitem__",
+            [](const TextureHandle& h, const std::string& id) {
+                const Value* value = h.get().params.find(id);
+                if (!value)
+                    throw nb::key_error(("texture \"" + h.get().name + "\": \"" + id + "\" is not set").c_str());
+                return to_python(h.in, *value);
+            },
+            "id"_a)
+        .def(
+            "__setitem__",
+            [](const TextureHandle& h, const std::string& id, nb::handle given) {
+                const std::string who = "texture \"" + h.get().name + "\": \"" + id + "\"";
+                const RestageType type = guess_type(h.get().params.find(id), given);
+                h.in->edit(set_param(h.in->scene(), h.id, id, to_value(h.in.get(), type, given, who)));
+            },
+            "id"_a, "value"_a,
+            nb::sig("def __setitem__(self, id: str, value: float | bool | str | collections.abc.Sequence[float] | "
+                    "Texture) -> None"))
+        .def(
+            "keys",
+            [](const TextureHandle& h) {
+                std::vector<std::string> ids;
+                for (const auto& entry : h.get().params.entries())
+                    ids.push_back(entry.id);
+                return ids;
+            },
+            "The ids of what is set.")
+        .def(
+            "remove", [](const TextureHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
+            "Removes it; refused while something uses it.");
+}
+
+} // namespace
+
+void bind_materials(nb::module_& m) {
+    bind_parameter(m);
+    bind_texture(m);
+    bind_material(m);
+    m.def(
+        "material_types",
+        [] {
+            nb::typed<nb::dict, nb::str, nb::list> types;
+            for (const auto& entry : Host::get()->registry().materials())
+                types[entry.table->type] = nb::cast(parameters({entry.table->params, entry.table->param_count}));
+            return types;
+        },
+        "The material types of all loaded plugins: a dict from type to its table, a list of Parameter.",
+        nb::sig("def material_types() -> dict[str, list[Parameter]]"));
+}
+
+} // namespace restage::python

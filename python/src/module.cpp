@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The module restage._core; the package restage (python/restage) gives its contents their public names.
+#include "collections.hpp"
+#include "picture.hpp"
+
+NB_MODULE(_core, m) {
+    using namespace restage::python;
+    m.doc() = "Restage's engine for Python; import restage instead.";
+    nb::exception<Failure>(m, "Error", PyExc_RuntimeError).doc() =
+        "What could not be done, as one sentence: what, where (file:line:column), what to do about it.";
+    m.def("_set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
+    m.def("_home", &Host::home);
+    nb::set_leak_warnings(false); // sessions in globals live until the process ends
+
+    bind_plugins(m);
+    bind_materials(m);
+    bind_things(m);
+    bind_lights(m);
+    bind_collections(m);
+    bind_picture(m);
+    nb::class_<Workspace> session(
+        m, "Session",
+        "An open scene: what the desktop editor shows in its window. Find things, change them (each change is a step "
+        "that\n"
+        "undo takes back), render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
+    bind_session(m, session);
+    bind_render(m, session);
+    bind_bsdf(m);
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// Picture for Python: arrays, denoising, saving, pickling, and merging parts that were rendered apart.
+#include "picture.hpp"
+
+#include "pulse.hpp"
+
+#include "render/denoise.hpp"
+#include "session/picture.hpp"
+
+#include <nanobind/stl/map.h>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <shared_mutex>
+
+namespace restage::python {
+
+namespace {
+
+using Owner = std::shared_ptr<Picture>;
+template <class T, class... Shape>
+using Array = nb::ndarray<nb::numpy, T, Shape...>;
+using Rgb = Array<float, nb::shape<-1, -1, 3>>;
+using Scalar = Array<float, nb::shape<-1, -1>>;
+using Ids = Array<std::uint32_t, nb::shape<-1, -1>>;
+
+// The array looks into the picture, which it keeps alive.
+template <class A, class V>
+A view(nb::handle self, std::vector<V>& data) {
+    const Picture& p = *nb::cast<Owner>(self);
+    auto* at = reinterpret_cast<typename A::Scalar*>(data.data());
+    if constexpr (std::is_same_v<A, Rgb>)
+        return A(at, {p.film.height, p.film.width, 3}, self);
+    else
+        return A(at, {p.film.height, p.film.width}, self);
+}
+
+template <class A, auto Member>
+void array(nb::class_<Picture>& c, const char* name, const char* doc) {
+    c.def_prop_ro(name, [](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*Member); }, doc);
+}
+
+double relative_error(const Picture& p) { // as Film::relative_error
+    double sum = 0;
+    for (std::size_t i = 0; i < p.film.color.size(); ++i) {
+        const double l = glm::dot(glm::dvec3(p.film.color[i]), glm::dvec3(0.2126, 0.7152, 0.0722)) + 0.01;
+        sum += p.film.luminance_variance[i] / (l * l);
+    }
+    return p.film.samples > 1 ? std::sqrt(sum / double(p.film.color.size())) : 1e30;
+}
+
+nb::object mask(const Owner& p, nb::handle thing) {
+    std::vector<bool> wanted;
+    const auto want = [&](std::uint32_t id) {
+        if (id >= wanted.size()) wanted.resize(id + 1);
+        wanted[id] = true;
+    };
+    const std::vector<std::uint32_t>* ids = &p->film.instance_id;
+    Handle<scene::Material> material;
+    if (nb::try_cast(thing, material, false)) {
+        ids = &p->film.material_id;
+        want(material.id.value);
+    } else {
+        Handle<scene::Group> group;
+        Handle<scene::Instance> object;
+        Selection selection;
+        Objects objects;
+        if (nb::try_cast(thing, object, false))
+            objects = {object.id}; // also of one that is gone: its pixels are still in the picture
+        else if (nb::try_cast(thing, group, false))
+            objects = objects_of(group);
+        else if (nb::try_cast(thing, selection, false))
+            objects = selection.objects;
+        else
+            throw nb::type_error("mask: expected an Object, a Group, a Selection or a Material");
+        for (const auto id : objects)
+            want(id.value);
+    }
+    auto* data = new bool[ids->size()];
+    nb::capsule owner(data, [](void* at) noexcept { delete[] static_cast<bool*>(at); });
+    for (std::size_t i = 0; i < ids->size(); ++i)
+        data[i] = (*ids)[i] < wanted.size() && wanted[(*ids)[i]];
+    return nb::cast(Array<bool, nb::ndim<2>>(data, {p->film.height, p->film.width}, owner));
+}
+
+void save(const Picture& p, const std::filesystem::path& path, const std::string& aovs, float exposure) {
+    const nb::gil_scoped_release release;
+    session::Picture out{.film = p.film, .denoised = std::nullopt, .exposure = 1};
+    if (!p.denoised.empty()) out.denoised = p.denoised;
+    take(session::check_picture_path(path.string()));
+    session::PictureOptions options;
+    options.aovs = aovs;
+    options.exposure_stops = exposure;
+    options.metadata = {{"restage:scene", p.scene},
+                        {"restage:device", p.device},
+                        {"restage:tracer", p.tracer},
+                        {"restage:samples", std::to_string(p.film.samples)},
+                        {"restage:seed", std::to_string(p.seed)},
+                        {"restage:seconds", std::to_string(p.seconds)}};
+    take(session::write_picture(path.string(), out, options));
+}
+
+// --- parts rendered apart
+// -----------------------------------------------------------------------------------------------
+
+// Sums and sums of squares are what adds up: the film's mean and error of the mean give them back.
+template <class V, class D> // float or vec3, and the same in doubles
+struct Moments {
+    D sum{0}, square{0};
+    double n = 0;
+    void add(const V& mean, const D& variance_of_mean, double count) {
+        const D m(mean);
+        sum += count * m;
+        square += count * (variance_of_mean * (count - 1) + m * m);
+        n += count;
+    }
+    D mean() const { return sum / n; }
+    D variance_of_mean() const {
+        const D m = mean();
+        return n > 1 ? glm::max((square / n - m * m) / (n - 1), D(0)) : D(0);
+    }
+};
+
+Owner merge(const std::vector<Owner>& parts) {
+    if (parts.empty()) throw Failure("merge: there are no pictures");
+    const Picture& first = *parts[0];
+    auto out = std::make_shared<Picture>(first);
+    out->denoised.clear();
+    out->not_finite.clear();
+    out->film.samples = 0;
+    out->seconds = 0;
+    for (const Owner& p : parts) {
+        if (p->film.width != first.film.width || p->film.height != first.film.height)
+            throw Failure("merge: the pictures have different sizes");
+        if (p->film.samples == 0) throw Failure("merge: a picture has no samples");
+        out->film.samples += p->film.samples;
+        out->seconds += p->seconds;
+        out->finished = out->finished && p->finished;
+        if (p->first_sample < out->first_sample) out->first_sample = p->first_sample;
+        for (const auto& [type, count] : p->not_finite)
+            out->not_finite[type] += count;
+    }
+    const auto earliest = *std::min_element(
+        parts.begin(), parts.end(), [](const Owner& a, const Owner& b) { return a->first_sample < b->first_sample; });
+    out->film.instance_id = earliest->film.instance_id; // of the first sample
+    out->film.material_id = earliest->film.material_id;
+    for (std::size_t i = 0; i < out->film.color.size(); ++i) {
+        Moments<glm::vec3, glm::dvec3> color;
+        Moments<float, double> luminance;
+        glm::dvec3 albedo(0), normal(0);
+        double depth = 0;
+        for (const Owner& p : parts) {
+            const double n = p->film.samples;
+            const glm::dvec3 error = p->film.std_error[i];
+            const double l = glm::dot(glm::dvec3(p->film.color[i]), glm::dvec3(0.2126, 0.7152, 0.0722));
+            color.add(p->film.color[i], error * error, n);
+            luminance.add(float(l), p->film.luminance_variance[i], n);
+            albedo += n * glm::dvec3(p->film.albedo[i]);
+            normal += n * glm::dvec3(p->film.normal[i]);
+            depth += n * p->film.depth[i];
+        }
+        out->film.color[i] = color.mean();
+        out->film.std_error[i] = glm::sqrt(color.variance_of_mean());
+        out->film.luminance_variance[i] = float(luminance.variance_of_mean());
+        out->film.albedo[i] = albedo / color.n;
+        out->film.normal[i] = normal / color.n;
+        out->film.depth[i] = float(depth / color.n);
+    }
+    return out;
+}
+
+// --- pickling
+// -----------------------------------------------------------------------------------------------------------
+
+template <class V>
+nb::bytes bytes(const std::vector<V>& v) {
+    return nb::bytes(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(V));
+}
+template <class V>
+void from_bytes(const nb::handle h, std::vector<V>& v) {
+    const auto b = nb::cast<nb::bytes>(h);
+    v.resize(b.size() / sizeof(V));
+    std::memcpy(static_cast<void*>(v.data()), b.c_str(), v.size() * sizeof(V));
+}
+
+nb::tuple get_state(const Picture& p) {
+    const auto& f = p.film;
+    return nb::make_tuple(f.width, f.height, f.samples, bytes(f.color), bytes(f.std_error), bytes(f.luminance_variance),
+                          bytes(f.albedo), bytes(f.normal), bytes(f.depth), bytes(f.instance_id), bytes(f.material_id),
+                          bytes(p.denoised), p.seed, p.first_sample, p.seconds, p.finished, p.not_finite, p.scene,
+                          p.device, p.tracer);
+}
+
+void set_state(Picture& p, const nb::tuple& t) {
+    new (&p) Picture();
+    p.host = Host::get();
+    auto& f = p.film;
+    f.width = nb::cast<std::uint32_t>(t[0]);
+    f.height = nb::cast<std::uint32_t>(t[1]);
+    f.samples = nb::cast<std::uint32_t>(t[2]);
+    from_bytes(t[3], f.color);
+    from_bytes(t[4], f.std_error);
+    from_bytes(t[5], f.luminance_variance);
+    from_bytes(t[6], f.albedo);
+    from_bytes(t[7], f.normal);
+    from_bytes(t[8], f.depth);
+    from_bytes(t[9], f.instance_id);
+    from_bytes(t[10], f.material_id);
+    from_bytes(t[11], p.denoised);
+    p.seed = nb::cast<std::uint32_t>(t[12]);
+    p.first_sample = nb::cast<std::uint32_t>(t[13]);
+    p.seconds = nb::cast<double>(t[14]);
+    p.finished = nb::cast<bool>(t[15]);
+    p.not_finite = nb::cast<std::map<std::string, std::uint64_t>>(t[16]);
+    p.scene = nb::cast<std::string>(t[17]);
+    p.device = nb::cast<std::string>(t[18]);
+    p.tracer = nb::cast<std::string>(t[19]);
+}
+
+} // namespace
+
+void denoise(Picture& p, const std::string& quality, unsigned threads) {
+    if (quality != "fast" && quality != "balanced" && quality != "high")
+        throw Failure("there is no denoising quality \"" + quality + "\"; there are fast, balanced and high");
+    if (p.film.color.empty() || p.film.samples == 0) throw Failure("denoise: the picture has no samples");
+    const auto& denoisers = p.host->registry().denoisers();
+    if (denoisers.empty()) throw Failure("no denoiser plugin is loaded; look at restage.plugins()");
+    const auto as = quality == "fast"       ? RESTAGE_DENOISE_FAST
+                    : quality == "balanced" ? RESTAGE_DENOISE_BALANCED
+                                            : RESTAGE_DENOISE_HIGH;
+    Pulse pulse;
+    Result<std::vector<glm::vec3>> clean = [&] {
+        const nb::gil_scoped_release release;
+        const std::shared_lock plugins(p.host->in_use());
+        return render::denoise(p.film, *denoisers[0].table, as, threads, [&](double) { return pulse.keep_going(); });
+    }();
+    pulse.rethrow();
+    p.host->flush_log();
+    p.denoised = take(std::move(clean));
+}
+
+void bind_picture(nb::module_& m) {
+    nb::class_<Picture> c(
+        m, "Picture",
+        "A rendered picture. Its arrays look into its memory (writing into them changes it); row 0 is the top.\n"
+        "Colours are linear sRGB radiance times the exposure of the scene.");
+    array<Rgb, &render::FilmImage::color>(c, "color", "float32 (H, W, 3): the picture, not denoised.");
+    array<Rgb, &render::FilmImage::std_error>(
+        c, "std_error", "float32 (H, W, 3): standard error of `color`; 0 with less than two samples.");
+    array<Rgb, &render::FilmImage::albedo>(
+        c, "albedo",
+        "float32 (H, W, 3): reflectance, 0 to 1, of the first surface that is no mirror "
+        "or smooth glass.");
+    array<Rgb, &render::FilmImage::normal>(
+        c, "normal", "float32 (H, W, 3): shading normal there, world space; a mean, not unit at edges.");
+    array<Scalar, &render::FilmImage::depth>(
+        c, "depth", "float32 (H, W): mean distance of the first hit [scene units]; 0 = nothing.");
+    array<Ids, &render::FilmImage::instance_id>(c, "object_id",
+                                                "uint32 (H, W): Object.id that the first sample hit; 0 = nothing.");
+    array<Ids, &render::FilmImage::material_id>(c, "material_id", "uint32 (H, W): Material.id there; 0 = nothing.");
+    c.def_prop_ro(
+         "denoised",
+         [](nb::handle self) -> nb::object {
+             auto& p = *nb::cast<Owner>(self);
+             return p.denoised.empty() ? nb::none() : nb::cast(view<Rgb>(self, p.denoised));
+         },
+         "float32 (H, W, 3): the denoised picture, or None before denoise().",
+         nb::sig("def denoised(self) -> numpy.typing.NDArray[numpy.float32] | None"))
+        .def_prop_ro(
+            "size", [](const Picture& p) { return std::make_tuple(p.film.width, p.film.height); },
+            "Width and height [pixel].")
+        .def_prop_ro(
+            "samples", [](const Picture& p) { return p.film.samples; }, "Samples a pixel (the least of any).")
+        .def_prop_ro("relative_error", &relative_error,
+                     "Root mean square of standard error over luminance, what render(error=...) stops at.")
+        .def_ro("seconds", &Picture::seconds, "Time it took to trace [s].")
+        .def_ro("seed", &Picture::seed, "Seed of its random numbers.")
+        .def_ro("first_sample", &Picture::first_sample, "Number of its first sample in a pixel; 0 unless asked for.")
+        .def_ro("finished", &Picture::finished, "False: a callback stopped it before its target.")
+        .def_ro("not_finite", &Picture::not_finite,
+                "Samples that were left out because they were no finite numbers: by material type.")
+        .def_ro("device", &Picture::device, "The Vulkan device.")
+        .def_ro("tracer", &Picture::tracer, "embree or vulkan.")
+        .def("mask", &mask, "thing"_a,
+             "bool (H, W): where the first hit is of this object, group, selection or material.",
+             nb::sig(
+                 "def mask(self, thing: Object | Group | Selection | Material) -> numpy.typing.NDArray[numpy.bool_]"))
+        .def(
+            "denoise",
+            [](const Owner& p, const std::string& quality, unsigned threads) {
+                denoise(*p, quality, threads);
+                return p;
+            },
+            "quality"_a = "high", "threads"_a = 0,
+            "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. Returns the picture.")
+        .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f,
+             "Writes .exr (linear, all layers), .png (8-bit sRGB), .pfm or .hdr; the denoised picture where there is "
+             "one.\n"
+             "aovs: of an .exr, comma-separated stderr, albedo, normal, depth, id; all; none. exposure: of a .png "
+             "[stops].")
+        .def("__getstate__", &get_state)
+        .def("__setstate__", &set_state)
+        .def("__repr__", [](const Picture& p) {
+            return "<restage.Picture " + std::to_string(p.film.width) + "x" + std::to_string(p.film.height) + ", " +
+                   std::to_string(p.film.samples) + " samples a pixel" + (p.finished ? ">" : ", stopped early>");
+        });
+    m.def(
+        "merge", &merge, "pictures"_a,
+        "One picture of several of the same view: means weighted by their samples, errors from sums of squares. Parts\n"
+        "of one seed with adjoining sample ranges (render's first_sample) give what one render of all samples gives.");
+}
+
+} // namespace restage::python

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Picture: what a render gave, in memory that numpy arrays look into.
+#pragma once
+
+#include "workspace.hpp"
+
+#include "render/film.hpp"
+
+namespace restage::python {
+
+struct Picture {
+    std::shared_ptr<Host> host;
+    render::FilmImage film; // the exposure is in color, std_error and luminance_variance
+    std::vector<glm::vec3> denoised;
+    std::uint32_t seed = 0, first_sample = 0;
+    double seconds = 0;
+    bool finished = false;
+    std::map<std::string, std::uint64_t> not_finite;
+    std::string scene, device, tracer; // of whom and by whom, for the file
+};
+
+// quality: fast, balanced, high.
+void denoise(Picture&, const std::string& quality, unsigned threads);
+void bind_picture(nb::module_&);
+
+} // namespace restage::python

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plugins and reports for Python.
+#include "host.hpp"
+#include "workspace.hpp"
+
+namespace restage::python {
+
+namespace {
+
+// What a plugin provides: "material velvet", as `restage plugins` says it.
+std::vector<std::string> provides(const plugin::Registry& registry, const plugin::Entry* entry) {
+    std::vector<std::string> names;
+    for (const auto& m : registry.materials())
+        if (m.plugin == entry) names.push_back(std::string("material ") + m.table->type);
+    for (const auto& m : registry.importers())
+        if (m.plugin == entry) names.push_back(std::string("importer ") + m.table->format);
+    for (const auto& m : registry.exporters())
+        if (m.plugin == entry) names.push_back(std::string("exporter ") + m.table->format);
+    for (const auto& m : registry.denoisers())
+        if (m.plugin == entry) names.push_back(std::string("denoiser ") + m.table->type);
+    return names;
+}
+
+struct PluginInfo { // a copy: what was found, at the time of asking
+    std::string id, version, kind, licence, reason;
+    std::filesystem::path folder;
+    bool loaded = false;
+    std::vector<std::string> provides;
+};
+
+std::vector<PluginInfo> describe(const std::vector<const plugin::Entry*>& entries) {
+    std::vector<PluginInfo> out;
+    for (const plugin::Entry* e : entries)
+        out.push_back({.id = e->manifest.id,
+                       .version = e->manifest.version,
+                       .kind = plugin::to_string(e->manifest.kind),
+                       .licence = e->manifest.licence,
+                       .reason = e->reason,
+                       .folder = e->folder,
+                       .loaded = e->state == plugin::State::loaded,
+                       .provides = provides(Host::get()->registry(), e)});
+    return out;
+}
+
+void bind_report(nb::module_& m) {
+    nb::class_<io::ReportEntry>(m, "ReportEntry", "What became of one thing in a file.")
+        .def_prop_ro(
+            "fate", [](const io::ReportEntry& e) { return io::to_string(e.fate); }, "kept, approximated or dropped.")
+        .def_ro("file", &io::ReportEntry::file, "The file, or \"\".")
+        .def_ro("line", &io::ReportEntry::line, "The line; 0 = the whole file.")
+        .def_ro("what", &io::ReportEntry::what, "Which thing: 'material \"oak\"'.")
+        .def_ro("note", &io::ReportEntry::note, "What was lost, or \"\".")
+        .def("__repr__", [](const io::ReportEntry& e) { return "<restage.ReportEntry " + io::to_string(e) + ">"; })
+        .def("__str__", [](const io::ReportEntry& e) { return io::to_string(e); });
+    nb::class_<io::Report>(m, "Report", "What an import or export did to the things in a file.")
+        .def_ro("entries", &io::Report::entries, "All lines: a list of ReportEntry.")
+        .def_prop_ro(
+            "kept", [](const io::Report& r) { return r.count(RESTAGE_KEPT); }, "How many things were kept.")
+        .def_prop_ro(
+            "approximated", [](const io::Report& r) { return r.count(RESTAGE_APPROXIMATED); },
+            "How many became something similar.")
+        .def_prop_ro(
+            "dropped", [](const io::Report& r) { return r.count(RESTAGE_DROPPED); }, "How many were left out.")
+        .def("__len__", [](const io::Report& r) { return r.entries.size(); })
+        .def("__str__",
+             [](const io::Report& r) {
+                 std::string text;
+                 for (const auto& e : r.entries)
+                     text += io::to_string(e) + "\n";
+                 return text;
+             })
+        .def("__repr__", [](const io::Report& r) {
+            return "<restage.Report: " + std::to_string(r.count(RESTAGE_KEPT)) + " kept, " +
+                   std::to_string(r.count(RESTAGE_APPROXIMATED)) + " approximated, " +
+                   std::to_string(r.count(RESTAGE_DROPPED)) + " dropped>";
+        });
+}
+
+} // namespace
+
+void bind_plugins(nb::module_& m) {
+    bind_report(m);
+    nb::class_<PluginInfo>(m, "Plugin", "A plugin that was found.")
+        .def_ro("id", &PluginInfo::id, "\"org.example.velvet\".")
+        .def_ro("version", &PluginInfo::version, "Its own version.")
+        .def_ro("kind", &PluginInfo::kind, "material, importer, exporter or denoiser.")
+        .def_ro("licence", &PluginInfo::licence, "Licence, as its manifest says.")
+        .def_ro("folder", &PluginInfo::folder, "Where it is.")
+        .def_ro("loaded", &PluginInfo::loaded, "False: it was refused, and `reason` says why.")
+        .def_ro("reason", &PluginInfo::reason, "Why it was refused, one sentence; else \"\".")
+        .def_ro("provides", &PluginInfo::provides, "\"material velvet\", ...")
+        .def("__repr__", [](const PluginInfo& p) {
+            return "<restage.Plugin " + (p.id.empty() ? p.folder.string() : p.id) + " " + p.version +
+                   (p.loaded ? ">" : " REFUSED: " + p.reason + ">");
+        });
+    m.def(
+        "plugins", [] { return describe(Host::get()->registry().entries()); },
+        "All plugins that were found, refused ones too: a list of Plugin.");
+    m.def(
+        "load_plugins",
+        [](const std::filesystem::path& folder) {
+            const auto found = Host::get()->load(folder);
+            for (const plugin::Entry* entry : found)
+                if (entry->state != plugin::State::loaded) throw Failure(entry->reason);
+            return describe(found);
+        },
+        "folder"_a,
+        "Loads the plugins in a folder (one with a plugin.json, or up to three folders above such). Returns them;\n"
+        "raises restage.Error with the reason when one is refused.");
+}
+
+} // namespace restage::python

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pulse: long work without the GIL asks Python now and then whether to go on: Ctrl-C, and what the script's callback
+// says. `release` is held while the work runs; `rethrow` after it raises what came up.
+#pragma once
+
+#include "convert.hpp"
+
+#include <chrono>
+#include <exception>
+#include <functional>
+
+namespace restage::python {
+
+class Pulse {
+  public:
+    // `ask` is called with the GIL; false = stop. An exception in it stops too. Empty: only Ctrl-C is looked at.
+    explicit Pulse(std::function<bool()> ask = {}) : ask_(std::move(ask)) {}
+
+    bool keep_going() { // any thread, one at a time; cheap: Python is asked 20 times a second
+        if (stopped_) return false;
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last_ < std::chrono::milliseconds(50)) return true;
+        return ask();
+    }
+    bool ask() {
+        const nb::gil_scoped_acquire gil;
+        try {
+            if (PyErr_CheckSignals() != 0) nb::raise_python_error();
+            if (ask_ && !ask_()) stopped_ = true;
+        } catch (...) {
+            error_ = std::current_exception();
+            stopped_ = true;
+        }
+        last_ = std::chrono::steady_clock::now();
+        return !stopped_;
+    }
+    bool stopped() const { return stopped_; }
+    void rethrow() { // [GIL]
+        if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    }
+
+  private:
+    std::function<bool()> ask_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::exception_ptr error_;
+    bool stopped_ = false;
+};
+
+// What a Python callback returned: None goes on, False stops.
+inline bool goes_on(const nb::object& answer) { return answer.is_none() || nb::cast<bool>(nb::bool_(answer)); }
+
+} // namespace restage::python

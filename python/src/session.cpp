@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+// Session: opening, finding, adding, history, writing. Rendering is in render.cpp.
+#include "collections.hpp"
+#include "pulse.hpp"
+#include "values.hpp"
+
+#include "session/project.hpp"
+#include "session/sky.hpp"
+#include "session/studio.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <set>
+
+namespace restage::python {
+
+using namespace scene;
+using Shared = std::shared_ptr<Workspace>;
+
+namespace {
+
+// f(io::Progress) without the GIL, with the plugins held; Ctrl-C and the callback (fraction, what) -> bool stop it.
+template <class F>
+auto work(Host& host, const nb::object& callback, F&& f) {
+    float fraction = 0;
+    std::string what;
+    Pulse pulse([&]() -> bool { return callback.is_none() || goes_on(callback(fraction, what)); });
+    auto result = [&] {
+        const nb::gil_scoped_release release;
+        const std::shared_lock plugins(host.in_use());
+        return f([&](float done, std::string_view text) {
+            fraction = done;
+            what = text;
+            return pulse.keep_going();
+        });
+    }();
+    pulse.rethrow();
+    host.flush_log();
+    return take(std::move(result));
+}
+
+Shared open(const std::filesystem::path& path, const std::optional<std::filesystem::path>& base,
+            const nb::object& progress) {
+    auto workspace = std::make_shared<Workspace>(Host::get());
+    auto document = work(workspace->host(), progress, [&](io::Progress tell) {
+        session::ReadOptions options;
+        options.progress = std::move(tell);
+        if (base) options.base = *base;
+        return session::read_document(path.string(), workspace->host().registry(), options);
+    });
+    workspace->session().adopt(std::move(document));
+    return workspace;
+}
+
+Handle<Material> add_material(const Shared& w, const std::string& name, const std::string& type,
+                              const nb::kwargs& values) {
+    if (!w->host().registry().find_material(type))
+        throw Failure("there is no material type \"" + type + "\"; see restage.material_types()");
+    const Handle<Material> h{w, w->scene().materials.next()};
+    w->begin_step("Add " + name);
+    try {
+        w->edit(insert(w->scene(), Material{.name = name, .type = type}, "Add " + name));
+        nb::cast(h).attr("update")(**values);
+    } catch (...) { // nothing of it stays: insert and remove, in one step, are nothing
+        w->edit(remove(w->scene(), h.id));
+        w->end_step();
+        throw;
+    }
+    w->end_step();
+    return h;
+}
+
+using Pixels = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+std::shared_ptr<const PixelData> pixels_of(nb::handle h, const char* who) {
+    const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(h, "dtype"_a = "float32");
+    Pixels view;
+    if (!nb::try_cast(array, view) || view.shape(0) == 0 || view.shape(1) == 0 ||
+        (view.shape(2) != 1 && view.shape(2) != 3 && view.shape(2) != 4))
+        throw Failure(std::string(who) + ": pixels are an array (height, width, 1, 3 or 4), linear");
+    PixelData data{.width = std::uint32_t(view.shape(1)),
+                   .height = std::uint32_t(view.shape(0)),
+                   .channels = std::uint32_t(view.shape(2)),
+                   .values = {view.data(), view.data() + view.size()}};
+    return std::make_shared<const PixelData>(std::move(data));
+}
+
+Handle<Texture> add_texture(const Shared& w, nb::handle image, const std::optional<std::string>& name, bool scalar) {
+    Image made;
+    if (const auto path = to_path(image))
+        made = read_image(*w, *path, scalar ? RESTAGE_LINEAR : RESTAGE_SRGB);
+    else
+        made = {.name = "image", .encoding = RESTAGE_LINEAR, .data = pixels_of(image, "add_texture")};
+    if (name) made.name = *name;
+    const Handle<Texture> h{w, w->scene().textures.next()};
+    Texture texture{.name = made.name, .type = "imagemap", .is_float = scalar, .image = w->scene().images.next()};
+    Edit edit{"Add texture " + made.name, {}};
+    edit.changes.push_back(Change<Image>{w->scene().images.next(), std::nullopt, std::move(made)});
+    edit.changes.push_back(Change<Texture>{h.id, std::nullopt, std::move(texture)});
+    w->edit(std::move(edit));
+    return h;
+}
+
+Handle<Light> add_light(const Shared& w, const std::string& kind, const Three& value, const std::string& name) {
+    Light light{.name = name, .value = glm::vec3(vec(value))};
+    if (kind == "spot")
+        light.kind = RESTAGE_LIGHT_SPOT;
+    else if (kind == "distant")
+        light.kind = RESTAGE_LIGHT_DISTANT;
+    else if (kind != "point")
+        throw Failure("there is no kind of light \"" + kind + "\"; there are point, spot and distant");
+    const Handle<Light> h{w, w->scene().lights.next()};
+    w->edit(insert(w->scene(), std::move(light), "Add " + name));
+    return h;
+}
+
+void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& color, double strength,
+             std::optional<double> rotation, std::optional<bool> hidden) {
+    const glm::dvec3 up = w->up();
+    Edit edit{"Change sky", {}};
+    Environment sky;
+    if (const auto& now = w->scene().environment.value) sky = *now;
+    if (!image.is_none()) {
+        std::shared_ptr<const PixelData> pixels;
+        if (const auto path = to_path(image)) {
+            pixels = read_image(*w, *path, RESTAGE_SRGB).data;
+            edit = session::image_sky(w->scene(), *path, pixels, up);
+            sky = *std::get<ChangeOne<std::optional<Environment>>>(edit.changes.back()).after;
+            edit.changes.pop_back();
+        } else {
+            pixels = pixels_of(image, "set_sky");
+            sky = {.name = "sky",
+                   .image = w->scene().images.next(),
+                   .mapping = pixels->width == pixels->height ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT,
+                   .light_to_world = session::upright_sky(up)};
+            edit.changes.push_back(Change<Image>{
+                sky.image, std::nullopt, Image{.name = "sky", .encoding = RESTAGE_LINEAR, .data = std::move(pixels)}});
+        }
+        sky.scale = glm::vec3(1);
+    } else if (color) {
+        sky.image = {};
+        sky.name = "constant";
+    } else if (!w->scene().environment.value) {
+        throw Failure("there is no sky to change; give an image or a color");
+    }
+    if (color) sky.scale = glm::vec3(vec(*color));
+    sky.scale *= float(strength);
+    if (rotation)
+        sky.light_to_world =
+            glm::rotate(glm::dmat4(1), glm::radians(*rotation), glm::normalize(up)) * session::upright_sky(up);
+    if (hidden) sky.hidden_from_camera = *hidden;
+    const Edit change = set_environment(w->scene(), sky);
+    edit.changes.insert(edit.changes.end(), change.changes.begin(), change.changes.end());
+    w->edit(std::move(edit));
+}
+
+nb::object find(const Shared& w, const std::string& name) {
+    if (const auto group = w->session().find<Group>(name)) return nb::cast(Handle<Group>{w, group});
+    if (const auto object = w->session().find<Instance>(name)) return nb::cast(Handle<Instance>{w, object});
+    std::vector<std::string> names;
+    w->scene().groups.each([&](auto, const Group& g) { names.push_back(g.name); });
+    w->scene().instances.each([&](auto, const Instance& i) { names.push_back(i.name); });
+    const std::string near = nearest_name(names, name);
+    throw nb::key_error(("there is no group or object called \"" + name + "\"" +
+                         (near.empty() ? "" : "; did you mean \"" + near + "\"?"))
+                            .c_str());
+}
+
+nb::object insert_file(const Shared& w, const std::filesystem::path& path, const nb::object& progress) {
+    const auto imported = work(w->host(), progress, [&](io::Progress tell) {
+        io::ImportOptions options;
+        options.progress = std::move(tell);
+        return io::import_scene(path.string(), w->host().registry(), options);
+    });
+    const auto merged = take(w->session().insert(imported, path.string()));
+    if (merged.group) return nb::cast(Handle<Group>{w, merged.group});
+    return nb::cast(Handle<Instance>{w, merged.instances.at(0)});
+}
+
+io::Report export_to(const Shared& w, const std::filesystem::path& path, const std::string& format,
+                     const nb::object& progress, const nb::kwargs& options) {
+    auto& registry = w->host().registry();
+    io::ExportOptions how;
+    how.format = format;
+    const auto* exporter = take(io::find_exporter(path.string(), format, registry));
+    for (const auto& [key, value] : options)
+        take(io::set_option(*exporter, nb::cast<std::string>(key) + "=" + nb::cast<std::string>(nb::str(value)),
+                            how.values));
+    const Scene copy = w->scene();
+    return work(w->host(), progress, [&](io::Progress tell) {
+        how.progress = std::move(tell);
+        return io::export_scene(copy, path.string(), registry, how);
+    });
+}
+
+struct Step {
+    Shared in;
+    std::string label;
+};
+
+void bind_history(nb::module_& m, nb::class_<Workspace>& c) {
+    nb::class_<Step>(m, "Step", "What Session.step returns, for `with`.")
+        .def("__enter__", [](const Step& s) { s.in->begin_step(s.label); })
+        .def("__exit__", [](const Step& s, const nb::args&) { s.in->end_step(); });
+    c.def(
+         "undo", [](Workspace& w) { return w.session().undo(); }, "Takes the latest step back. False: there was none.")
+        .def(
+            "redo", [](Workspace& w) { return w.session().redo(); }, "Does it again. False: there was nothing to redo.")
+        .def(
+            "step", [](const Shared& w, std::string label) { return Step{w, std::move(label)}; }, "label"_a,
+            "with session.step(\"Restyle\"): all edits within are one step of the history.")
+        .def_prop_ro(
+            "history",
+            [](Workspace& w) {
+                std::vector<std::string> labels;
+                const auto& history = w.session().history();
+                for (std::size_t i = 0; i < history.position(); ++i)
+                    labels.push_back(history.label(i));
+                return labels;
+            },
+            "The labels of the steps that are done, the first one first.")
+        .def_prop_ro(
+            "modified", [](Workspace& w) { return w.session().modified(); }, "Is there something that was not saved?");
+}
+
+void bind_film(nb::class_<Workspace>& c) {
+    const auto film = [](Workspace& w, auto&& f) {
+        Film copy = w.scene().film.value;
+        f(copy);
+        w.edit(set_film(w.scene(), std::move(copy)));
+    };
+    const auto settings = [](Workspace& w, auto&& f) {
+        Settings copy = w.scene().settings.value;
+        f(copy);
+        w.edit(set_settings(w.scene(), std::move(copy)));
+    };
+    c.def_prop_rw(
+         "size", [](Workspace& w) { return std::make_tuple(w.scene().film.value.width, w.scene().film.value.height); },
+         [film](Workspace& w, std::tuple<std::uint32_t, std::uint32_t> size) {
+             if (!std::get<0>(size) || !std::get<1>(size)) throw Failure("size: width and height are 1 and more");
+             film(w, [&](Film& f) { std::tie(f.width, f.height) = size; });
+         },
+         "Width and height of the film [pixel].")
+        .def_prop_rw(
+            "exposure", [](Workspace& w) { return exact(w.scene().film.value.exposure); },
+            [film](Workspace& w, double x) { film(w, [&](Film& f) { f.exposure = float(x); }); },
+            "Linear factor on the picture; 1 = none.")
+        .def_prop_rw(
+            "samples", [](Workspace& w) { return w.scene().settings.value.samples; },
+            [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.samples = n; }); },
+            "Samples a pixel that the scene asks for.")
+        .def_prop_rw(
+            "max_depth", [](Workspace& w) { return w.scene().settings.value.max_depth; },
+            [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.max_depth = n; }); },
+            "Longest path: vertices beyond the camera, as pbrt counts them.");
+}
+
+void bind_contents(nb::class_<Workspace>& c) {
+    c.def_prop_ro(
+         "objects", [](const Shared& w) { return Collection<Instance>{w}; }, "All objects.")
+        .def_prop_ro(
+            "groups", [](const Shared& w) { return Collection<Group>{w}; }, "All groups of objects.")
+        .def_prop_ro(
+            "materials", [](const Shared& w) { return Collection<Material>{w}; }, "All materials.")
+        .def_prop_ro(
+            "textures", [](const Shared& w) { return Collection<Texture>{w}; }, "All textures.")
+        .def_prop_ro(
+            "lights", [](const Shared& w) { return Collection<Light>{w}; }, "All lights without a surface.")
+        .def_prop_ro(
+            "cameras", [](const Shared& w) { return Collection<Camera>{w}; }, "All cameras.")
+        .def("find", &find, "name"_a, "The group or, if there is none, the object of that name.",
+             nb::sig("def find(self, name: str) -> Group | Object"))
+        .def(
+            "select", [](const Shared& w, const nb::args& things) { return Selection{w, objects_of(*w, things)}; },
+            "things"_a, "Objects and groups as one: select(a, b).move((1, 0, 0)).",
+            nb::sig("def select(self, *things: Object | Group | Selection) -> Selection"))
+        .def_prop_rw(
+            "camera",
+            [](const Shared& w) -> std::optional<Handle<Camera>> {
+                const auto id = w->scene().active_camera.value;
+                return id ? std::optional(Handle<Camera>{w, id}) : std::nullopt;
+            },
+            [](const Shared& w, const Handle<Camera>& h) {
+                if (h.in != w) throw Failure("this camera belongs to another session");
+                w->edit(set_active_camera(w->scene(), h.id));
+            },
+            "The camera that is rendered from, or None.")
+        .def_prop_ro(
+            "sky", [](Workspace& w) { return w.scene().environment.value; },
+            "What lights the scene from all around, or None.")
+        .def("set_sky", &set_sky, "image"_a = nb::none(), "color"_a = nb::none(), "strength"_a = 1.0,
+             "rotation"_a = nb::none(), "hidden_from_camera"_a = nb::none(),
+             "Changes the sky. image: path, or linear array (H, W, 3); square ones are equal-area octahedral maps as "
+             "in\n"
+             "pbrt-v4, others panoramas (u = phi / 2 pi, row 0 = the pole). color: radiance of a sky of one colour, or "
+             "what\n"
+             "the image is multiplied by. strength: times that. rotation: about the scene's up [deg]. With neither "
+             "image nor\n"
+             "color, what is there is changed.",
+             nb::sig("def set_sky(self, image: str | os.PathLike | numpy.typing.ArrayLike | None = None, "
+                     "color: collections.abc.Sequence[float] | None = None, strength: float = 1.0, "
+                     "rotation: float | None = None, hidden_from_camera: bool | None = None) -> None"))
+        .def(
+            "remove_sky", [](Workspace& w) { w.edit(set_environment(w.scene(), std::nullopt, "Remove sky")); },
+            "No light from all around any more.")
+        .def("add_material", &add_material, "name"_a, "type"_a, "values"_a,
+             "A new material: add_material(\"Brass\", \"conductor\", roughness=0.2).")
+        .def(
+            "add_texture", &add_texture, "image"_a, "name"_a = nb::none(), "scalar"_a = false,
+            "A new texture. image: path (8-bit files are sRGB, or linear where scalar), or a linear array (H, W, C).",
+            nb::sig("def add_texture(self, image: str | os.PathLike | numpy.typing.ArrayLike, name: str | None = None, "
+                    "scalar: bool = False) -> Texture"))
+        .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
+             "A new light at the origin. kind: point, spot or distant; value: see Light.value.")
+        .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(),
+             "The objects of another file, as one group (or one object).",
+             nb::sig("def insert(self, path: str | os.PathLike, progress: collections.abc.Callable[[float, str], "
+                     "bool | None] | None = None) -> Group | Object"))
+        .def(
+            "remove_unused", [](Workspace& w) { w.edit(remove_unused(w.scene())); },
+            "Removes every mesh, image, texture, material and group that nothing refers to.")
+        .def_prop_ro(
+            "bounds",
+            [](Workspace& w) {
+                const Bounds b = world_bounds(w.scene());
+                if (b.empty()) throw Failure("the scene has no visible geometry, so there are no bounds");
+                return to_numpy(b.lower, b.upper);
+            },
+            nb::rv_policy::automatic, "Axis-aligned box of what is visible: array (2, 3) [scene units].")
+        .def_prop_ro("up", [](Workspace& w) { return triple(w.up()); }, "The axis that is up, by the active camera.");
+}
+
+} // namespace
+
+void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
+    c.def("__enter__", [](const Shared& w) { return w; })
+        .def("__exit__",
+             [](Workspace& w, const nb::args&) {
+                 const nb::gil_scoped_release release;
+                 w.close();
+             })
+        .def("close", &Workspace::close, nb::call_guard<nb::gil_scoped_release>(),
+             "Frees the renderer and its memory; the session is of no use afterwards. `with` does it.")
+        .def_prop_ro(
+            "path", [](Workspace& w) { return w.session().path(); }, "File it was opened from or saved to, or \"\".")
+        .def_prop_ro(
+            "format", [](Workspace& w) { return w.scene().format; }, "Format it was imported from: \"pbrt-v4\".")
+        .def_prop_ro(
+            "report", [](Workspace& w) { return w.session().report(); }, "What the import did: a Report.")
+        .def("export", &export_to, "path"_a, "format"_a = "", "progress"_a = nb::none(), "options"_a,
+             "Writes a copy as another format's file, by the extension: export(\"a.pbrt\", version=\"v3\"). Returns a "
+             "Report.",
+             nb::sig("def export(self, path: str | os.PathLike, format: str = '', progress: "
+                     "collections.abc.Callable[[float, str], bool | None] | None = None, **options: str) -> Report"))
+        .def(
+            "save",
+            [](Workspace& w, const std::filesystem::path& path) {
+                if (!session::is_project(path))
+                    throw Failure(path.string() + ": save writes projects, *.restage; export writes other formats");
+                take(w.session().save_project(path.string()));
+            },
+            "path"_a, "Writes a project, *.restage: the file it began with by reference, and what was changed.")
+        .def("__repr__", [](Workspace& w) {
+            if (w.closed()) return std::string("<restage.Session (closed)>");
+            return "<restage.Session \"" + w.session().path() + "\": " + std::to_string(w.scene().instances.live()) +
+                   " objects, " + std::to_string(w.scene().materials.live()) + " materials>";
+        });
+    bind_contents(c);
+    bind_history(m, c);
+    bind_film(c);
+    m.def("open", &open, "path"_a, "base"_a = nb::none(), "progress"_a = nb::none(),
+          "Opens a scene (pbrt, glTF, OBJ, PLY, STL: whatever a plugin reads) or a project (*.restage).\n"
+          "base: stands for the scene that a project names. progress(fraction, what): called some 20 times a second;\n"
+          "False stops. Raises restage.Error with file, line and reason.",
+          nb::sig("def open(path: str | os.PathLike, base: str | os.PathLike | None = None, progress: "
+                  "collections.abc.Callable[[float, str], bool | None] | None = None) -> Session"));
+    m.def(
+        "new",
+        [] {
+            auto workspace = std::make_shared<Workspace>(Host::get());
+            workspace->session().adopt(session::studio_scene());
+            return workspace;
+        },
+        "A new scene: a floor, a neutral sky, a camera. y is up, lengths in metres.");
+}
+
+} // namespace restage::python

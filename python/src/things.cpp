@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects, groups and selections: what is placed in a scene, and the verbs they share.
+#include "workspace.hpp"
+
+#include "session/support.hpp"
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace restage::python {
+
+using namespace scene;
+
+namespace {
+
+using ObjectHandle = Handle<Instance>;
+using GroupHandle = Handle<Group>;
+
+std::vector<ObjectHandle> handles(const std::shared_ptr<Workspace>& in, const Objects& ids) {
+    std::vector<ObjectHandle> out;
+    out.reserve(ids.size());
+    for (const auto id : ids)
+        out.push_back({in, id});
+    return out;
+}
+
+Bounds bounds_of(Workspace& workspace, const Objects& ids) {
+    Bounds bounds;
+    for (const auto id : ids)
+        bounds.add(world_bounds(workspace.scene(), id));
+    if (bounds.empty()) throw Failure("there is no geometry, so there are no bounds");
+    return bounds;
+}
+
+// A matrix about a point, in world space.
+template <class C>
+void transform_about(const C& c, const glm::dmat4& by, const std::optional<Three>& center) {
+    const Objects ids = objects_of(c);
+    const glm::dvec3 middle = center ? vec(*center) : bounds_of(*c.in, ids).center();
+    c.in->edit(move_instances(c.in->scene(), ids,
+                              glm::translate(glm::dmat4(1), middle) * by * glm::translate(glm::dmat4(1), -middle)));
+}
+
+ObjectHandle copy_as(const ObjectHandle& original, const Objects& copies, Id<Group>) {
+    return {original.in, copies.at(0)};
+}
+Selection copy_as(const Selection& original, const Objects& copies, Id<Group>) { return {original.in, copies}; }
+// The outermost group that is new.
+GroupHandle copy_as(const GroupHandle& original, const Objects& copies, Id<Group> first_new) {
+    const Scene& s = original.in->scene();
+    Id<Group> group = s.instances[copies.at(0)].group;
+    while (s.groups[group].parent.value >= first_new.value)
+        group = s.groups[group].parent;
+    return {original.in, group};
+}
+
+// The verbs of whatever stands for some objects.
+template <class C>
+void bind_verbs(nb::class_<C>& c) {
+    c.def_prop_ro(
+         "objects", [](const C& self) { return handles(self.in, objects_of(self)); },
+         "The objects this stands for: a list of Object.")
+        .def_prop_ro(
+            "bounds",
+            [](const C& self) {
+                const Bounds b = bounds_of(*self.in, objects_of(self));
+                return to_numpy(b.lower, b.upper);
+            },
+            nb::rv_policy::automatic,
+            "Axis-aligned box in world space: array (2, 3), lower and upper corner [scene units].")
+        .def_prop_ro(
+            "center", [](const C& self) { return triple(bounds_of(*self.in, objects_of(self)).center()); },
+            "Middle of the bounds, world space [scene units].")
+        .def_prop_ro(
+            "extent", [](const C& self) { return triple(bounds_of(*self.in, objects_of(self)).size()); },
+            "Size of the bounds along the world's axes [scene units].")
+        .def(
+            "move",
+            [](const C& self, const Three& by) {
+                self.in->edit(
+                    move_instances(self.in->scene(), objects_of(self), glm::translate(glm::dmat4(1), vec(by))));
+            },
+            "by"_a, "Moves by this vector, world space [scene units].")
+        .def(
+            "move_to",
+            [](const C& self, const Three& place) {
+                const Objects ids = objects_of(self);
+                const glm::dvec3 by = vec(place) - bounds_of(*self.in, ids).center();
+                self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), by)));
+            },
+            "center"_a, "Moves so that the middle of the bounds is at this point, world space [scene units].")
+        .def(
+            "rotate",
+            [](const C& self, double degrees, const std::optional<Three>& axis, const std::optional<Three>& center) {
+                const glm::dvec3 about = axis ? vec(*axis) : self.in->up();
+                if (!(glm::length(about) > 0)) throw Failure("rotate: the axis has no length");
+                transform_about(self, glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::normalize(about)), center);
+            },
+            "degrees"_a, "axis"_a = nb::none(), "center"_a = nb::none(),
+            "Rotates about an axis (default: the scene's up) through a point (default: the middle of the bounds).")
+        .def(
+            "scale",
+            [](const C& self, const std::variant<double, Three>& factor, const std::optional<Three>& center) {
+                const glm::dvec3 f = std::holds_alternative<double>(factor) ? glm::dvec3(std::get<double>(factor))
+                                                                            : vec(std::get<Three>(factor));
+                transform_about(self, glm::scale(glm::dmat4(1), f), center);
+            },
+            "factor"_a, "center"_a = nb::none(),
+            "Scales by one number, or by three along the world's axes, about a point (default: the middle of the "
+            "bounds).")
+        .def(
+            "transform_by",
+            [](const C& self, nb::handle matrix) {
+                self.in->edit(move_instances(self.in->scene(), objects_of(self), to_matrix(matrix)));
+            },
+            "matrix"_a, "Applies a 4x4 matrix in world space, after what is there.",
+            nb::sig("def transform_by(self, matrix: numpy.typing.ArrayLike) -> None"))
+        .def(
+            "drop",
+            [](const C& self) -> std::optional<double> {
+                const Objects ids = objects_of(self);
+                const glm::dvec3 up = self.in->up();
+                const auto fall = session::fall_distance(self.in->scene(), ids, up);
+                if (fall)
+                    self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), -*fall * up)));
+                return fall;
+            },
+            "Lets it fall until it stands on something visible. Returns how far it fell [scene units] (less than 0: it "
+            "was lifted out of what it was sunk into), or None where nothing is below.")
+        .def(
+            "duplicate",
+            [](const C& self, const Three& by) {
+                const Objects ids = objects_of(self);
+                if (ids.empty()) throw Failure("duplicate: there are no objects in it");
+                const auto first_new = self.in->scene().groups.next();
+                auto made = take(duplicate_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), vec(by))));
+                self.in->edit(std::move(made.edit));
+                return copy_as(self, made.copies, first_new);
+            },
+            "by"_a = Three{0, 0, 0}, "A copy, moved by this vector; it shares meshes and materials. Returns the copy.")
+        .def(
+            "remove", [](const C& self) { self.in->edit(remove_instances(self.in->scene(), objects_of(self))); },
+            "Removes it from the scene. Its meshes and materials stay: see Session.remove_unused.")
+        .def(
+            "set_material",
+            [](const C& self, const Handle<Material>& material) {
+                if (material.in != self.in) throw Failure("this material belongs to another session");
+                self.in->edit(set_material(self.in->scene(), objects_of(self), material.id));
+            },
+            "material"_a, "Gives all its objects this material.")
+        .def(
+            "make_unique",
+            [](const C& self, const Handle<Material>& material) {
+                auto made = take(make_unique(self.in->scene(), objects_of(self), material.id));
+                self.in->edit(std::move(made.edit));
+                return Handle<Material>{self.in, made.material};
+            },
+            "material"_a, "A copy of the material that only these objects have; other objects keep theirs.")
+        .def_prop_ro(
+            "materials",
+            [](const C& self) {
+                std::vector<Handle<Material>> found;
+                for (const auto id : objects_of(self)) {
+                    const Handle<Material> one{self.in, self.in->scene().instances[id].material};
+                    if (one.id && std::find(found.begin(), found.end(), one) == found.end()) found.push_back(one);
+                }
+                return found;
+            },
+            "The materials of its objects, each once.")
+        .def_prop_rw(
+            "hidden",
+            [](const C& self) {
+                const Objects ids = objects_of(self);
+                return !ids.empty() && std::all_of(ids.begin(), ids.end(), [&](Id<Instance> id) {
+                    return self.in->scene().instances[id].hidden;
+                });
+            },
+            [](const C& self, bool hidden) { self.in->edit(set_hidden(self.in->scene(), objects_of(self), hidden)); },
+            "True: it is in the scene, but no ray meets it.");
+}
+
+} // namespace
+
+void bind_things(nb::module_& m) {
+    nb::class_<ObjectHandle> object(m, "Object",
+                                    "One object: a mesh with a material at a place. Changing a property is "
+                                    "an edit, which Session.undo takes back.");
+    bind_handle(object, "Object");
+    bind_verbs(object);
+    object
+        .def_prop_rw(
+            "transform", [](const ObjectHandle& h) { return to_numpy(h.get().object_to_world); },
+            [](const ObjectHandle& h, nb::handle matrix) {
+                h.in->edit(set_transform(h.in->scene(), h.id, to_matrix(matrix)));
+            },
+            "Object to world: array (4, 4) float64, for column vectors.", nb::for_getter(nb::rv_policy::automatic),
+            nb::for_getter(nb::sig("def transform(self) -> numpy.typing.NDArray[numpy.float64]")),
+            nb::for_setter(nb::sig("def transform(self, matrix: numpy.typing.ArrayLike, /) -> None")))
+        .def_prop_rw(
+            "material",
+            [](const ObjectHandle& h) -> std::optional<Handle<Material>> {
+                if (!h.get().material) return std::nullopt;
+                return Handle<Material>{h.in, h.get().material};
+            },
+            [](const ObjectHandle& h, const Handle<Material>& material) {
+                if (material.in != h.in) throw Failure("this material belongs to another session");
+                const Id<Instance> ids[] = {h.id};
+                h.in->edit(set_material(h.in->scene(), ids, material.id));
+            },
+            "Its material.")
+        .def_prop_ro(
+            "group",
+            [](const ObjectHandle& h) -> std::optional<GroupHandle> {
+                if (!h.get().group) return std::nullopt;
+                return GroupHandle{h.in, h.get().group};
+            },
+            "The group it is in, or None.")
+        .def_prop_rw(
+            "emission",
+            [](const ObjectHandle& h) -> std::optional<Triple> {
+                const auto& emission = h.get().emission;
+                return emission ? std::optional(triple(emission->radiance)) : std::nullopt;
+            },
+            [](const ObjectHandle& h, const std::optional<Three>& radiance) {
+                std::optional<Emission> emission;
+                if (radiance)
+                    emission = Emission{.radiance = glm::vec3(vec(*radiance)),
+                                        .two_sided = h.get().emission && h.get().emission->two_sided};
+                h.in->edit(set_emission(h.in->scene(), h.id, emission));
+            },
+            "Radiance it emits, linear sRGB [W/(m^2 sr)], or None.", nb::for_setter(nb::arg("radiance").none()))
+        .def_prop_ro(
+            "triangle_count",
+            [](const ObjectHandle& h) -> std::size_t {
+                const Mesh* mesh = h.in->scene().meshes.find(h.get().mesh);
+                return mesh && mesh->data ? mesh->data->triangles.size() : 0;
+            },
+            "Triangles of its mesh.");
+
+    nb::class_<GroupHandle> group(
+        m, "Group", "Objects that belong together, a chair of five parts; what a click in the editor selects.");
+    bind_handle(group, "Group");
+    bind_verbs(group);
+    group.def_prop_ro(
+        "parent",
+        [](const GroupHandle& h) -> std::optional<GroupHandle> {
+            if (!h.get().parent) return std::nullopt;
+            return GroupHandle{h.in, h.get().parent};
+        },
+        "The group it is in, or None.");
+
+    nb::class_<Selection> selection(m, "Selection", "Some objects, handled as one; see Session.select.");
+    bind_verbs(selection);
+    selection.def("__len__", [](const Selection& s) { return objects_of(s).size(); })
+        .def("__repr__", [](const Selection& s) {
+            return "<restage.Selection of " + std::to_string(s.in->closed() ? 0 : objects_of(s).size()) + " objects>";
+        });
+}
+
+} // namespace restage::python
