@@ -25,6 +25,8 @@ from ._core import (
     load_plugins, material_types, merge, new, open, plugins,
 )
 from .bsdf import Bsdf, BsdfSample
+from . import spread
+from .checking import CheckReport, CheckStep, check
 
 __version__ = "0.1.0"
 
@@ -42,8 +44,18 @@ def _program() -> _pathlib.Path:
     return program
 
 
+def bundled_scene(name: str) -> _pathlib.Path:
+    """Path of a scene that comes with Restage: demo (a room), cornell or spheres."""
+    path = _pathlib.Path(_core._home()) / "share/restage/scenes" / name / f"{name}.pbrt"
+    if not path.exists():
+        names = sorted(p.parent.name for p in path.parents[1].glob("*/*.pbrt") if p.parent.name == p.stem)
+        raise Error(f"there is no bundled scene \"{name}\"; there are {', '.join(names)}")
+    return path
+
+
 __all__ = [
-    "Bsdf", "BsdfSample", "Camera", "Cameras", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
+    "Bsdf", "BsdfSample", "Camera", "Cameras", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
     "Object", "Objects", "Parameter", "Picture", "Plugin", "Progress", "Report", "ReportEntry", "Selection", "Session",
-    "Sky", "Step", "Texture", "Textures", "load_plugins", "material_types", "merge", "new", "open", "plugins",
+    "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins",
+    "spread",
 ]

@@ -9,11 +9,10 @@ vec2 substrate_alpha(substrate_Params m) {
     return max(alpha_from_roughness(m.uroughness, m.vroughness, m.remap), 1e-3);
 }
 
-// x -> 1 - (1 - x / 2)^5
+// x -> 1 - (1 - x / 2)^5, multiplied out: the difference would cancel at grazing angles.
 float substrate_fade(float x) {
-    float y = 1.0 - 0.5 * x;
-    float y2 = y * y;
-    return 1.0 - y2 * y2 * y;
+    float t = 0.5 * x;
+    return t * (5.0 + t * (-10.0 + t * (10.0 + t * (-5.0 + t))));
 }
 
 // pbrt-v3, Eqs. 8.20 (diffuse) and 8.21 (specular).
