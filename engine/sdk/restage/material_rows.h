@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Lines of parameter tables that several materials share, so that one thing has one name, range and explanation
  * everywhere. Each fits a function of the shader library: roughness and remap are alpha_from_roughness
- * (microfacet.glsl), the coat is layered_coat_of (layered.glsl). Sugar: a plugin may write its own lines. */
+ * (microfacet.glsl), multiscatter is multiscatter.glsl, the coat is layered_coat_of (layered.glsl). Sugar: a plugin may
+ * write its own lines. */
 #ifndef RESTAGE_MATERIAL_ROWS_H
 #define RESTAGE_MATERIAL_ROWS_H
 
@@ -18,6 +19,8 @@
     {"remap", "Roughness scale", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 2, {index}, "", "v4|v3|none", "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as it is."}
 #define RESTAGE_ROW_DISTRIBUTION \
     {"distribution", "Distribution", RESTAGE_ENUM, RESTAGE_PARAM_ADVANCED, 0, 1, {0}, "", "ggx|beckmann", "Shape of the microfacets: GGX has the longer tails."}
+#define RESTAGE_ROW_MULTISCATTER \
+    {"multiscatter", "Multiple scattering", RESTAGE_BOOL, RESTAGE_PARAM_ADVANCED, 0, 1, {0}, "", NULL, "Give back the light that rough microfacets pass between each other; pbrt leaves it out."}
 /* Defaults: copper. */
 #define RESTAGE_ROWS_CONDUCTOR(eta_id, k_id) \
     {eta_id, "Index of refraction", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 10, {0.200438f, 0.924033f, 1.102212f}, "", NULL, "Real part, for red, green and blue."}, \

@@ -10,6 +10,7 @@ static const RestageParam params[] = {
     RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0),
     RESTAGE_ROW_REMAP(0),
     RESTAGE_ROW_DISTRIBUTION,
+    RESTAGE_ROW_MULTISCATTER,
 };
 /* clang-format on */
 

@@ -1,27 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metal: microfacets with complex Fresnel reflectance (pbrt-v4 ConductorBxDF; v3 "metal"); a mirror when smooth.
-#include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
+// With `multiscatter`, light that a rough metal's microfacets pass between each other comes out again.
+#include "lib/multiscatter.glsl"
+#include "lib/sampling.glsl"
 
 vec2 conductor_alpha(conductor_Params m) { return alpha_from_roughness(m.uroughness, m.vroughness, m.remap); }
 
+// The index, real and imaginary part.
+vec3 conductor_eta(conductor_Params m) { return m.use_reflectance ? vec3(1) : m.eta; }
+vec3 conductor_k(conductor_Params m) {
+    return m.use_reflectance ? conductor_k_from_reflectance(m.reflectance) : m.k;
+}
 vec3 conductor_fresnel(conductor_Params m, float cos_i) {
-    bool r = m.use_reflectance;
-    return fresnel_conductor(cos_i, r ? vec3(1) : m.eta, r ? conductor_k_from_reflectance(m.reflectance) : m.k);
+    return fresnel_conductor(cos_i, conductor_eta(m), conductor_k(m));
 }
 
-// Pharr et al. 2023, Eq. 9.33 (Torrance and Sparrow 1967).
-vec3 conductor_eval(conductor_Params m, vec3 wo, vec3 wi) {
-    vec2 alpha = conductor_alpha(m);
-    if (!same_hemisphere(wo, wi) || alpha_is_smooth(alpha))
+// Of light that is reflected more than once; the density of such samples follows its mean share of all light.
+vec3 conductor_multiple(conductor_Params m, vec2 alpha, out float share) {
+    share = 0.0;
+    if (!m.multiscatter)
         return vec3(0);
-    wo.z = abs(wo.z);
-    wi.z = abs(wi.z);
+    float lost = microfacet_mean_loss(alpha, m.distribution);
+    vec3 mean = fresnel_conductor_average(conductor_eta(m), conductor_k(m));
+    vec3 color = multiscatter_color(mean, lost);
+    float most = max_component(color) * lost;
+    share = most / max(most + max_component(mean) * (1.0 - lost), 1e-20);
+    return color;
+}
+
+// Pharr et al. 2023, Eq. 9.33 (Torrance and Sparrow 1967); wo.z, wi.z > 0.
+vec3 conductor_single(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float pdf) {
     vec3 h = normalize(wo + wi);
     float sigma_o = microfacet_sigma(wo, alpha, m.distribution);
     float sigma_i = microfacet_sigma(wi, alpha, m.distribution);
     float d = microfacet_d(h, alpha, m.distribution);
+    pdf = d / (4.0 * sigma_o);
     return conductor_fresnel(m, dot(wo, h)) * (0.25 * d * wi.z * smith_visibility(wo.z, sigma_o, wi.z, sigma_i));
+}
+
+vec3 conductor_value(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float pdf) {
+    float share;
+    vec3 color = conductor_multiple(m, alpha, share);
+    vec3 f = conductor_single(m, wo, wi, alpha, pdf);
+    if (share > 0.0) {
+        float lost = microfacet_mean_loss(alpha, m.distribution);
+        f += color * multiscatter_reflection(wo, wi, alpha, lost, m.distribution);
+        pdf = mix(pdf, cosine_hemisphere_pdf(wi.z), share);
+    }
+    return f;
+}
+
+vec3 conductor_eval(conductor_Params m, vec3 wo, vec3 wi) {
+    vec2 alpha = conductor_alpha(m);
+    float pdf;
+    if (!same_hemisphere(wo, wi) || alpha_is_smooth(alpha))
+        return vec3(0);
+    return conductor_value(m, vec3(wo.xy, abs(wo.z)), vec3(wi.xy, abs(wi.z)), alpha, pdf);
 }
 
 float conductor_pdf(conductor_Params m, vec3 wo, vec3 wi) {
@@ -31,7 +65,10 @@ float conductor_pdf(conductor_Params m, vec3 wo, vec3 wi) {
     wo.z = abs(wo.z);
     wi.z = abs(wi.z);
     float sigma_o = microfacet_sigma(wo, alpha, m.distribution);
-    return microfacet_d(normalize(wo + wi), alpha, m.distribution) / (4.0 * sigma_o);
+    float pdf = microfacet_d(normalize(wo + wi), alpha, m.distribution) / (4.0 * sigma_o);
+    float share;
+    conductor_multiple(m, alpha, share);
+    return mix(pdf, cosine_hemisphere_pdf(wi.z), share);
 }
 
 BsdfSample conductor_sample(conductor_Params m, vec3 wo, vec3 u) {
@@ -39,20 +76,24 @@ BsdfSample conductor_sample(conductor_Params m, vec3 wo, vec3 u) {
     vec3 v = vec3(wo.xy, abs(wo.z));
     float side = wo.z < 0.0 ? -1.0 : 1.0;
     bool smooth_surface = alpha_is_smooth(alpha);
-    vec3 h = smooth_surface ? vec3(0, 0, 1) : microfacet_sample(v, alpha, u.xy, m.distribution);
+    float share;
+    conductor_multiple(m, alpha, share);
+    bool multiple = !smooth_surface && u.z < share;
+    vec3 h = smooth_surface || multiple ? vec3(0, 0, 1) : microfacet_sample(v, alpha, u.xy, m.distribution);
     vec3 wi = smooth_surface ? vec3(-v.xy, v.z) : normalize(reflect_about(v, h));
+    if (multiple)
+        wi = sample_cosine_hemisphere(u.xy);
     if (v.z <= 0.0 || wi.z <= 0.0)
         return BSDF_NONE;
-    vec3 weight = conductor_fresnel(m, dot(v, h));
-    if (smooth_surface)
+    if (smooth_surface) {
+        vec3 weight = conductor_fresnel(m, dot(v, h));
         return BsdfSample(vec3(wi.xy, side * wi.z), weight, 1.0, BSDF_REFLECT | BSDF_DELTA, 1.0);
-    float sigma_o = microfacet_sigma(v, alpha, m.distribution);
-    float sigma_i = microfacet_sigma(wi, alpha, m.distribution);
-    weight *= wi.z * sigma_o * smith_visibility(v.z, sigma_o, wi.z, sigma_i);
-    float pdf = microfacet_d(h, alpha, m.distribution) / (4.0 * sigma_o);
+    }
+    float pdf;
+    vec3 f = conductor_value(m, v, wi, alpha, pdf);
     if (!(pdf > 0.0))
         return BSDF_NONE;
-    return BsdfSample(vec3(wi.xy, side * wi.z), weight, pdf, BSDF_REFLECT, 1.0);
+    return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, BSDF_REFLECT, 1.0);
 }
 
 vec3 conductor_albedo(conductor_Params m, vec3 wo) { return conductor_fresnel(m, abs(wo.z)); }

@@ -13,6 +13,7 @@ static const RestageParam params[] = {
     {"reflectance", "Reflection tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what is reflected; white is physical."},
     {"transmittance", "Transmission tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what is transmitted; white is physical."},
     {"thin", "Thin", RESTAGE_BOOL, 0, 0, 1, {0}, "", NULL, "A pane without thickness: light passes straight on; roughness does not apply."},
+    RESTAGE_ROW_MULTISCATTER,
 };
 /* clang-format on */
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Glass, water: smooth, rough or thin (pbrt-v4 DielectricBxDF and ThinDielectricBxDF; v3 "glass" with its two tints).
+// With `multiscatter`, light that rough microfacets pass between each other comes out again.
 #include "lib/dielectric.glsl"
+#include "lib/multiscatter.glsl"
+#include "lib/sampling.glsl"
 
 // As in pbrt-v3's glass, a roughness of 0 is smooth whatever the remapping makes of it.
 vec2 dielectric_alpha(dielectric_Params m) {
@@ -15,17 +18,36 @@ float dielectric_eta(dielectric_Params m, vec3 wo) {
     return wo.z < 0.0 && !m.thin ? 1.0 / eta : eta;
 }
 
+vec3 dielectric_tint(dielectric_Params m, bool reflects) {
+    return clamp(reflects ? m.reflectance : m.transmittance, vec3(0), vec3(1));
+}
+
+// The share of samples that follow what is scattered more than once.
+float dielectric_multiple_share(dielectric_Params m, vec2 alpha, float eta, out MultiscatterDielectric lobe) {
+    if (!m.multiscatter)
+        return 0.0;
+    lobe = multiscatter_dielectric(alpha, eta, m.distribution);
+    return lobe.mean_loss.x;
+}
+
+// f |cos wi| without tint, and the density, of all lobes that are not delta.
 vec2 dielectric_value_pdf(dielectric_Params m, vec3 wo, vec3 wi) {
     vec2 alpha = dielectric_alpha(m);
     float eta = dielectric_eta(m, wo);
     if (m.thin || dielectric_is_smooth(alpha, eta))
         return vec2(0);
     float side = wo.z < 0.0 ? -1.0 : 1.0;
-    return rough_dielectric(vec3(wo.xy, side * wo.z), vec3(wi.xy, side * wi.z), alpha, eta, m.distribution);
-}
-
-vec3 dielectric_tint(dielectric_Params m, bool reflects) {
-    return clamp(reflects ? m.reflectance : m.transmittance, vec3(0), vec3(1));
+    wo.z *= side;
+    wi.z *= side;
+    vec2 value = rough_dielectric(wo, wi, alpha, eta, m.distribution);
+    MultiscatterDielectric lobe;
+    float share = dielectric_multiple_share(m, alpha, eta, lobe);
+    if (share > 0.0 && wo.z > 0.0 && wi.z != 0.0) {
+        value.x += multiscatter_transmission(lobe, wo, wi, alpha, m.distribution);
+        float side_share = wi.z > 0.0 ? lobe.reflected : 1.0 - lobe.reflected;
+        value.y = mix(value.y, side_share * cosine_hemisphere_pdf(abs(wi.z)), share);
+    }
+    return value;
 }
 
 vec3 dielectric_eval(dielectric_Params m, vec3 wo, vec3 wi) {
@@ -57,9 +79,27 @@ BsdfSample dielectric_sample(dielectric_Params m, vec3 wo, vec3 u) {
         if (!reflects && wi.z == 0.0)
             return BSDF_NONE;
     } else {
-        weight = rough_dielectric_sample(v, alpha, eta, m.distribution, u, wi, pdf);
-        if (weight <= 0.0)
-            return BSDF_NONE;
+        MultiscatterDielectric lobe;
+        float share = dielectric_multiple_share(m, alpha, eta, lobe);
+        if (u.z < share) {
+            wi = sample_cosine_hemisphere(u.xy);
+            if (wi.z <= 0.0)
+                return BSDF_NONE;
+            wi.z *= u.z < share * lobe.reflected ? 1.0 : -1.0;
+            weight = 1.0;
+        } else {
+            u.z = (u.z - share) / (1.0 - share);
+            weight = rough_dielectric_sample(v, alpha, eta, m.distribution, u, wi, pdf);
+            if (weight <= 0.0)
+                return BSDF_NONE;
+        }
+        if (share > 0.0) {
+            vec2 value = dielectric_value_pdf(m, wo, vec3(wi.xy, side * wi.z));
+            if (!(value.y > 0.0))
+                return BSDF_NONE;
+            pdf = value.y;
+            weight = value.x / value.y;
+        }
     }
     bool reflects = wi.z > 0.0;
     uint flags = (reflects ? BSDF_REFLECT : BSDF_TRANSMIT) | (delta ? BSDF_DELTA : 0u);
