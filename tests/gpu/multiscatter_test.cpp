@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Energy compensation: what a rough white surface gives back with and without it, by integrating its samples, and what
 // the loss and its fitted mean (shaders/lib/multiscatter.glsl) are worth over the whole range of roughness.
-#include "gpu/bsdf_configs.hpp"
+#include "gpu/bench.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 
 #include <map>
+#include <sstream>
 
 using namespace restage;
 using namespace restage::test;
