@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> plugins;
-    std::string json, junit, markdown, pictures;
+    std::string json, junit, markdown;
     check::CheckOptions check;
     double time_limit = 60;
     bool in_process = false;
@@ -44,9 +44,12 @@ Result<int> run(const Options& o, Context& context) {
             std::fflush(stdout);
         };
         RESTAGE_TRY(check::PluginReport report, check::check_plugin(s));
-        if (report.steps.empty()) return fail(folder.string() + ": no step is called \"" + o.check.only + "\" for it");
         passed = passed && report.passed();
-        if (text) std::printf("  %s\n", check::verdict_line(report).c_str());
+        if (text) {
+            for (const auto& page : report.pictures)
+                std::printf("  pictures     %s\n", page.string().c_str());
+            std::printf("  %s\n", check::verdict_line(report).c_str());
+        }
         reports.push_back(std::move(report));
     }
     if (!o.json.empty()) {
@@ -73,14 +76,16 @@ void add_check(CLI::App& program, Context& context) {
     command->add_option("--json", o->json, "Write the reports as JSON (- = stdout, and no text)")->type_name("FILE");
     command->add_option("--junit", o->junit, "Write them as JUnit XML, for CI")->type_name("FILE");
     command->add_option("--markdown", o->markdown, "Write them as a table in Markdown")->type_name("FILE");
+    command->add_option("--pictures", o->check.pictures, "Write a page of pictures of each material")
+        ->type_name("FOLDER");
     command->add_option("--seed", o->check.seed, "Seed of all random numbers; replays a failure")
         ->capture_default_str();
-    std::string names;
+    std::vector<std::string> names;
     for (const auto* steps :
          {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(), &check::importer_steps()})
         for (const check::Step& s : *steps)
-            names += (names.empty() ? "" : ", ") + std::string(s.name);
-    command->add_option("--only", o->check.only, "One step alone: " + names)->type_name("STEP");
+            names.emplace_back(s.name);
+    command->add_option("--only", o->check.only, "One step alone")->check(CLI::IsMember(names))->type_name("STEP");
     command->add_flag("--quick", o->check.quick, "A few seconds a plugin: fewer configurations and samples");
     command->add_option("--time-limit", o->time_limit, "Longest time without an answer from the plugin or the GPU [s]")
         ->check(CLI::PositiveNumber)

@@ -21,6 +21,8 @@ const std::vector<Step>& material_steps() {
         {"names", "every name starts with the prefix; no bindings, no buffers", check_names,
          "two materials share one shader where they are mixed, so names must not meet"},
         {"cost", "first dispatch and time of a call", check_cost, "a loop without a bound"},
+        {"params", "values arrive in the GLSL and come back from a project file unchanged", check_params,
+         "two lines of the table with one id, or choices that are not those of the GLSL"},
         {"sound", "finite and not negative, whatever the parameters and directions", check_sound,
          "a division by a cosine, by alpha or by 1 - eta, the root or logarithm of something just below 0, or "
          "normalize(0)"},
@@ -30,6 +32,9 @@ const std::vector<Step>& material_steps() {
          "a constant factor in pdf, or pdf is positive where sample never goes"},
         {"weight", "weight = eval / pdf, and the pdf of a sample is pdf", check_weight,
          "sample has formulas of its own that differ from eval's or pdf's"},
+        {"expectation", "of a stochastic material: samples carry what eval means, pdf is a density, MIS is unbiased",
+         check_expectation,
+         "eval and sample walk by different rules (absorption, the last bounce, the choice of lobes)"},
         {"energy", "no more light leaves than arrives", check_energy,
          "lobes that are added without sharing the energy, a missing shadowing term, or 1 / cos at grazing angles"},
         {"furnace", "a white furnace shows nothing, where LOSSLESS is declared", check_furnace,

@@ -16,12 +16,17 @@ Result<StepResult> check_importer(Subject&);
 Result<StepResult> check_glsl(Subject&);
 Result<StepResult> check_names(Subject&);
 Result<StepResult> check_cost(Subject&);
+// steps_params.cpp
+Result<StepResult> check_params(Subject&);
 // steps_sound.cpp
 Result<StepResult> check_sound(Subject&);
 // steps_density.cpp
 Result<StepResult> check_chi_square(Subject&);
 Result<StepResult> check_integral(Subject&);
 Result<StepResult> check_weight(Subject&);
+// steps_expectation.cpp
+Result<StepResult> check_expectation(Subject&);
+Result<StepResult> check_mean_reciprocity(Subject&); // what check_reciprocity is for stochastic materials
 // steps_energy.cpp
 Result<StepResult> check_energy(Subject&);
 Result<StepResult> check_furnace(Subject&);

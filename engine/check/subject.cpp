@@ -133,7 +133,7 @@ std::string where(const scene::ParamSet& config, const Vec3& wo) {
 }
 
 void run_steps(Subject& subject, const std::function<void(const std::string&, const std::string&)>& begun,
-               const std::function<void(const StepResult&)>& done) {
+               const std::function<void(const StepResult&)>& done, const std::function<void()>& measured) {
     std::string broken; // why nothing that follows makes sense
     const auto run_all = [&](const std::vector<Step>& steps, const std::string& of) {
         for (const Step& step : steps) {
@@ -164,6 +164,7 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
         broken.clear();
         subject.choose(m.table);
         run_all(material_steps(), m.table->type);
+        if (measured && broken.empty() && !subject.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) measured();
     }
     if (!subject.registry().denoisers().empty())
         run_all(denoiser_steps(), subject.registry().denoisers()[0].table->type);

@@ -84,8 +84,9 @@ const std::vector<Step>& material_steps(); // of every material of the plugin
 const std::vector<Step>& denoiser_steps();
 const std::vector<Step>& importer_steps();
 
-// All steps in order. `begun` is called before each, `done` after it.
+// All steps in order. `begun` is called before each, `done` after it; `measured` after those of a material whose GLSL
+// compiles, while it is still chosen.
 void run_steps(Subject& subject, const std::function<void(const std::string& step, const std::string& of)>& begun,
-               const std::function<void(const StepResult&)>& done);
+               const std::function<void(const StepResult&)>& done, const std::function<void()>& measured = {});
 
 } // namespace restage::check

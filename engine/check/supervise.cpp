@@ -2,6 +2,7 @@
 #include "check/supervise.hpp"
 
 #include "base/process.hpp"
+#include "check/pictures.hpp"
 #include "check/report.hpp"
 #include "plugin/manifest.hpp"
 
@@ -69,10 +70,22 @@ void check_in_process(const fs::path& folder, const CheckOptions& options) {
         say({{"event", "alive"}});
     };
     Subject subject(folder, options, alive);
+    const auto pictures = [&] {
+        const auto file = write_pictures(subject, options.pictures);
+        if (file)
+            say({{"event", "pictures"}, {"file", file->string()}});
+        else
+            say({{"event", "step"},
+                 {"result", to_json(StepResult{.step = "pictures",
+                                               .of = subject.table().type,
+                                               .verdict = Verdict::fail,
+                                               .text = file.error().message})}});
+    };
     run_steps(
         subject,
         [](const std::string& step, const std::string& of) { say({{"event", "begin"}, {"step", step}, {"of", of}}); },
-        [](const StepResult& result) { say({{"event", "step"}, {"result", to_json(result)}}); });
+        [](const StepResult& result) { say({{"event", "step"}, {"result", to_json(result)}}); },
+        options.pictures.empty() ? std::function<void()>() : pictures);
     say({{"event", "end"}});
 }
 

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`restage check`: every plugin of ours passes, and plugins that are wrong in one way each are caught, with the right words."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import xml.etree.ElementTree as xml
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage")))
+BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
+
+
+ADDED = {  # faults that are a line more
+    "prefix": "float helper(float x) { return x; }",
+    "binding": "layout(binding = 0) uniform sampler2D broken_picture;",
+    "syntax": "float broken_typo(float x) { return x + y; }",
+}
+
+
+def check(*args, timeout=120):
+    return subprocess.run([RESTAGE, "check", *map(str, args)], capture_output=True, text=True, timeout=timeout)
+
+
+def plugins():
+    done = subprocess.run([RESTAGE, "--quiet", "plugins", "--json"], capture_output=True, text=True, timeout=60)
+    return [p["id"] for p in json.loads(done.stdout)] if done.returncode == 0 else []
+
+
+def broken(folder, library="sound", fault=None, **manifest):
+    """A folder with the rough metal of tests/plugins_broken, with one fault."""
+    folder.mkdir(exist_ok=True)
+    shutil.copy(BROKEN / f"{library}.so", folder / "broken.so")
+    text = (BROKEN / "broken.glsl").read_text()
+    if fault in ADDED:
+        text = ADDED[fault] + "\n" + text
+    elif fault:
+        text = f"#define broken_{fault} 1\n" + text
+    (folder / "broken.glsl").write_text(text)
+    (folder / "plugin.json").write_text(json.dumps({
+        "id": "org.example.broken", "kind": "material", "version": "1.0.0", "abi": 1, "licence": "MIT", "library": "broken",
+        "files": ["broken.glsl"], **manifest}))
+    return folder
+
+
+def failures(folder, *args):
+    """Exit code, and of each failed step what was said."""
+    done = check(folder, "--quick", "--json", "-", *args)
+    assert done.stdout, done.stderr
+    steps = json.loads(done.stdout)[0]["steps"]
+    return done.returncode, {s["step"]: s["text"] + "\n" + s["cause"] for s in steps if s["verdict"] == "fail"}
+
+
+@pytest.mark.parametrize("name", plugins())
+def test_every_plugin_passes(name):
+    done = check(name, "--quick")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "passed: " in done.stdout and "FAIL" not in done.stdout
+
+
+def test_there_are_plugins():
+    assert len(plugins()) >= 15
+
+
+def test_the_rough_metal_without_a_fault_passes(tmp_path):
+    """The control of the tests below: what they find is the fault, not the rest."""
+    code, failed = failures(broken(tmp_path / "plugin"))
+    assert failed == {} and code == 0
+
+
+@pytest.mark.parametrize("fault, step, says", [
+    ("pdf_factor", "chi-square", ["samples do not fall as pdf says", "Jacobian"]),
+    ("pdf_factor", "integral", ["pdf integrates to"]),
+    ("missing_cosine", "reciprocity", ["f(wo, wi) is", "lacks the factor |cos wi|"]),
+    ("grazing_gain", "energy", ["times the light that arrives leaves", "shadowing"]),
+    ("nan_at_alpha_0", "sound", ["nan", "roughness=0"]),
+    ("non_reciprocal", "reciprocity", ["f(wo, wi) is", "NONRECIPROCAL"]),
+    ("back_side", "chi-square", ["samples do not fall as pdf says", "back side"]),
+    ("prefix", "names", ["broken.glsl:1: \"helper\" does not start with the plugin's prefix \"broken_\""]),
+    ("binding", "names", ["broken.glsl:1: declares \"layout\"", "no bindings"]),
+    ("syntax", "glsl", ["broken.glsl:1: 'y' : undeclared identifier"]),
+])
+def test_a_fault_in_glsl_is_found(tmp_path, fault, step, says):
+    code, failed = failures(broken(tmp_path / "plugin", fault=fault), "--only", step)
+    assert code == 1 and list(failed) == [step]
+    for words in says:
+        assert words in failed[step]
+
+
+@pytest.mark.parametrize("library, step, says", [
+    ("small_size", "load", ["16 bytes", "rebuild it with this SDK"]),
+    ("count_lies", "load", ["crashed: SIGSEGV", "lies about its size, its count or its pointers"]),
+    ("crashes", "load", ["crashed: SIGSEGV", "init()"]),
+    ("exits", "load", ["ended the program (exit code 3)", "never calls exit()"]),
+    ("leaks", "reload", ["memory grew by", "shutdown() does not free"]),
+])
+def test_a_fault_in_native_code_is_found(tmp_path, library, step, says):
+    code, failed = failures(broken(tmp_path / "plugin", library), "--only", "reload")
+    assert code == 1 and list(failed) == [step]
+    for words in says:
+        assert words in failed[step]
+
+
+def test_an_endless_loop_in_glsl_is_ended(tmp_path):
+    code, failed = failures(broken(tmp_path / "plugin", fault="endless"), "--time-limit", 4)
+    assert code == 1 and list(failed) == ["cost"]
+    assert "no answer from the GPU within 4 s: an endless loop in its GLSL?" in failed["cost"]
+
+
+def test_an_endless_loop_in_native_code_is_ended(tmp_path):
+    code, failed = failures(broken(tmp_path / "plugin", "hangs"), "--time-limit", 1)
+    assert code == 1 and "no answer from the plugin within 1 s" in failed["load"]
+
+
+def test_what_a_plugin_prints_is_not_taken_for_a_report(tmp_path):
+    code, failed = failures(broken(tmp_path / "plugin", "talks"), "--only", "reload")
+    assert code == 0 and failed == {}
+
+
+def test_a_crash_of_one_does_not_keep_others_from_being_checked(tmp_path):
+    done = check(broken(tmp_path / "a", "crashes"), broken(tmp_path / "b"), "--quick", "--only", "names",
+                 "--junit", tmp_path / "junit.xml", "--markdown", tmp_path / "table.md")
+    assert done.returncode == 1
+    assert "FAIL  load" in done.stdout and "pass  names" in done.stdout
+    suites = xml.parse(tmp_path / "junit.xml").getroot().findall("testsuite")
+    assert [(s.get("failures"), s.get("tests")) for s in suites] == [("1", "1"), ("0", "2")]
+    assert "SIGSEGV" in suites[0].find("testcase/failure").get("message")
+    assert "**FAIL**" in (tmp_path / "table.md").read_text()
+
+
+def test_a_declared_exception_has_its_limit(tmp_path):
+    """The gain without shadowing: let through where the manifest says so, with its reason; not beyond."""
+    for limit, passes in ((1e9, True), (1.01, False)):
+        folder = broken(tmp_path / "plugin", fault="grazing_gain",
+                        exceptions=[{"step": "energy", "limit": limit, "why": "as in a paper"}])
+        done = check(folder, "--quick", "--only", "energy")
+        assert (done.returncode == 0) == passes, done.stdout
+        assert ("as in a paper" in done.stdout) == passes
+
+
+def test_a_failure_names_what_replays_it(tmp_path):
+    folder = broken(tmp_path / "plugin", fault="non_reciprocal")
+    texts = []
+    for seed in (7, 7, 8):
+        done = check(folder, "--quick", "--only", "reciprocity", "--seed", seed)
+        assert f"again: restage check {folder} --only reciprocity --seed {seed} --quick" in done.stdout
+        texts.append(done.stdout.split("FAIL")[1].split("again")[0])
+    assert texts[0] == texts[1] != texts[2]
+
+
+def test_what_is_not_there_is_said(tmp_path):
+    (tmp_path / "empty").mkdir()
+    for name, says in (("nosuchplugin", "no plugin has this id"), (tmp_path / "empty", "no plugin.json in this folder")):
+        done = check(name, "--quick")
+        assert done.returncode == 1 and says in done.stderr
+    done = check("mirror", "--quick", "--only", "nosuchstep")
+    assert done.returncode == 2 and "--only: nosuchstep not in" in done.stderr
