@@ -15,7 +15,8 @@ def test_a_good_plugin_passes_and_the_report_says_what_was_done():
 def test_a_folder_a_plugin_and_one_step():
     plugin = next(p for p in restage.plugins() if "material diffuse" in p.provides)
     report = restage.check(plugin, quick=True, only="manifest")
-    assert report.folder == str(plugin.folder) and [s.step for s in report.steps] == ["manifest"]
+    steps = [s.step for s in report.steps]
+    assert report.folder == str(plugin.folder) and "manifest" in steps and "energy" not in steps
 
 
 def test_what_cannot_be_checked_is_an_error(tmp_path):

@@ -182,7 +182,9 @@ def test_parts_of_a_seed_merge_into_the_whole(cornell):
     merged = restage.merge(parts[::-1])
     assert merged.samples == 12 and merged.first_sample == 0 and merged.finished
     assert np.allclose(merged.color, whole.color, rtol=1e-5, atol=1e-6)
-    assert np.allclose(merged.std_error, whole.std_error, rtol=1e-3, atol=1e-5)
+    # The film keeps sums of squares as floats: where all samples are alike, as on a lamp, their difference is rounding.
+    errors = np.abs(merged.std_error.astype(float)**2 - whole.std_error.astype(float)**2)
+    assert (errors <= 1e-3 * whole.std_error**2 + 1e-6 * whole.color**2).all()
     for name in ("albedo", "normal", "depth"):
         assert np.allclose(getattr(merged, name), getattr(whole, name), rtol=1e-5, atol=1e-5), name
     assert np.array_equal(merged.object_id, whole.object_id) and np.array_equal(merged.material_id, whole.material_id)

@@ -51,7 +51,9 @@ def test_parts_are_the_whole_also_when_a_worker_dies(ray, tmp_path):
         session.materials[0]["reflectance"] = (0.2, 0.3, 0.4)
         whole = session.render(samples=12, **options)
     assert np.allclose(merged.color, whole.color, rtol=1e-5, atol=1e-6)
-    assert np.allclose(merged.std_error, whole.std_error, rtol=1e-3, atol=1e-5)
+    # The film keeps sums of squares as floats: where all samples are alike, as on a lamp, their difference is rounding.
+    errors = np.abs(merged.std_error.astype(float)**2 - whole.std_error.astype(float)**2)
+    assert (errors <= 1e-3 * whole.std_error**2 + 1e-6 * whole.color**2).all()
     assert np.array_equal(merged.object_id, whole.object_id)
 
 

@@ -38,12 +38,13 @@ def test_a_wheel_works_in_a_fresh_environment(cornell, program, tmp_path):
     def of_build(name):
         return re.search(rf"^{name}:\w+=(.*)$", cache, re.M).group(1)
     environment = {**os.environ, "CCACHE_BASEDIR": str(ROOT), "CCACHE_NOHASHDIR": "1", "CMAKE_BUILD_PARALLEL_LEVEL": "2",
+                   "CC": of_build("CMAKE_C_COMPILER"), "CXX": of_build("CMAKE_CXX_COMPILER"),
                    "PATH": str(pathlib.Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]}
     run(sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", ROOT, "--no-build-isolation", "--no-deps",
         "--wheel-dir", tmp_path,
         # The same objects as those of the build under test, so that they come from the cache.
-        "-C", f"build-dir={ROOT}/build/wheel", "-C", f"cmake.build-type={of_build('CMAKE_BUILD_TYPE')}",
-        "-C", f"cmake.define.RESTAGE_WERROR={of_build('RESTAGE_WERROR')}", env=environment)
+        "--config-settings", f"build-dir={ROOT}/build/wheel", "--config-settings", f"cmake.build-type={of_build('CMAKE_BUILD_TYPE')}",
+        "--config-settings", f"cmake.define.RESTAGE_WERROR={of_build('RESTAGE_WERROR')}", env=environment)
     wheel, = tmp_path.glob("restage-*.whl")
 
     run(sys.executable, "-m", "venv", tmp_path / "venv")
