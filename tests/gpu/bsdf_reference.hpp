@@ -79,6 +79,65 @@ inline double microfacet_transmission(V wo, V wi, Alpha a, double eta) { // eta 
     return f * std::abs(wi.z) / (eta * eta); // radiance
 }
 
+inline double schlick(double f0, double f90, double c) { return f0 + (f90 - f0) * std::pow(1 - c, 5); }
+
+// f |cos wi| of Estevez and Kulla 2017, Eqs. 2 to 4, both directions above.
+inline double sheen_lambda(double cos_theta, double r) {
+    const auto l = [r](double x) {
+        const double t = (1 - r) * (1 - r);
+        const auto p = [t](double at0, double at1) { return t * at0 + (1 - t) * at1; };
+        return p(25.3245, 21.5473) / (1 + p(3.32435, 3.82987) * std::pow(x, p(0.16801, 0.19823))) +
+               p(-1.27393, -1.97760) * x + p(-4.85967, -4.32054);
+    };
+    return cos_theta < 0.5 ? std::exp(l(cos_theta)) : std::exp(2 * l(0.5) - l(1 - cos_theta));
+}
+inline double sheen(V wo, V wi, double r) {
+    const V h = normalize(wo + wi);
+    const double d = (2 + 1 / r) * std::pow(std::sin(std::acos(std::min(h.z, 1.0))), 1 / r) / (2 * pi);
+    return d / (1 + sheen_lambda(wo.z, r) + sheen_lambda(wi.z, r)) / (4 * wo.z);
+}
+
+// Reflectance of a film [nm] on a base, linear sRGB: Belcour and Barla 2017, Eqs. 3 and 10, two orders, Schlick's
+// terms.
+inline std::array<double, 3> thin_film(double c, double index, double thickness, std::array<double, 3> f0) {
+    const double x = std::clamp(thickness / 30, 0.0, 1.0), film = 1 + (index - 1) * x * x * (3 - 2 * x);
+    const double cos_t = std::sqrt(1 - (1 - c * c) / (film * film));
+    const double r12 = schlick(std::pow((film - 1) / (film + 1), 2), 1, c), t121 = 1 - r12;
+    const double path = 2 * film * thickness * 1e-9 * cos_t; // [m]
+    std::array<double, 3> xyz[2], rgb{}, r23{}, series{}, phase{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double root = std::sqrt(std::min(f0[k], 0.9999)), base = (1 + root) / (1 - root);
+        r23[k] = schlick(std::pow((base - film) / (base + film), 2), 1, cos_t);
+        series[k] = t121 * t121 * r23[k] / (1 - std::clamp(r12 * r23[k], 1e-5, 0.9999));
+        phase[k] = pi + (base < film ? pi : 0);
+    }
+    for (int m = 1; m <= 2; ++m) {
+        const double w = 2 * pi * path * m;
+        const auto lobe = [&](double value, double position, double variance, double shift) {
+            return value * std::sqrt(2 * pi * variance) * std::cos(position * w + shift) * std::exp(-w * w * variance);
+        };
+        xyz[m - 1] = {
+            (lobe(5.4856e-13, 1.6810e6, 4.3278e9, m * phase[0]) + lobe(9.7470e-14, 2.2399e6, 4.5282e9, m * phase[0])) /
+                1.0685e-7,
+            lobe(4.4201e-13, 1.7953e6, 9.3046e9, m * phase[1]) / 1.0685e-7,
+            lobe(5.2481e-13, 2.2084e6, 6.6121e9, m * phase[2]) / 1.0685e-7};
+    }
+    constexpr double to_rgb[3][3] = {{3.2404542, -1.5371385, -0.4985314}, // IEC 61966-2-1
+                                     {-0.9692660, 1.8760108, 0.0415560},
+                                     {0.0556434, -0.2040259, 1.0572252}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        rgb[k] = r12 + series[k];
+        for (int m = 1; m <= 2; ++m) {
+            double s = 0;
+            for (std::size_t j = 0; j < 3; ++j)
+                s += to_rgb[k][j] * xyz[m - 1][j];
+            rgb[k] += 2 * s * (series[k] - t121) * std::pow(std::clamp(r12 * r23[k], 1e-5, 0.9999), m / 2.0);
+        }
+        rgb[k] = std::clamp(rgb[k], 0.0, 1.0);
+    }
+    return rgb;
+}
+
 // Random numbers and sampling, for walks. Visible normals by Heitz 2018 (projected hemisphere), not by spherical caps.
 struct Random {
     std::mt19937_64 engine;

@@ -238,6 +238,54 @@ TEST_CASE("plastic, uber and translucent against pbrt-v3's definitions", "[mater
         rough);
 }
 
+TEST_CASE("principled: anisotropic metal under a thin film against Belcour and Barla", "[materials]") {
+    compare(
+        "principled",
+        [](const Params& p, V wo, V wi, int k) {
+            if (!same_side(wo, wi)) return 0.0;
+            const double a = p.number("roughness") * p.number("roughness"), s = p.number("anisotropy");
+            const double angle = p.number("anisotropy_rotation") * ref::pi / 180; // of the surface against the light
+            const auto turned = [&](V w) {
+                const double phi = std::atan2(w.y, w.x) - angle, r = std::hypot(w.x, w.y);
+                return V{r * std::cos(phi), r * std::sin(phi), std::abs(w.z)};
+            };
+            const Alpha alpha{a + (1 - a) * s * s, a};
+            wo = turned(wo), wi = turned(wi);
+            const V h = ref::normalize(wo + wi);
+            const double c = ref::dot(wo, h), base = p.color("base_color", k), share = p.number("iridescence");
+            const auto film =
+                ref::thin_film(c, p.number("iridescence_ior"), p.number("iridescence_thickness"),
+                               {p.color("base_color", 0), p.color("base_color", 1), p.color("base_color", 2)});
+            const double f = (1 - share) * ref::schlick(base, 1, c) + share * film[static_cast<std::size_t>(k)];
+            return f * ref::distribution(h, alpha) * ref::g2(wo, wi, alpha) / (4 * wo.z);
+        },
+        [](scene::ParamSet& set, Engine& e) {
+            single(set);
+            set.set("roughness", scene::Value::number(uniform(e, 0.2f, 1.f)));
+            set.set("metallic", scene::Value::number(1));
+            set.set("clearcoat", scene::Value::number(0));
+            set.set("sheen_color", scene::Value::color(0, 0, 0));
+            set.set("anisotropy_rotation", scene::Value::number(uniform(e, -180, 180)));
+            if (e() % 2) set.set("iridescence_thickness", scene::Value::number(uniform(e, 0, 60))); // where it begins
+        });
+}
+
+TEST_CASE("principled: sheen against Estevez and Kulla", "[materials]") {
+    compare(
+        "principled",
+        [](const Params& p, V wo, V wi, int k) {
+            const double r = p.number("sheen_roughness") * p.number("sheen_roughness");
+            return same_side(wo, wi) ? p.color("sheen_color", k) * ref::sheen(up(wo), up(wi), r) : 0.0;
+        },
+        [](scene::ParamSet& set, Engine& e) {
+            single(set);
+            for (const char* id : {"metallic", "transmission", "clearcoat", "specular", "iridescence"})
+                set.set(id, scene::Value::number(0));
+            set.set("base_color", scene::Value::color(0, 0, 0));
+            set.set("sheen_roughness", scene::Value::number(uniform(e, 0.4f, 1.f))); // below, it would return too much
+        });
+}
+
 // Delta lobes: which direction, with what probability and weight. Probability times weight is what a lobe carries.
 TEST_CASE("smooth dielectric, thin dielectric, smooth conductor, mirror, uber: the delta lobes", "[materials]") {
     Bench& bench = Bench::get();

@@ -169,7 +169,11 @@ TEST_CASE("gltf: material extensions reach the principled material", "[gltf]") {
            {"KHR_materials_volume",
             {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 1}}}},
            {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.6}, {"clearcoatRoughnessFactor", 0.3}}},
-           {"KHR_materials_sheen", json::object()}}}}};
+           {"KHR_materials_sheen", {{"sheenColorFactor", {0.25, 0.5, 1}}, {"sheenRoughnessFactor", 0.7}}},
+           {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.5707963267948966}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 0.75}, {"iridescenceIor", 1.8}, {"iridescenceThicknessMaximum", 550}}},
+           {"KHR_materials_dispersion", {{"dispersion", 0.1}}}}}}};
     const auto in = b.load(files);
     const auto& i = thing(in);
     const auto& p = in.scene.materials[i.material].params;
@@ -188,7 +192,15 @@ TEST_CASE("gltf: material extensions reach the principled material", "[gltf]") {
     REQUIRE(i.media);
     CHECK(in.scene.media[i.media->interior].sigma_a.x == Approx(std::log(2.0) / 2));
     CHECK(in.scene.media[i.media->interior].sigma_a.y == 0);
-    CHECK(says(in, RESTAGE_DROPPED, "a.gltf", "sheen"));
+    CHECK(p.color("sheen_color", {})[1] == Approx(0.5));
+    CHECK(p.number("sheen_roughness", -1) == Approx(0.7));
+    CHECK(p.number("anisotropy", -1) == Approx(0.5));
+    CHECK(p.number("anisotropy_rotation", -1) == Approx(90));
+    CHECK(p.number("iridescence", -1) == Approx(0.75));
+    CHECK(p.number("iridescence_ior", -1) == Approx(1.8));
+    CHECK(p.number("iridescence_thickness", -1) == Approx(550)); // without a texture the maximum holds
+    CHECK(says(in, RESTAGE_DROPPED, "a.gltf", "KHR_materials_dispersion"));
+    CHECK_FALSE(says(in, RESTAGE_DROPPED, "a.gltf", "sheen"));
 }
 
 TEST_CASE("gltf: vertex colours interpolate exactly as a texture", "[gltf]") {

@@ -88,8 +88,15 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         if (!glass) put_color(p, v, "base_color", "reflectance", {0.8f, 0.8f, 0.8f});
         if (!metallic) put_float(p, v, "ior", "eta", 1.5f);
         if (glass && v.boolean("thin", false)) return "thindielectric";
-        const float roughness = mean("roughness", 0.5f);
-        p.add_float("roughness", roughness * roughness); // alpha
+        const float roughness = mean("roughness", 0.5f), strength = mean("anisotropy", 0);
+        const float alpha = roughness * roughness;
+        if (strength > 0)
+            p.add_float("uroughness", alpha + (1 - alpha) * strength * strength).add_float("vroughness", alpha);
+        else
+            p.add_float("roughness", alpha);
+        if (v.ref("sheen_color") || v.color("sheen_color", {0, 0, 0}) != std::array{0.f, 0.f, 0.f})
+            dropped(what, "pbrt-v4 has no sheen");
+        if (mean("iridescence", 0) > 0) dropped(what, "pbrt has no thin films: its iridescence is lost");
         flag(p, "remaproughness", false);
         return metallic ? "conductor" : glass ? "dielectric" : "coateddiffuse";
     }

@@ -106,6 +106,8 @@ class Importer {
     void alpha(const tinygltf::Material&, const TextureUse&, double factor, MadeMaterial&);
     void extensions(const tinygltf::Material&, MadeMaterial&, Values&);
     void volume(const tinygltf::Value&, const std::string& name, MadeMaterial&, Values&);
+    void anisotropy(const tinygltf::Value&, const std::string& what, MadeMaterial&, Values&);
+    void iridescence(const tinygltf::Value&, MadeMaterial&, Values&);
 
     // textures.cpp
     TextureUse use_of(const tinygltf::Value& owner, const char* key, const char* slot) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace restage::gltf {
 
@@ -20,6 +21,41 @@ void Importer::volume(const tinygltf::Value& v, const std::string& name, MadeMat
         medium.sigma_a[i] = static_cast<float>(-std::log(std::clamp(color[i], 1e-4, 1.0)) / distance);
     made.interior = out_.medium(out_.ctx, &medium);
     made.has_interior = made.interior != 0;
+}
+
+void Importer::anisotropy(const tinygltf::Value& v, const std::string& what, MadeMaterial& made, Values& values) {
+    const TextureUse use = use_of(v, "anisotropyTexture", "anisotropy");
+    if (use)
+        report_.approximated(what + ": anisotropy texture",
+                             "its strength is rendered; the directions in it are not, only the rotation is");
+    put_scalar(values, "anisotropy", number_of(v, "anisotropyStrength", 0), use, 2, made);
+    values.number("anisotropy_rotation",
+                  std::remainder(number_of(v, "anisotropyRotation", 0) * 180 / std::numbers::pi, 360));
+}
+
+void Importer::iridescence(const tinygltf::Value& v, MadeMaterial& made, Values& values) {
+    put_scalar(values, "iridescence", number_of(v, "iridescenceFactor", 0),
+               use_of(v, "iridescenceTexture", "iridescence"), 0, made);
+    values.number("iridescence_ior", std::clamp(number_of(v, "iridescenceIor", 1.3), 1.0, 3.0));
+    const double least = number_of(v, "iridescenceThicknessMinimum", 100),
+                 most = number_of(v, "iridescenceThicknessMaximum", 400);
+    const TextureUse use = use_of(v, "iridescenceThicknessTexture", "iridescence thickness");
+    const RestageHandle amount = use ? texture(use, Purpose::green, made.uv, made.name) : 0;
+    if (!amount) {
+        values.number("iridescence_thickness", std::clamp(most, 0.0, 2000.0));
+        return;
+    }
+    Values mix;
+    mix.number("tex1", least);
+    mix.number("tex2", most);
+    mix.texture("amount", RESTAGE_FLOAT, amount);
+    const RestageTexture between = {.text = {(made.name + " film").c_str(), "", ""},
+                                    .type = "mix",
+                                    .is_float = 1,
+                                    .image = 0,
+                                    .values = mix.data(),
+                                    .value_count = mix.size()};
+    values.texture("iridescence_thickness", RESTAGE_FLOAT, out_.texture(out_.ctx, &between));
 }
 
 void Importer::extensions(const tinygltf::Material& m, MadeMaterial& made, Values& values) {
@@ -60,11 +96,16 @@ void Importer::extensions(const tinygltf::Material& m, MadeMaterial& made, Value
             put_color(values, "base_color", color_of(v, "diffuseFactor", {1, 1, 1}),
                       use_of(v, "diffuseTexture", "diffuse"), made);
         } else if (name == "KHR_materials_sheen") {
-            report_.dropped(what + ": sheen", "the principled material has none");
+            put_color(values, "sheen_color", color_of(v, "sheenColorFactor", {0, 0, 0}),
+                      use_of(v, "sheenColorTexture", "sheen colour"), made);
+            put_scalar(values, "sheen_roughness", number_of(v, "sheenRoughnessFactor", 0),
+                       use_of(v, "sheenRoughnessTexture", "sheen roughness"), 3, made);
         } else if (name == "KHR_materials_anisotropy") {
-            report_.dropped(what + ": anisotropy", "its roughness is the same in all directions");
-        } else if (name == "KHR_materials_iridescence" || name == "KHR_materials_dispersion" ||
-                   name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_variants") {
+            anisotropy(v, what, made, values);
+        } else if (name == "KHR_materials_iridescence") {
+            iridescence(v, made, values);
+        } else if (name == "KHR_materials_dispersion" || name == "KHR_materials_diffuse_transmission" ||
+                   name == "KHR_materials_variants") {
             report_.dropped(what + ": " + name, "not rendered");
         } else if (name != "KHR_materials_volume" && name != "KHR_materials_unlit") {
             report_.dropped(what + ": " + name, "not known");

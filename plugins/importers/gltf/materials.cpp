@@ -28,8 +28,10 @@ UvPlan Importer::uv_plan(int index) {
                                     use_of(m.pbrMetallicRoughness.metallicRoughnessTexture, "metallic-roughness"),
                                     use_of(m.emissiveTexture, "emissive")};
     for (const auto& [name, value] : m.extensions)
-        for (const char* key : {"transmissionTexture", "clearcoatTexture", "clearcoatRoughnessTexture",
-                                "specularTexture", "specularColorTexture", "diffuseTexture"})
+        for (const char* key :
+             {"transmissionTexture", "clearcoatTexture", "clearcoatRoughnessTexture", "specularTexture",
+              "specularColorTexture", "diffuseTexture", "sheenColorTexture", "sheenRoughnessTexture",
+              "anisotropyTexture", "iridescenceTexture", "iridescenceThicknessTexture"})
             uses.push_back(use_of(value, key, key));
     for (const TextureUse& use : uses)
         if (use) return {use.set, use.transform.diagonal() ? UvTransform{} : use.transform};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Principled: the parameter table; the physics is in principled.glsl, formulas and sources in README.md. */
 #include <restage/material_plugin.h>
+#include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
@@ -14,12 +15,20 @@ static const RestageParam params[] = {
     {"thin", "Thin", RESTAGE_BOOL, 0, 0, 1, {0}, "", NULL, "A pane without thickness: what shines through is not bent."},
     {"clearcoat", "Clear coat", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0}, "", NULL, "A layer of varnish over everything."},
     {"clearcoat_roughness", "Coat roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0}, "", NULL, "Of the varnish."},
+    {"sheen_color", "Sheen", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0, 0, 0}, "", NULL, "Of fibres that stand on the surface, as on velvet; black: none."},
+    {"sheen_roughness", "Sheen roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE | RESTAGE_PARAM_ADVANCED, 0, 1, {0.3f}, "", NULL, "Low: the fibres shine at the rim only; high: everywhere."},
+    {"anisotropy", "Anisotropy", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE | RESTAGE_PARAM_ADVANCED, 0, 1, {0}, "", NULL, "Brushed: how much rougher along the texture's u direction."},
+    {"anisotropy_rotation", "Anisotropy rotation", RESTAGE_FLOAT, RESTAGE_PARAM_ADVANCED, -360, 360, {0}, "deg", NULL, "Turns that direction, counter-clockwise."},
+    {"iridescence", "Iridescence", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE | RESTAGE_PARAM_ADVANCED, 0, 1, {0}, "", NULL, "A thin film on the surface: soap, oil, beetles."},
+    {"iridescence_ior", "Film index", RESTAGE_FLOAT, RESTAGE_PARAM_ADVANCED, 1, 3, {1.3f}, "", NULL, "Of refraction, of that film."},
+    {"iridescence_thickness", "Film thickness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE | RESTAGE_PARAM_ADVANCED, 0, 2000, {400}, "nm", NULL, "Of that film."},
+    RESTAGE_ROW_MULTISCATTER,
 };
 /* clang-format on */
 
 static const RestageMaterial1 material = {
     .size = sizeof(RestageMaterial1),
-    .flags = RESTAGE_MATERIAL_TRANSMISSIVE,
+    .flags = RESTAGE_MATERIAL_TRANSMISSIVE | RESTAGE_MATERIAL_TANGENT,
     .type = "principled",
     .label = "Principled (glTF)",
     .prefix = "principled",

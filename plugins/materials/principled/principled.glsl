@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The metallic-roughness material of glTF 2.0 (appendix B) with KHR_materials_ior, _specular, _transmission, _volume (its
-// refraction) and _clearcoat. Lobes: diffuse; one GGX layer that reflects, as metal or dielectric, and lets through what
-// is transmissive; a GGX coat on top. README.md says where it is not appendix B to the letter.
+// refraction), _clearcoat, _sheen, _anisotropy and _iridescence. Lobes: diffuse; one GGX layer that reflects, as metal or
+// dielectric, and lets through what is transmissive; fibres over both; a GGX coat on top. README.md says where it is not
+// the specification to the letter.
 #include "lib/dielectric.glsl"
+#include "lib/multiscatter.glsl"
 #include "lib/sampling.glsl"
+#include "lib/sheen.glsl"
+#include "lib/thin_film.glsl"
 
 const float principled_coat_f0 = 0.04;   // ior 1.5, KHR_materials_clearcoat
 const float principled_least_eta = 1.01; // below it the half vector of refraction has no direction left
@@ -19,14 +23,30 @@ struct principled_State {
     vec2 alpha;
     vec2 coat_alpha;
     float coat;
-    vec3 choice; // probabilities: diffuse, layer, coat
+    vec3 sheen;
+    float sheen_alpha;
+    float film; // share of the surface that has one
+    float film_ior;
+    float film_thickness; // nm
+    float mean_fresnel;   // of the dielectric, over the hemisphere, its largest channel
+    float mean_loss;      // of the layer, to multiple scattering; 0 when that is left out
+    vec3 multiple;        // colour of light reflected more than once
+    vec2 turn;            // cosine and sine of the anisotropy's rotation
+    vec4 choice;          // probabilities: cosine lobe (diffuse and multiple), layer, coat, sheen
 };
 
 float principled_schlick(float c) {
     float x = clamp(1.0 - c, 0.0, 1.0);
     return sqr(x * x) * x;
 }
-vec3 principled_fresnel(principled_State s, float c) { return s.f0 + (s.f90 - s.f0) * principled_schlick(c); }
+vec3 principled_under_film(principled_State s, float c, vec3 bare, vec3 f0) {
+    if (s.film <= 0.0)
+        return bare;
+    return mix(bare, thin_film_reflectance(c, s.film_ior, s.film_thickness, f0), s.film);
+}
+vec3 principled_fresnel(principled_State s, float c) {
+    return principled_under_film(s, c, s.f0 + (s.f90 - s.f0) * principled_schlick(c), s.f0);
+}
 float principled_coat_fresnel(principled_State s, float c) {
     return s.coat * (principled_coat_f0 + (1.0 - principled_coat_f0) * principled_schlick(c));
 }
@@ -34,11 +54,17 @@ float principled_coat_fresnel(principled_State s, float c) {
 // What a microfacet seen under the cosine c reflects and lets through.
 vec3 principled_reflected(principled_State s, float c, out vec3 through) {
     vec3 dielectric = principled_fresnel(s, c);
-    float glass = s.thin ? max_component(dielectric) : fresnel_dielectric(c, s.eta);
+    vec3 glass = vec3(s.thin ? max_component(dielectric) : 0.0);
+    if (!s.thin && s.transmission > 0.0) {
+        float cos_t;
+        glass = vec3(fresnel_dielectric(c, s.eta, cos_t));
+        if (cos_t > 0.0) // a film looks alike from both sides
+            glass = principled_under_film(s, s.eta < 1.0 ? cos_t : c, glass, s.f0);
+    }
     float clear = (1.0 - s.metallic) * s.transmission;
     through = clear * (1.0 - glass) * s.base;
-    dielectric = mix(dielectric, s.thin ? dielectric : vec3(glass), s.transmission);
-    return mix(dielectric, fresnel_schlick(s.base, c), s.metallic);
+    dielectric = mix(dielectric, s.thin ? dielectric : glass, s.transmission);
+    return mix(dielectric, principled_under_film(s, c, fresnel_schlick(s.base, c), s.base), s.metallic);
 }
 
 // The share of the layer's samples that reflect.
@@ -50,13 +76,38 @@ float principled_reflects(vec3 reflected, vec3 through) {
 
 // The matte part below the layer: what the layer lets in on the way of wi and out on the way of wo, scaled so that a
 // smooth white surface loses nothing. Shirley, Smits, Hu and Lafortune 1997, "A Practitioners' Assessment of Light
-// Reflection Models", Eq. 7, with Schlick's mean over the hemisphere f0 + (f90 - f0) / 21.
+// Reflection Models", Eq. 7.
 vec3 principled_diffuse(principled_State s, float cos_o, float cos_i) {
-    float f0 = max_component(s.f0);
     float o = 1.0 - max_component(principled_fresnel(s, cos_o));
     float i = 1.0 - max_component(principled_fresnel(s, cos_i));
-    float mean = max(1.0 - f0 - (s.f90 - f0) / 21.0, 1e-4);
-    return s.base * ((1.0 - s.metallic) * (1.0 - s.transmission) * o * i / mean);
+    return s.base * ((1.0 - s.metallic) * (1.0 - s.transmission) * o * i / max(1.0 - s.mean_fresnel, 1e-4));
+}
+
+// Over the hemisphere, cosine-weighted: of Schlick's curve it is f0 + (f90 - f0) / 21; under a film a Gauss-Jacobi rule.
+float principled_mean_fresnel(principled_State s) {
+    if (s.film <= 0.0)
+        return max_component(fresnel_schlick_average(s.f0, s.f90));
+    const vec3 node = vec3(0.21234054, 0.59053314, 0.91141204), weight = vec3(0.13965396, 0.45848221, 0.40186383);
+    float sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+        sum += weight[k] * max_component(principled_fresnel(s, node[k]));
+    return sum;
+}
+
+// What of the rest is left where fibres stand: KHR_materials_sheen, "Albedo-scaling technique".
+float principled_under_sheen(principled_State s, float cos_o, float cos_i) {
+    float most = max_component(s.sheen);
+    if (most <= 0.0)
+        return 1.0;
+    return 1.0 - most * max(sheen_albedo(cos_o, s.sheen_alpha), sheen_albedo(cos_i, s.sheen_alpha));
+}
+
+// The frame of the anisotropy: x along its direction.
+vec3 principled_turned(principled_State s, vec3 w) {
+    return vec3(s.turn.x * w.x + s.turn.y * w.y, s.turn.x * w.y - s.turn.y * w.x, w.z);
+}
+vec3 principled_turned_back(principled_State s, vec3 w) {
+    return vec3(s.turn.x * w.x - s.turn.y * w.y, s.turn.x * w.y + s.turn.y * w.x, w.z);
 }
 
 principled_State principled_state(principled_Params m, vec3 wo) {
@@ -70,16 +121,35 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     float eta = max(ior, principled_least_eta);
     s.eta = wo.z < 0.0 ? 1.0 / eta : eta;
     s.thin = m.thin;
-    s.alpha = vec2(sqr(clamp(m.roughness, 0.0, 1.0)));
+    float strength = clamp(m.anisotropy, 0.0, 1.0);
+    float alpha = sqr(clamp(m.roughness, 0.0, 1.0));
+    s.alpha = vec2(mix(alpha, 1.0, sqr(strength)), alpha); // KHR_materials_anisotropy, "Individual lobes"
+    float turn = strength > 0.0 ? radians(m.anisotropy_rotation) : 0.0;
+    s.turn = vec2(cos(turn), sin(turn));
+    s.sheen = clamp(m.sheen_color, vec3(0), vec3(1));
+    s.sheen_alpha = sheen_alpha(m.sheen_roughness);
+    s.film = clamp(m.iridescence, 0.0, 1.0);
+    s.film_ior = clamp(m.iridescence_ior, 1.0, 3.0);
+    s.film_thickness = max(m.iridescence_thickness, 0.0);
+    s.mean_fresnel = principled_mean_fresnel(s);
+    s.mean_loss = 0.0;
+    s.multiple = vec3(0);
+    if (m.multiscatter && !alpha_is_smooth(s.alpha)) {
+        s.mean_loss = microfacet_mean_loss(s.alpha, DISTRIBUTION_GGX);
+        s.multiple = mix((1.0 - s.transmission) * multiscatter_color(fresnel_schlick_average(s.f0, s.f90), s.mean_loss),
+                         multiscatter_color(fresnel_schlick_average(s.base, 1.0), s.mean_loss), s.metallic);
+    }
     s.coat_alpha = vec2(sqr(clamp(m.clearcoat_roughness, 0.0, 1.0)));
     s.coat = clamp(m.clearcoat, 0.0, 1.0);
     float c = abs(wo.z);
     vec3 through;
     vec3 reflected = principled_reflected(s, c, through);
     float coat = principled_coat_fresnel(s, c);
-    s.choice = vec3((1.0 - coat) * max_component(principled_diffuse(s, c, 0.7)),
-                    (1.0 - coat) * (max_component(reflected) + max_component(through)), coat);
-    s.choice /= max(s.choice.x + s.choice.y + s.choice.z, 1e-20);
+    float below = (1.0 - coat) * principled_under_sheen(s, c, c);
+    s.choice = vec4(below * (max_component(principled_diffuse(s, c, 0.7)) + max_component(s.multiple) * s.mean_loss),
+                    below * (max_component(reflected) + max_component(through)), coat,
+                    (1.0 - coat) * max_component(s.sheen) * sheen_albedo(c, s.sheen_alpha));
+    s.choice /= max(dot(s.choice, vec4(1)), 1e-20);
     return s;
 }
 
@@ -99,6 +169,8 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     if (reflects) {
         f = principled_diffuse(s, wo.z, ci) * (INV_PI * ci);
         pdf = s.choice.x * cosine_hemisphere_pdf(ci);
+        if (max_component(s.multiple) > 0.0)
+            f += s.multiple * multiscatter_reflection(wo, wi, s.alpha, s.mean_loss, DISTRIBUTION_GGX);
     }
     if (!alpha_is_smooth(s.alpha) && (reflects || s.transmission > 0.0)) {
         // A pane is seen through as a mirror turned inside out.
@@ -111,6 +183,11 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
         f += (reflects ? reflected : through) * layer.x;
         pdf += s.choice.y * (reflects ? share : 1.0 - share) * layer.y;
     }
+    f *= principled_under_sheen(s, wo.z, ci);
+    if (reflects && max_component(s.sheen) > 0.0) {
+        f += s.sheen * sheen_value(wo, wi, s.sheen_alpha);
+        pdf += s.choice.w * SHEEN_PDF;
+    }
     f *= principled_under_coat(s, wo.z, ci);
     if (reflects && s.coat > 0.0 && !alpha_is_smooth(s.coat_alpha)) {
         float ho;
@@ -121,32 +198,37 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     return f;
 }
 
-// Everything is alike on both sides but for eta: z is turned so that wo looks from above.
+// Everything is alike on both sides but for eta: z is turned so that wo looks from above, x and y to the anisotropy.
+vec3 principled_turned_up(principled_State s, vec3 wo, vec3 w) {
+    return principled_turned(s, vec3(w.xy, wo.z < 0.0 ? -w.z : w.z));
+}
+
 vec3 principled_eval(principled_Params m, vec3 wo, vec3 wi) {
     float pdf;
-    float side = wo.z < 0.0 ? -1.0 : 1.0;
-    return principled_value(principled_state(m, wo), vec3(wo.xy, side * wo.z), vec3(wi.xy, side * wi.z), pdf);
+    principled_State s = principled_state(m, wo);
+    return principled_value(s, principled_turned_up(s, wo, wo), principled_turned_up(s, wo, wi), pdf);
 }
 
 float principled_pdf(principled_Params m, vec3 wo, vec3 wi) {
     float pdf;
-    float side = wo.z < 0.0 ? -1.0 : 1.0;
-    principled_value(principled_state(m, wo), vec3(wo.xy, side * wo.z), vec3(wi.xy, side * wi.z), pdf);
+    principled_State s = principled_state(m, wo);
+    principled_value(s, principled_turned_up(s, wo, wo), principled_turned_up(s, wo, wi), pdf);
     return pdf;
 }
 
-BsdfSample principled_sample(principled_Params m, vec3 wo, vec3 u) {
-    principled_State s = principled_state(m, wo);
-    float side = wo.z < 0.0 ? -1.0 : 1.0;
-    vec3 v = vec3(wo.xy, abs(wo.z));
-    if (v.z == 0.0)
-        return BSDF_NONE;
+// In the frame of principled_value, v.z > 0.
+BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
     vec3 wi;
     float bent = 1.0; // eta, where light is refracted
+    float layers = u.z - s.choice.x - s.choice.w;
     if (u.z < s.choice.x) {
         wi = sample_cosine_hemisphere(u.xy);
+    } else if (layers < 0.0) {
+        wi = sheen_sample(u.xy);
+        if (wi.z <= 0.0)
+            return BSDF_NONE;
     } else {
-        bool coat = u.z >= s.choice.x + s.choice.y && s.choice.z > 0.0;
+        bool coat = layers >= s.choice.y && s.choice.z > 0.0;
         vec2 alpha = coat ? s.coat_alpha : s.alpha;
         bool delta = alpha_is_smooth(alpha);
         vec3 h = delta ? vec3(0, 0, 1) : ggx_sample(v, alpha, u.xy);
@@ -156,7 +238,7 @@ BsdfSample principled_sample(principled_Params m, vec3 wo, vec3 u) {
         vec3 through = vec3(0);
         vec3 reflected = coat ? vec3(principled_coat_fresnel(s, ho)) : principled_reflected(s, ho, through);
         float share = principled_reflects(reflected, through);
-        bool reflects = coat || u.z - s.choice.x < s.choice.y * share;
+        bool reflects = coat || layers < s.choice.y * share;
         wi = delta ? vec3(-v.xy, v.z) : normalize(reflect_about(v, h));
         if (!reflects && s.thin) {
             if (wi.z <= 0.0)
@@ -176,17 +258,25 @@ BsdfSample principled_sample(principled_Params m, vec3 wo, vec3 u) {
                 return BSDF_NONE;
             vec3 weight = (reflects ? reflected : through / (bent * bent)) / p;
             if (!coat)
-                weight *= principled_under_coat(s, v.z, abs(wi.z));
-            return BsdfSample(vec3(wi.xy, side * wi.z), weight, p, BSDF_DELTA | (reflects ? BSDF_REFLECT : BSDF_TRANSMIT),
-                              bent);
+                weight *= principled_under_coat(s, v.z, abs(wi.z)) * principled_under_sheen(s, v.z, abs(wi.z));
+            return BsdfSample(wi, weight, p, BSDF_DELTA | (reflects ? BSDF_REFLECT : BSDF_TRANSMIT), bent);
         }
     }
     float pdf;
     vec3 f = principled_value(s, v, wi, pdf);
     if (!(pdf > 0.0))
         return BSDF_NONE;
-    uint kind = wi.z > 0.0 ? BSDF_REFLECT : BSDF_TRANSMIT;
-    return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, kind, bent);
+    return BsdfSample(wi, f / pdf, pdf, wi.z > 0.0 ? BSDF_REFLECT : BSDF_TRANSMIT, bent);
+}
+
+BsdfSample principled_sample(principled_Params m, vec3 wo, vec3 u) {
+    principled_State s = principled_state(m, wo);
+    if (wo.z == 0.0)
+        return BSDF_NONE;
+    BsdfSample b = principled_sample_up(s, principled_turned_up(s, wo, wo), u);
+    b.wi = principled_turned_back(s, b.wi);
+    b.wi.z = wo.z < 0.0 ? -b.wi.z : b.wi.z;
+    return b;
 }
 
 vec3 principled_albedo(principled_Params m, vec3 wo) {
@@ -196,5 +286,7 @@ vec3 principled_albedo(principled_Params m, vec3 wo) {
     vec3 reflected = principled_reflected(s, c, through);
     float matte = (1.0 - s.metallic) * (1.0 - s.transmission) * (1.0 - max_component(principled_fresnel(s, c)));
     float coat = principled_coat_fresnel(s, c);
-    return clamp(coat + (1.0 - coat) * (reflected + through + s.base * matte), vec3(0), vec3(1));
+    vec3 below = principled_under_sheen(s, c, c) * (reflected + through + s.base * matte);
+    vec3 fibres = s.sheen * sheen_albedo(c, s.sheen_alpha);
+    return clamp(coat + (1.0 - coat) * (fibres + below), vec3(0), vec3(1));
 }

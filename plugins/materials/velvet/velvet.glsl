@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cloth with standing fibres: a "Charlie" sheen (Estevez and Kulla 2017) over a Lambertian ground, which gets what the
+// fibres leave, as in KHR_materials_sheen. Both sides are alike.
+#include "lib/sampling.glsl"
+#include "lib/sheen.glsl"
+
+vec3 velvet_value(velvet_Params m, vec3 wo, vec3 wi) {
+    float alpha = sheen_alpha(m.roughness);
+    vec3 sheen = clamp(m.sheen, vec3(0), vec3(1));
+    float taken = max_component(sheen) * max(sheen_albedo(wo.z, alpha), sheen_albedo(wi.z, alpha));
+    return sheen * sheen_value(wo, wi, alpha) + clamp(m.reflectance, vec3(0), vec3(1)) * ((1.0 - taken) * INV_PI * wi.z);
+}
+
+// The share of samples that follow the sheen.
+float velvet_share(velvet_Params m, float cos_o) {
+    float sheen = max_component(m.sheen) * sheen_albedo(cos_o, sheen_alpha(m.roughness));
+    return sheen / max(sheen + max_component(m.reflectance) * (1.0 - sheen), 1e-20);
+}
+
+vec3 velvet_eval(velvet_Params m, vec3 wo, vec3 wi) {
+    if (!same_hemisphere(wo, wi))
+        return vec3(0);
+    return velvet_value(m, vec3(wo.xy, abs(wo.z)), vec3(wi.xy, abs(wi.z)));
+}
+
+float velvet_pdf(velvet_Params m, vec3 wo, vec3 wi) {
+    if (!same_hemisphere(wo, wi))
+        return 0.0;
+    return mix(cosine_hemisphere_pdf(abs(wi.z)), SHEEN_PDF, velvet_share(m, abs(wo.z)));
+}
+
+BsdfSample velvet_sample(velvet_Params m, vec3 wo, vec3 u) {
+    float side = wo.z < 0.0 ? -1.0 : 1.0;
+    vec3 v = vec3(wo.xy, abs(wo.z));
+    float share = velvet_share(m, v.z);
+    vec3 wi = u.z < share ? sheen_sample(u.xy) : sample_cosine_hemisphere(u.xy);
+    float pdf = mix(cosine_hemisphere_pdf(wi.z), SHEEN_PDF, share);
+    if (v.z <= 0.0 || wi.z <= 0.0 || !(pdf > 0.0))
+        return BSDF_NONE;
+    vec3 f = velvet_value(m, v, wi);
+    return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, BSDF_REFLECT, 1.0);
+}
+
+vec3 velvet_albedo(velvet_Params m, vec3 wo) {
+    float sheen = sheen_albedo(abs(wo.z), sheen_alpha(m.roughness));
+    return clamp(m.sheen * sheen + m.reflectance * (1.0 - max_component(m.sheen) * sheen), vec3(0), vec3(1));
+}
