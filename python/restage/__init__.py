@@ -32,13 +32,13 @@ __version__ = "0.1.0"
 
 _here = _pathlib.Path(__file__).parent
 # In a wheel all is inside the package; in a build tree or an installed one the package is lib/python/restage.
-_core._set_home(_here if (_here / "share").is_dir() else _pathlib.Path(_core.__file__).parents[3])
+_core.set_home(_here if (_here / "share").is_dir() else _pathlib.Path(_core.__file__).parents[3])
 
 
 
 def _program() -> _pathlib.Path:
     """The program `restage` of this installation."""
-    program = _pathlib.Path(_core._home()) / "bin" / "restage"
+    program = _pathlib.Path(_core.home()) / "bin" / "restage"
     if not program.exists():
         raise Error(f"{program}: the program is not there; the installation is incomplete")
     return program
@@ -46,7 +46,7 @@ def _program() -> _pathlib.Path:
 
 def bundled_scene(name: str) -> _pathlib.Path:
     """Path of a scene that comes with Restage: demo (a room), cornell or spheres."""
-    path = _pathlib.Path(_core._home()) / "share/restage/scenes" / name / f"{name}.pbrt"
+    path = _pathlib.Path(_core.home()) / "share/restage/scenes" / name / f"{name}.pbrt"
     if not path.exists():
         names = sorted(p.parent.name for p in path.parents[1].glob("*/*.pbrt") if p.parent.name == p.stem)
         raise Error(f"there is no bundled scene \"{name}\"; there are {', '.join(names)}")

@@ -42,7 +42,7 @@ class Bsdf:
 
     def __init__(self, type: str):
         self.type = type
-        self._lab = _core._BsdfLab(type)
+        self._lab = _core.BsdfLab(type)
 
     def __repr__(self) -> str:
         return f'<restage.Bsdf "{self.type}">'

@@ -84,7 +84,7 @@ static_assert(offsetof(check::BsdfAnswer, pdf) == 40 && offsetof(check::BsdfAnsw
 } // namespace
 
 void bind_bsdf(nb::module_& m) {
-    nb::class_<Lab>(m, "_BsdfLab")
+    nb::class_<Lab>(m, "BsdfLab", "What restage.Bsdf runs.")
         .def(nb::init<const std::string&>(), "type"_a)
         .def("run", &Lab::run, "wo"_a, "wi"_a, "u"_a, "config"_a, "sets"_a, "seed"_a, "repeats"_a);
 }

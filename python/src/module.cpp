@@ -8,8 +8,8 @@ NB_MODULE(_core, m) {
     m.doc() = "Restage's engine for Python; import restage instead.";
     nb::exception<Failure>(m, "Error", PyExc_RuntimeError).doc() =
         "What could not be done, as one sentence: what, where (file:line:column), what to do about it.";
-    m.def("_set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
-    m.def("_home", &Host::home);
+    m.def("set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
+    m.def("home", &Host::home, "Where they are.");
     nb::set_leak_warnings(false); // sessions in globals live until the process ends
 
     bind_plugins(m);
