@@ -100,11 +100,11 @@ Result<std::string> polar_plot(BsdfLab& lab, const ParamSet& set, const Vec3& wo
         100 * lost / double(draws));
 }
 
-// A plain sky: bright above, ground below, and a lamp of half an angle of 10 degrees.
+// A plain sky: bright above, ground below, and a round lamp, 14 degrees from its middle to its edge.
 Vec3 sky(const Vec3& w) {
     const float up = 0.5f + 0.5f * w[1];
-    const bool lamp = w[0] * -0.5f + w[1] * 0.6f + w[2] * 0.6245f > 0.985f;
-    if (lamp) return {12, 11.5f, 10.5f};
+    const bool lamp = w[0] * -0.5f + w[1] * 0.6f + w[2] * 0.6245f > 0.97f;
+    if (lamp) return {5, 4.8f, 4.4f};
     if (w[1] < 0) {
         const bool dark = (static_cast<int>(std::floor(4 * w[0] / std::max(-w[1], 0.05f))) +
                            static_cast<int>(std::floor(4 * w[2] / std::max(-w[1], 0.05f)))) &
@@ -128,7 +128,7 @@ Result<scene::PixelData> ball(BsdfLab& lab, const ParamSet& set, int size, int s
     for (int i = 0; i < size * size; ++i) {
         const float x = (2.f * (i % size) + 1) / size - 1, y = 1 - (2.f * (i / size) + 1) / size;
         const float r2 = (x * x + y * y) * 1.05f;
-        const Vec3 behind = light(Vec3{-x * 0.3f, -y * 0.3f, -0.95f});
+        const Vec3 behind = light(Vec3{x * 0.3f, y * 0.3f, -0.95f});
         image.values.insert(image.values.end(), behind.begin(), behind.end());
         if (r2 >= 1) continue;
         const Vec3 n{x * 1.0247f, y * 1.0247f, std::sqrt(1 - r2)};
@@ -205,7 +205,7 @@ Result<fs::path> write_pictures(Subject& s, const fs::path& folder) {
         for (const float r : {0.f, 0.1f, 0.3f, 0.6f, 1.f})
             sweep.push_back({fmt::format("roughness {:g}", r), rough_config(s.table(), r, r)});
     for (const auto& [caption, set] : sweep) {
-        RESTAGE_TRY(const scene::PixelData image, ball(*lab, set, 160, 64, s.options.seed, false, sky));
+        RESTAGE_TRY(const scene::PixelData image, ball(*lab, set, 160, 144, s.options.seed, false, sky));
         RESTAGE_TRY(const std::string tag, image_tag(image, folder, caption));
         page += tag;
     }
