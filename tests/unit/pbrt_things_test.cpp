@@ -103,6 +103,17 @@ TEST_CASE("pbrt materials: v3 names, defaults and meanings", "[pbrt]") {
     check_value(m, "transmittance", {0.5, 0.5, 0.5});
     check_value(material(v3, "\"mirror\""), "kr", {0.9, 0.9, 0.9});
     check_value(material(v3, "\"substrate\" \"bool remaproughness\" \"false\""), "ks", {0.5, 0.5, 0.5});
+    m = material(
+        v3,
+        "\"disney\" \"rgb color\" [ .2 .4 .6 ] \"float anisotropic\" 1 \"float metallic\" 0.75 \"float sheen\" 0.5");
+    CHECK(m.type == "principled");
+    check_value(m, "base_color", {0.2f, 0.4f, 0.6f});
+    check_value(m, "metallic", {0.75});
+    // pbrt-v3's widths, 0.25 / sqrt(0.1) and 0.25 * sqrt(0.1), through KHR_materials_anisotropy's mix(a, 1, s^2)
+    const double across = std::pow(m.values.at("roughness").v[0], 2), s = m.values.at("anisotropy").v[0];
+    CHECK(std::abs(across - 0.0790569) < 1e-5);
+    CHECK(std::abs(across + (1 - across) * s * s - 0.790569) < 1e-5);
+    check_value(m, "clearcoat", {0});
     m = material(v3, "\"uber\" \"float vroughness\" 0.4 \"rgb opacity\" [ .2 .2 .2 ]");
     check_value(m, "uroughness", {0.1});
     check_value(m, "vroughness", {0.4});

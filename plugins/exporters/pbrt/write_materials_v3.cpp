@@ -141,6 +141,11 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         flag(p, "thin", v.boolean("thin", false));
         return "disney";
     }
+    if (type == "velvet") {
+        unlike("pbrt-v3 has no standing fibres; the cloth between them is written");
+        put_color(p, v, "reflectance", "Kd", {0.1f, 0.02f, 0.03f});
+        return "matte";
+    }
     dropped(what + " (" + type + ")", "pbrt-v3 has no such material; a grey matte one stands for it");
     p.add_rgb("Kd", {0.5f, 0.5f, 0.5f});
     return "matte";

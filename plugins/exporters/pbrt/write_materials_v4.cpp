@@ -126,6 +126,11 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         }
         return "diffusetransmission";
     }
+    if (type == "velvet") {
+        unlike("pbrt-v4 has no standing fibres; the cloth between them is written");
+        put_color(p, v, "reflectance", "reflectance", {0.1f, 0.02f, 0.03f});
+        return "diffuse";
+    }
     dropped(what + " (" + type + ")", "pbrt-v4 has no such material; a grey diffuse one stands for it");
     p.add_rgb("reflectance", {0.5f, 0.5f, 0.5f});
     return "diffuse";

@@ -251,21 +251,11 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
         note = "hair scattering is not simulated; a diffuse one of the hair's colour stands for it";
         color = hair_color(d);
     } else if (type == "disney") {
-        note = "of Disney's model its base colour, metallic and roughness are used";
-        const double metallic = float_argument(d, "metallic", 0).value.r;
-        if (metallic > 0.5) {
-            plugin = "conductor";
-            values.boolean("use_reflectance", true);
-            put_color(values, "reflectance", d, "color", Role::albedo, half);
-        } else {
-            plugin = "coateddiffuse";
-            put_color(values, "reflectance", d, "color", Role::albedo, half);
-            put_index(values, "eta", d, "eta", 1.5);
-        }
-        const double roughness = float_argument(d, "roughness", 0.5).value.r; // alpha = roughness^2 (Burley 2012)
-        values.number("uroughness", roughness * roughness);
-        values.number("vroughness", roughness * roughness);
-        values.choice("remap", "none");
+        note =
+            "Disney's model: the principled material stands for it; its diffuse has no retro-reflection, its sheen and "
+            "coat are other formulas, light under the surface is not simulated";
+        plugin = "principled";
+        disney(d, values);
     } else if (type == "fourier" || type == "measured") {
         note = "measured data is not read; a grey diffuse one stands for it";
     } else if (const RestageHandle texture = find_texture(d, "Kd", false)) {

@@ -2,6 +2,7 @@
 // pbrt-v3's materials with v3's defaults (https://pbrt.org/fileformat-v3, "Materials"; defaults as in its sources).
 #include "builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace restage::pbrt {
@@ -90,6 +91,43 @@ bool Builder::material_v3(const Directive& d, const std::string& type, Values& v
         return false;
     }
     return true;
+}
+
+// Burley 2012 and 2015, as pbrt-v3's disney.cpp has them, by the principled material's dials.
+void Builder::disney(const Directive& d, Values& values) {
+    const auto number = [&](const char* name, double otherwise) { return float_argument(d, name, otherwise).value.r; };
+    put_color(values, "base_color", d, "color", Role::albedo, {0.5, 0.5, 0.5});
+    put_float(values, "metallic", d, "metallic", 0);
+    put_index(values, "ior", d, "eta", 1.5);
+    put_float(values, "transmission", d, "spectrans", 0);
+    values.boolean("thin", d.params.boolean("thin", false));
+
+    const Argument color = color_argument(d, "color", Role::albedo, {0.5, 0.5, 0.5});
+    const double light = luminance(color.value);
+    const Rgb tint = !color.texture && light > 0 ? color.value * (1 / light) : Rgb{1, 1, 1};
+    const auto towards_tint = [&](double amount) {
+        const auto mixed = [&](double t) { return std::clamp(1 + (t - 1) * amount, 0.0, 1.0); };
+        return Rgb{mixed(tint.r), mixed(tint.g), mixed(tint.b)};
+    };
+    values.color("specular_color", towards_tint(number("speculartint", 0)));
+    const double sheen = std::clamp(number("sheen", 0), 0.0, 1.0);
+    values.color("sheen_color", towards_tint(number("sheentint", 0.5)) * sheen);
+    values.number("sheen_roughness", 0.5);
+
+    // Both widths are Disney's own: along u roughness^2 / aspect, along v roughness^2 * aspect.
+    const Argument roughness = float_argument(d, "roughness", 0.5);
+    const double aspect = std::sqrt(1 - 0.9 * std::clamp(number("anisotropic", 0), 0.0, 1.0));
+    if (roughness.texture || aspect == 1) {
+        put_float(values, "roughness", d, "roughness", 0.5);
+    } else {
+        const double square = roughness.value.r * roughness.value.r;
+        const double along = std::min(square / aspect, 1.0), across = std::min(square * aspect, 0.999);
+        values.number("roughness", std::sqrt(across));
+        values.number("anisotropy", std::sqrt(std::max(along - across, 0.0) / (1 - across)));
+    }
+    values.number("clearcoat", 0.25 * std::clamp(number("clearcoat", 0), 0.0, 1.0));
+    const double coat_alpha = 0.1 + (0.001 - 0.1) * std::clamp(number("clearcoatgloss", 1), 0.0, 1.0);
+    values.number("clearcoat_roughness", std::sqrt(coat_alpha));
 }
 
 } // namespace restage::pbrt

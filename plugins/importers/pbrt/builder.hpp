@@ -87,6 +87,7 @@ class Builder {
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     Rgb hair_color(const Directive& d);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    void disney(const Directive& d, Values& values);
     void put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id,
                    const char* k_id);
     void put_index(Values& values, const char* id, const Directive& d, const char* name, double otherwise);
