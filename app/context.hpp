@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace restage::app {
 
@@ -21,18 +22,35 @@ enum ExitCode : int {
     exit_usage = 2   // not understood: unknown option, missing argument
 };
 
+inline plugin::RegistryOptions registry_options(bool safe_mode) {
+    return {.safe_mode = safe_mode, .quarantine = plugin::Registry::default_quarantine()};
+}
+
+inline std::vector<plugin::SearchPath> search_paths(const std::vector<std::string>& first) {
+    std::vector<plugin::SearchPath> paths;
+    for (const std::string& folder : first)
+        paths.push_back({.folder = folder, .required = true});
+    for (auto& path : plugin::Registry::default_paths())
+        paths.push_back(std::move(path));
+    return paths;
+}
+
 class Context {
   public:
     using Run = std::function<Result<int>()>; // an ExitCode; an error is logged and becomes exit_failed
 
     Log log;
     bool quiet = false;
+    bool safe_mode = false; // the program's own plugins only
+    std::vector<std::string> plugin_paths; // searched first
+    bool isolate = false; // scenes are read in a process of their own
+    double isolate_seconds = 300, isolate_gib = 4; // its limits
 
     // The plugins, looked for at first use.
     plugin::Registry& registry() {
         if (!registry_) {
-            registry_ = std::make_unique<plugin::Registry>(log);
-            registry_->scan(plugin::Registry::default_paths());
+            registry_ = std::make_unique<plugin::Registry>(log, registry_options(safe_mode));
+            registry_->scan(search_paths(plugin_paths));
         }
         return *registry_;
     }

@@ -43,6 +43,19 @@ int run(int argc, char** argv) {
             context.quiet = true;
         },
         "Log errors only");
+    program.add_flag("--safe-mode", context.safe_mode, "Load no plugins but those that came with the program");
+    program
+        .add_option("--plugin-path", context.plugin_paths,
+                    "Look for plugins in this folder first (may be repeated; RESTAGE_PLUGIN_PATH holds more)")
+        ->allow_extra_args(false);
+    program.add_flag("--isolate", context.isolate,
+                     "Read scene files in a process of their own: for files from people you do not know");
+    program.add_option("--isolate-time", context.isolate_seconds, "Limit for that process [s]")
+        ->check(CLI::Range(1.0, 86400.0))
+        ->capture_default_str();
+    program.add_option("--isolate-memory", context.isolate_gib, "Limit for that process [GiB of address space]")
+        ->check(CLI::Range(0.5, 4096.0))
+        ->capture_default_str();
     for (auto* add : all_commands)
         add(program, context);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rendering.hpp"
 
+#include "base/file.hpp"
 #include "progress.hpp"
+#include "session/isolate.hpp"
 #include "session/session.hpp"
 
 #include <fmt/format.h>
@@ -59,29 +61,32 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_flag("--validation", o.renderer.validation, "Turn Vulkan's validation layers on");
 }
 
-render::MaterialLookup material_lookup(plugin::Registry& registry) {
-    return [&registry](const std::string& type) -> std::optional<render::MaterialPlugin> {
-        const auto* entry = registry.find_material(type);
-        if (!entry) return std::nullopt;
-        return render::MaterialPlugin{entry->table, entry->plugin->folder};
-    };
+Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Context& context) {
+    if (!context.isolate) return nullptr;
+    auto options = std::make_shared<session::IsolateOptions>();
+    RESTAGE_TRY(options->program, executable_path());
+    for (const std::string& folder : context.plugin_paths)
+        options->arguments.insert(options->arguments.end(), {"--plugin-path", folder});
+    options->time_limit = std::chrono::seconds(static_cast<long>(context.isolate_seconds));
+    options->memory_limit = static_cast<std::uint64_t>(context.isolate_gib * double(1u << 30));
+    return options;
 }
 
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path) {
     catch_interrupts();
     ProgressBar bar(context.quiet);
-    io::ImportOptions options;
-    options.progress = [&](float done, std::string_view what) {
+    session::ReadOptions read{.progress = [&](float done, std::string_view what) {
         bar.show(done, std::string(what));
         return !interrupted();
-    };
+    }};
+    RESTAGE_TRY(read.isolate, isolate_options(context));
     io::ImportedScene imported;
     if (session::is_project(path)) { // as the editor saves them: the scene they began with, and the changes
         session::Session session(context.registry());
-        RESTAGE_CHECK(session.open(path, {.progress = options.progress}));
+        RESTAGE_CHECK(session.open(path, read));
         imported = {.scene = session.scene(), .report = session.report(), .importer = session.base().format};
     } else {
-        RESTAGE_TRY(imported, io::import_scene(path, context.registry(), options));
+        RESTAGE_TRY(imported, session::read_scene(path, context.registry(), read));
     }
     bar.finish();
     const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
@@ -181,7 +186,7 @@ Result<Picture> take_picture(Context& context, const RenderOptions& o, const sce
                                                        : RESTAGE_DENOISE_HIGH;
         ProgressBar bar(context.quiet);
         RESTAGE_TRY(picture.denoised,
-                    render::denoise(picture.film, *denoisers[0].table, quality, o.renderer.threads, [&](double done) {
+                    render::denoise(picture.film, denoisers[0], quality, o.renderer.threads, [&](double done) {
                         bar.show(done, "denoising");
                         return true;
                     }));

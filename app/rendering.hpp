@@ -7,6 +7,7 @@
 #include "io/import.hpp"
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
+#include "session/isolate.hpp"
 #include "session/picture.hpp"
 
 #include <CLI/CLI.hpp>
@@ -32,9 +33,9 @@ struct RenderOptions {
 // Adds the options of the renderer and the targets to a command.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
-render::MaterialLookup material_lookup(plugin::Registry& registry);
-
 // With a progress bar; notes the report's counts in the log.
+// What `--isolate` and its limits say; null = scenes are read in this process.
+Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Context& context);
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path);
 
 // "640x360" as width and height in pixels; `option` is named in the error.

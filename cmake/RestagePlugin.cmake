@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # restage_add_plugin(NAME <name> KIND material|importer|exporter|denoiser SOURCES <files> MANIFEST plugin.json
 #                    [GLSL <files>] [FILES <files and folders>] [LINK <third-party targets>])
+# The build system's half of the SDK, here and (find_package(Restage)) for plugins outside of this repository.
 # Builds lib/restage/plugins/<kind>-<name>/ in the build tree: <name>.so, its manifest, its GLSL and what else it needs at
 # run time (FILES). A plugin sees the SDK headers and the third-party targets it names, nothing of the engine.
 
@@ -45,6 +46,8 @@ function(restage_add_plugin)
     if(TARGET restage_warnings)
         target_link_libraries(${target} PRIVATE restage_warnings)
     endif()
+    # GNU's unique symbols pin a library in memory: it could be loaded anew, but never unloaded.
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
     set_target_properties(${target} PROPERTIES
         PREFIX "" OUTPUT_NAME "${arg_NAME}"
         C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON

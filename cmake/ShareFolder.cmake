@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# restage_share_folder(<folder> [EXCLUDE <pattern>]): the source folder appears as share/restage/<folder> in the build tree
-# and the installed tree. In the build tree it is the folder itself (a link): an edited file needs no build.
+# restage_share_folder(<folder> [AS <name>]): the source folder appears as share/restage/<name> in the build tree and the
+# installed tree; the name is the folder's own where none is given. In the build tree it is the folder itself (a link): an edited file needs no build.
 function(restage_share_folder folder)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "AS" "")
     set(source "${CMAKE_SOURCE_DIR}/${folder}")
-    set(place "share/restage/${folder}")
+    if(NOT arg_AS)
+        set(arg_AS "${folder}")
+    endif()
+    set(place "share/restage/${arg_AS}")
     if(NOT EXISTS "${source}")
         return()
     endif()
@@ -12,11 +16,11 @@ function(restage_share_folder folder)
         file(CREATE_LINK "${source}" "${CMAKE_BINARY_DIR}/${place}" SYMBOLIC)
     else()
         file(GLOB_RECURSE files CONFIGURE_DEPENDS "${source}/*")
-        set(stamp "${CMAKE_BINARY_DIR}/${folder}.stamp")
+        set(stamp "${CMAKE_BINARY_DIR}/${arg_AS}.stamp")
         add_custom_command(OUTPUT "${stamp}" DEPENDS ${files}
             COMMAND ${CMAKE_COMMAND} -E copy_directory "${source}" "${CMAKE_BINARY_DIR}/${place}"
             COMMAND ${CMAKE_COMMAND} -E touch "${stamp}")
-        add_custom_target(restage_share_${folder} ALL DEPENDS "${stamp}")
+        add_custom_target(restage_share_${arg_AS} ALL DEPENDS "${stamp}")
     endif()
     install(DIRECTORY "${source}/" DESTINATION "${place}")
 endfunction()

@@ -19,6 +19,8 @@ void add_convert(CLI::App& program, Context& context);
 void add_compare(CLI::App& program, Context& context);
 void add_plugins(CLI::App& program, Context& context);
 void add_check(CLI::App& program, Context& context);
+void add_new_plugin(CLI::App& program, Context& context);
+void add_import_child(CLI::App& program, Context& context);
 
 // What `compare` does with two scenes instead of two pictures (compare_scenes.cpp).
 bool is_scene_file(const std::string& path);
@@ -26,7 +28,8 @@ Result<int> compare_scenes(Context& context, const std::string& a, const std::st
 
 // In the order `restage --help` shows them.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
-    add_edit, add_demo, add_render, add_info, add_convert, add_compare, add_plugins, add_check,
+    add_edit,    add_demo,    add_render, add_info,       add_convert,
+    add_compare, add_plugins, add_check,  add_new_plugin, add_import_child,
 };
 
 } // namespace restage::app

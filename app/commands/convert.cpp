@@ -16,10 +16,10 @@ struct Options {
 };
 
 Result<int> run(Context& context, const Options& o) {
-    RESTAGE_TRY(const auto* exporter, io::find_exporter(o.output, o.format, context.registry()));
+    RESTAGE_TRY(const auto exporter, io::find_exporter(o.output, o.format, context.registry()));
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
-        RESTAGE_CHECK(io::set_option(*exporter, assignment, options.values));
+        RESTAGE_CHECK(io::set_option(*exporter.table, assignment, options.values));
     RESTAGE_TRY(const auto imported, open_scene(context, o.input));
     RESTAGE_TRY(const auto report, io::export_scene(imported.scene, o.output, context.registry(), options));
     for (const auto& entry : report.entries)

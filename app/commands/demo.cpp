@@ -100,7 +100,7 @@ Result<int> run(Context& context, Options& o) {
         RESTAGE_CHECK(session.open(o.scene, options));
     }
     RESTAGE_TRY(const auto renderer,
-                render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
+                render::Renderer::create(o.renderer, render::material_lookup(context.registry()), context.log));
     std::printf("opened    %s: %u objects, %u materials\n", o.scene.c_str(), session.scene().instances.live(),
                 session.scene().materials.live());
     std::printf("renders   with the %s tracer on %s\n", renderer->tracer_name(),

@@ -29,7 +29,9 @@ void add_edit(CLI::App& program, Context& context) {
     command->add_option("--threads", o->renderer.threads, "Threads of the embree tracer (0 = all)");
     command->add_flag("--validation", o->renderer.validation, "Turn Vulkan's validation layers on");
     command->callback([&context, o, size] {
-        context.choose([o, size]() -> Result<int> {
+        context.choose([&context, o, size]() -> Result<int> {
+            o->plugins = {.safe_mode = context.safe_mode, .paths = search_paths(context.plugin_paths)};
+            RESTAGE_TRY(o->isolate, isolate_options(context));
             if (!size->empty()) {
                 RESTAGE_TRY(const auto parsed, parse_size(*size, "--window"));
                 o->size = parsed;

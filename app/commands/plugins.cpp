@@ -40,6 +40,8 @@ Result<int> run(Context& context, bool json) {
                             {"loaded", loaded},
                             {"folder", entry->folder.string()},
                             {"provides", names},
+                            {"own", entry->own},
+                            {"quarantined", entry->quarantined},
                             {"reason", entry->reason}});
             continue;
         }
@@ -59,13 +61,26 @@ Result<int> run(Context& context, bool json) {
     return int(exit_ok);
 }
 
+Result<int> enable(Context& context, const std::string& id) {
+    const plugin::Quarantine quarantine(plugin::Registry::default_quarantine());
+    RESTAGE_TRY(const bool was_in, quarantine.release(id));
+    if (!was_in)
+        return fail("\"" + id + "\" has not crashed: there is nothing to enable. `restage plugins` lists ids.");
+    context.log.info(id + " will be loaded again");
+    return int(exit_ok);
+}
+
 } // namespace
 
 void add_plugins(CLI::App& program, Context& context) {
     auto json = std::make_shared<bool>(false);
+    auto id = std::make_shared<std::string>();
     auto* command = program.add_subcommand("plugins", "List plugins: what is loaded, from where, and why not");
     command->add_flag("--json", *json, "As JSON");
-    command->callback([&context, json] { context.choose([&context, json] { return run(context, *json); }); });
+    command->add_option("--enable", *id, "Let a plugin that crashed be loaded again");
+    command->callback([&context, json, id] {
+        context.choose([&context, json, id] { return id->empty() ? run(context, *json) : enable(context, *id); });
+    });
 }
 
 } // namespace restage::app

@@ -27,7 +27,7 @@ Result<int> run(Context& context, Options& o) {
                           : o.strategy == "bsdf" ? render::Strategy::bsdf_only
                                                  : render::Strategy::mis;
     RESTAGE_TRY(const auto renderer,
-                render::Renderer::create(o.renderer, material_lookup(context.registry()), context.log));
+                render::Renderer::create(o.renderer, render::material_lookup(context.registry()), context.log));
     RESTAGE_CHECK(render_to_target(context, o, scene, *renderer));
     RESTAGE_TRY(const auto picture, take_picture(context, o, scene, *renderer));
 

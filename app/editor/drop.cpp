@@ -34,7 +34,7 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
     const scene::Instance* instance = s.instances.find(on);
     const scene::Material* material = instance ? s.materials.find(instance->material) : nullptr;
     if (!material) return fail("There is no material for the image to go on");
-    const auto* plugin = registry.find_material(material->type);
+    const auto plugin = registry.find_material(material->type);
     if (!plugin)
         return fail("material \"" + material->name + "\": there is no plugin \"" + material->type +
                     "\" that could say where an image goes");

@@ -21,9 +21,10 @@ namespace restage::editor {
 Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
     : options_(std::move(options)),
       log_(log),
+      registry_(registry),
       session_(registry),
       live_(std::make_unique<session::LiveView>(registry, log, options_.renderer, options_.wake)),
-      opening_(registry, options_.wake),
+      opening_(registry, options_.wake, options_.isolate),
       files_(std::make_unique<Files>(options_.config_dir, options_.autosave_seconds, options_.wake)) {
     panel_state = std::make_unique<PanelState>(options_.wake);
     for (const Panel& panel : all_panels())
@@ -110,6 +111,7 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     marks_.clear();
     hovered_before = std::exchange(hovered, {});
     follow_opening();
+    follow_plugins();
     panel_state->loads.poll();
     follow_convergence(*this);
     run_shortcuts(*this, keys);
@@ -168,6 +170,14 @@ void Editor::follow_opening() {
     if (approximated + dropped > 0)
         notices.add(LogLevel::warning,
                     fmt::format("Import report: {} approximated, {} dropped", approximated, dropped));
+}
+
+void Editor::follow_plugins() {
+    constexpr double every = 0.4; // [s]
+    if (ImGui::GetTime() < plugins_looked_at_ + every) return;
+    plugins_looked_at_ = ImGui::GetTime();
+    for (const plugin::Reload& news : registry_.reload_changed()) // what failed is in the log, which shows here too
+        if (news.error.empty()) notices.add(LogLevel::info, news.plugin->name() + " was loaded anew");
 }
 
 void Editor::document_changed() {
@@ -233,6 +243,7 @@ void Editor::apply_pending() {
 void Editor::refresh_picture() {
     const scene::Settings& settings = scene().settings.value;
     const Shown wanted{.version = session_.version(),
+                       .plugins = registry_.version(),
                        .size = picture_size_,
                        .document = document_,
                        .original = show_original && original_,

@@ -35,6 +35,7 @@ struct EditorOptions {
     std::function<void()> wake; // [any] asks for another frame
     std::filesystem::path config_dir; // layout, preferences; "" = nothing is remembered
     double autosave_seconds = 60; // unsaved work is written aside so often
+    std::shared_ptr<const session::IsolateOptions> isolate; // scenes are read in a process of their own
 };
 
 enum class GizmoMode { select, move, rotate, scale };
@@ -184,6 +185,7 @@ class Editor {
     void draw_modals();
     void apply_pending();
     void follow_opening();
+    void follow_plugins(); // loads anew what has changed on disk
     void document_changed(); // another one is open now
     void place_inserted(const io::ImportedScene& imported);
     void ask_for_base(const std::string& message, bool some_fits);
@@ -193,10 +195,12 @@ class Editor {
     EditorOptions options_;
     Preferences remembered_;
     Log& log_;
+    plugin::Registry& registry_;
     session::Session session_;
     std::unique_ptr<session::LiveView> live_;
     Opening opening_;
     std::unique_ptr<Files> files_;
+    double plugins_looked_at_ = 0; // [s], as ImGui::GetTime
     std::vector<Pending> pending_;
     std::vector<std::string> actions_to_run_;
     bool end_gesture_ = false;
@@ -210,6 +214,7 @@ class Editor {
     glm::uvec2 picture_size_{640, 360};
     struct Shown { // what the live picture was last asked for
         scene::Version version = 0;
+        std::uint64_t plugins = 0; // plugin::Registry::version
         glm::uvec2 size{0};
         std::uint64_t document = 0;
         bool original = false;

@@ -42,12 +42,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     RESTAGE_CHECK(session::check_picture_path(wish.path.string()));
     job.report(0, "opening the renderer");
     options.stand_ins = false;
-    const auto lookup = [&registry](const std::string& type) -> std::optional<render::MaterialPlugin> {
-        const auto* entry = registry.find_material(type);
-        if (!entry) return std::nullopt;
-        return render::MaterialPlugin{entry->table, entry->plugin->folder};
-    };
-    RESTAGE_TRY(const auto renderer, render::Renderer::create(options, lookup, log));
+    RESTAGE_TRY(const auto renderer, render::Renderer::create(options, render::material_lookup(registry), log));
     job.report(0, "preparing shaders and acceleration structures");
     RESTAGE_CHECK(renderer->sync(scene));
     // Denoising is a small part at the end of the bar.
@@ -75,12 +70,11 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
         .film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
     if (denoise) {
         job.report(traced, "denoising");
-        RESTAGE_TRY(picture.denoised, render::denoise(picture.film, *registry.denoisers()[0].table,
-                                                      RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
-                                                          return job.report(traced + done * (1 - traced),
-                                                                            "denoising") ||
-                                                                 !job.cancelled();
-                                                      }));
+        RESTAGE_TRY(picture.denoised,
+                    render::denoise(
+                        picture.film, registry.denoisers()[0], RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
+                            return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
+                        }));
     }
     const auto& stats = renderer->stats();
     const session::PictureOptions how{

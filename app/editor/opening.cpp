@@ -41,10 +41,14 @@ void Opening::run() {
     const auto read = [&]() -> Result<Opened> {
         Opened opened;
         if (request_.purpose == Purpose::insert) {
-            RESTAGE_TRY(opened.inserted, io::import_scene(request_.path.string(), registry_, {.progress = progress}));
+            RESTAGE_TRY(opened.inserted, session::read_scene(request_.path.string(), registry_,
+                                                             {.progress = progress, .isolate = isolate_}));
         } else {
-            const session::ReadOptions options{
-                .progress = progress, .base = request_.base, .drop_lost = request_.drop_lost, .problem = &problem_};
+            const session::ReadOptions options{.progress = progress,
+                                               .isolate = isolate_,
+                                               .base = request_.base,
+                                               .drop_lost = request_.drop_lost,
+                                               .problem = &problem_};
             RESTAGE_TRY(opened.document, session::read_document(request_.path.string(), registry_, options));
         }
         return opened;

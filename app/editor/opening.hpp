@@ -32,8 +32,9 @@ class Opening {
         std::optional<io::ImportedScene> inserted;
     };
 
-    Opening(const plugin::Registry& registry, std::function<void()> wake)
-        : registry_(registry), wake_(std::move(wake)) {}
+    Opening(const plugin::Registry& registry, std::function<void()> wake,
+            std::shared_ptr<const session::IsolateOptions> isolate)
+        : registry_(registry), wake_(std::move(wake)), isolate_(std::move(isolate)) {}
     ~Opening();
 
     // Gives up what is being read, if anything.
@@ -53,6 +54,7 @@ class Opening {
 
     const plugin::Registry& registry_;
     std::function<void()> wake_;
+    std::shared_ptr<const session::IsolateOptions> isolate_;
     std::thread thread_;
     Request request_;
     std::optional<Request> next_; // starts when the running one has stopped

@@ -5,6 +5,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "recovery_dialog.hpp"
+#include "render/material_composer.hpp"
 #include "window.hpp"
 
 #include <chrono>
@@ -19,8 +20,9 @@ Result<int> run_editor(const RunOptions& options) {
         if (level != LogLevel::debug) std::fprintf(stderr, "restage: %.*s\n", int(line.size()), line.data());
         if (notices) notices->add(level, std::string(line));
     });
-    plugin::Registry registry(log);
-    registry.scan(plugin::Registry::default_paths());
+    plugin::Registry registry(
+        log, {.safe_mode = options.plugins.safe_mode, .quarantine = plugin::Registry::default_quarantine()});
+    registry.scan(options.plugins.paths);
 
     std::filesystem::path config = options.config_dir;
     if (config.empty()) {
@@ -29,13 +31,15 @@ Result<int> run_editor(const RunOptions& options) {
     std::error_code ignored;
     std::filesystem::create_directories(config, ignored);
     RESTAGE_TRY(const auto bin, executable_dir());
+    registry.set_judge(render::material_judge(bin.parent_path() / "share/restage/shaders"));
 
     // Frames are asked for from threads before and after the window's life: GLFW ignores that.
     Editor editor(registry, log,
                   {.renderer = options.renderer,
                    .wake = Window::wake,
                    .config_dir = config,
-                   .autosave_seconds = options.autosave_seconds});
+                   .autosave_seconds = options.autosave_seconds,
+                   .isolate = options.isolate});
     notices = &editor.notices;
     RESTAGE_TRY(const auto window, Window::create({.size = options.size,
                                                    .device = options.renderer.device,

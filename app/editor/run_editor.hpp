@@ -4,9 +4,11 @@
 
 #include "base/result.hpp"
 #include "render/renderer.hpp"
+#include "session/isolate.hpp"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace restage::editor {
 
@@ -17,6 +19,11 @@ struct RunOptions {
     glm::ivec2 size{1440, 860};
     std::filesystem::path config_dir; // "" = the user's
     double autosave_seconds = 60;     // unsaved work is written into its `recovery` so often
+    struct {
+        bool safe_mode = false; // none but the program's own
+        std::vector<plugin::SearchPath> paths;
+    } plugins;
+    std::shared_ptr<const session::IsolateOptions> isolate; // scenes are read in a process of their own
     std::filesystem::path probe;      // for tests: state is written here when it changes; PROBE.in holds commands
 };
 

@@ -55,7 +55,7 @@ VmaAllocationCreateInfo allocation_of(BufferKind kind, const DeviceInfo& info) {
     return create;
 }
 
-std::uint64_t allocated_bytes(VmaAllocator allocator) {
+std::uint64_t bytes_of(VmaAllocator allocator) {
     VmaBudget budgets[VK_MAX_MEMORY_HEAPS] = {};
     vmaGetHeapBudgets(allocator, budgets);
     std::uint64_t sum = 0;
@@ -65,10 +65,12 @@ std::uint64_t allocated_bytes(VmaAllocator allocator) {
 }
 
 bool fits_in_memory(VmaAllocator allocator, std::size_t bytes, const DeviceInfo& info) {
-    return bytes < (1u << 20) || allocated_bytes(allocator) + bytes <= info.memory_bytes;
+    return bytes < (1u << 20) || bytes_of(allocator) + bytes <= info.memory_bytes;
 }
 
 } // namespace
+
+std::uint64_t Device::allocated_bytes() const { return bytes_of(allocator_); }
 
 Buffer::~Buffer() { release(); }
 
@@ -110,7 +112,7 @@ Result<Buffer> Device::create_buffer(std::size_t bytes, BufferKind kind, const c
                                               &placed);
     if (result != VK_SUCCESS) {
         buffer.buffer_ = VK_NULL_HANDLE;
-        const std::string held = " besides the " + size_text(allocated_bytes(allocator_)) + " already held";
+        const std::string held = " besides the " + size_text(allocated_bytes()) + " already held";
         return error(result, doing() + held);
     }
     buffer.device_ = this;

@@ -26,13 +26,15 @@ struct ShaderSource {
     std::map<std::string, std::string> files;
     // Looked in before the compiler's own include folders (the plugin's folder).
     std::vector<std::filesystem::path> include_dirs;
+    // What files on disk held at some time, by absolute, lexically normal path: read instead of the disk. May be null.
+    std::shared_ptr<const std::map<std::filesystem::path, std::string>> texts = nullptr;
 };
 
 struct Spirv {
     std::vector<std::uint32_t> words;
     std::string name;
     ShaderStage stage = ShaderStage::compute;
-    std::string key;                          // of the disk cache: equal keys, equal words
+    std::string key; // of the disk cache: equal keys, equal words
     std::vector<std::filesystem::path> files; // what was included from disk, for reloading when one changes
     bool from_cache = false;
 };
@@ -40,8 +42,8 @@ struct Spirv {
 struct ShaderCompilerOptions {
     std::vector<std::filesystem::path> include_dirs;
     std::filesystem::path cache_dir; // empty: no cache. Usually restage::cache_dir() / "spirv"; it is created
-    bool optimize = true;            // a few cheap passes, mostly to drop what no function uses
-    bool debug_info = false;         // names and lines for debuggers and validation
+    bool optimize = true; // a few cheap passes, mostly to drop what no function uses
+    bool debug_info = false; // names and lines for debuggers and validation
 };
 
 class ShaderCompiler {

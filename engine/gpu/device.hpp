@@ -101,6 +101,8 @@ class Device {
     // Writes the pipeline cache to disk now (the destructor does it too). It does nothing if nothing is new.
     void save_pipeline_cache();
 
+    std::uint64_t allocated_bytes() const; // in all buffers that live now
+
     // True once the driver has said so; everything fails from then on, and the Device must be made anew.
     bool lost() const;
 

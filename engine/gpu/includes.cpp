@@ -135,6 +135,9 @@ class Expander {
 
     std::optional<Found> load(const std::filesystem::path& path) {
         std::error_code failed;
+        if (source_.texts)
+            if (const auto kept = source_.texts->find(path.lexically_normal()); kept != source_.texts->end())
+                return Found{"kept:" + kept->first.string(), kept->first.string(), kept->second, path.parent_path()};
         if (!std::filesystem::is_regular_file(path, failed)) return {};
         std::filesystem::path real = std::filesystem::weakly_canonical(path, failed);
         if (failed) real = path;

@@ -152,6 +152,7 @@ struct PipelineBuilder::Impl {
 
     template <class Pipeline, class Request>
     Result<Pipeline> make(const Request& request) {
+        const CrashNote note(request.blame);
         std::vector<Spirv> shaders;
         for (const ShaderSource* source : sources_of(request)) {
             if (request.stop.stop_requested()) return cancelled(request.name);

@@ -5,6 +5,7 @@
 // driver's disk cache, and the main device only fetches it.
 #pragma once
 
+#include "base/crash_note.hpp"
 #include "base/result.hpp"
 #include "gpu/compiler.hpp"
 #include "gpu/pipeline.hpp"
@@ -22,6 +23,7 @@ struct ComputeRequest {
     std::uint32_t push_constant_bytes = 0;
     std::vector<SpecConstant> constants;
     std::string name;
+    Blame blame = {}; // of a crash while this is built
     std::stop_token stop; // asked between steps; a step that is begun (a second or two at worst) ends first
 };
 
@@ -39,6 +41,7 @@ struct RayTracingRequest {
     std::uint32_t push_constant_bytes = 0;
     std::vector<SpecConstant> constants;
     std::string name;
+    Blame blame = {};
     std::stop_token stop;
 };
 

@@ -51,20 +51,20 @@ bool has_extension(const RestageExporter1& exporter, std::string_view extension)
 
 } // namespace
 
-Result<const RestageExporter1*> find_exporter(const std::string& path, const std::string& format,
-                                              const plugin::Registry& registry) {
+Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::string& format,
+                                            const plugin::Registry& registry) {
     std::string known;
     for (const auto& entry : registry.exporters())
         known += (known.empty() ? "" : ", ") + std::string(entry.table->format);
     known = known.empty() ? "no exporter plugin is loaded" : "known are: " + known;
     if (!format.empty()) {
-        if (const auto* entry = registry.find_exporter(format)) return entry->table;
+        if (const auto* entry = registry.find_exporter(format)) return *entry;
         return fail("there is no exporter \"" + format + "\"; " + known);
     }
     std::string extension = std::filesystem::path(path).extension().string();
     if (!extension.empty()) extension.erase(0, 1);
     for (const auto& entry : registry.exporters())
-        if (has_extension(*entry.table, extension)) return entry.table;
+        if (has_extension(*entry.table, extension)) return entry;
     return fail(path + ": no exporter writes files called ." + extension + "; " + known);
 }
 
@@ -94,7 +94,8 @@ Result<> set_option(const RestageExporter1& exporter, const std::string& assignm
 
 Result<Report> export_scene(const Scene& scene, const std::string& path, const plugin::Registry& registry,
                             const ExportOptions& options) {
-    RESTAGE_TRY(const RestageExporter1* exporter, find_exporter(path, options.format, registry));
+    RESTAGE_TRY(const plugin::ExporterEntry chosen, find_exporter(path, options.format, registry));
+    const RestageExporter1* exporter = chosen.table;
     for (const auto& [id, value] : options.values.entries())
         RESTAGE_CHECK(check_option(*exporter, id, value));
     for (const Problem& problem : validate(scene))
@@ -116,8 +117,10 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
         values.push_back(out);
     }
     SceneReader reader(scene, options.progress);
+    std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it wrote " + path));
     const bool saved =
         exporter->save(path.c_str(), &reader.table(), values.data(), static_cast<std::uint32_t>(values.size())) != 0;
+    note.reset();
     if (reader.cancelled()) return fail(path + ": stopped on request");
     if (!reader.error().empty()) return fail(reader.error());
     if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" gave up and did not say why");

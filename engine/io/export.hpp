@@ -23,7 +23,7 @@ Result<Report> export_scene(const scene::Scene&, const std::string& path, const 
 
 // "version=v3" of a command line, after the exporter's table.
 Result<> set_option(const RestageExporter1&, const std::string& assignment, scene::ParamSet& values);
-Result<const RestageExporter1*> find_exporter(const std::string& path, const std::string& format,
-                                              const plugin::Registry&);
+Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::string& format,
+                                            const plugin::Registry&);
 
 } // namespace restage::io

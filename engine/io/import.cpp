@@ -37,20 +37,22 @@ std::string known_formats(const plugin::Registry& registry) {
     return list.empty() ? "no importer plugin is loaded; `restage plugins` says why" : "known are: " + list;
 }
 
-Result<const RestageImporter1*> choose(const std::string& path, const std::string& head,
-                                       const plugin::Registry& registry, const std::string& format) {
+Result<plugin::ImporterEntry> choose(const std::string& path, const std::string& head, const plugin::Registry& registry,
+                                     const std::string& format) {
     if (!format.empty()) {
-        if (const auto* entry = registry.find_importer(format)) return entry->table;
+        if (const auto* entry = registry.find_importer(format)) return *entry;
         return fail(path + ": there is no importer \"" + format + "\"; " + known_formats(registry));
     }
-    const RestageImporter1* best = nullptr;
+    plugin::ImporterEntry best;
     int best_score = 0;
-    for (const auto& entry : registry.importers()) // of equals the first of the alphabet
+    for (const auto& entry : registry.importers()) { // of equals the first of the alphabet
+        const CrashNote note(entry.plugin->blame("while it looked at the beginning of " + path));
         if (const int score = entry.table->probe(path.c_str(), head.data(), head.size()); score > best_score) {
-            best = entry.table;
+            best = entry;
             best_score = score;
         }
-    if (!best) return fail(path + ": the format of this file is not known; " + known_formats(registry));
+    }
+    if (!best.table) return fail(path + ": the format of this file is not known; " + known_formats(registry));
     return best;
 }
 
@@ -66,9 +68,12 @@ std::string to_string(const ReportEntry& entry) {
 Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry& registry,
                                    const ImportOptions& options) {
     RESTAGE_TRY(const std::string head, read_head(path));
-    RESTAGE_TRY(const RestageImporter1* importer, choose(path, head, registry, options.format));
+    RESTAGE_TRY(const plugin::ImporterEntry chosen, choose(path, head, registry, options.format));
+    const RestageImporter1* importer = chosen.table;
     SceneWriter writer(registry, options.progress);
+    std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it read " + path));
     const bool loaded = importer->load(path.c_str(), &writer.table()) != 0;
+    note.reset();
     if (writer.cancelled()) return fail(path + ": stopped on request");
     if (!writer.error().empty()) return fail(writer.error());
     if (!loaded) return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");

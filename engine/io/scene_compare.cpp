@@ -92,7 +92,7 @@ class Describer {
         const Material* m = scene_.materials.find(id);
         if (!m || depth > 16) return "no material";
         std::map<std::string, std::string> params;
-        if (const auto* plugin = registry_.find_material(m->type)) {
+        if (const auto plugin = registry_.find_material(m->type)) {
             for (std::uint32_t i = 0; i < plugin->table->param_count; ++i) {
                 const RestageParam& line = plugin->table->params[i];
                 const Value* set = m->params.find(line.id);

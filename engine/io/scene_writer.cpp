@@ -50,9 +50,12 @@ int SceneWriter::Calls::progress(void* ctx, float done, const char* what) {
 }
 
 const RestageParam* SceneWriter::Calls::material_table(void* ctx, const char* type, std::uint32_t* count) {
-    const auto* entry = static_cast<SceneWriter*>(ctx)->registry_.find_material(type ? type : "");
+    auto& self = *static_cast<SceneWriter*>(ctx);
+    const auto entry = self.registry_.find_material(type ? type : "");
     if (count) *count = entry ? entry->table->param_count : 0;
-    return entry ? entry->table->params : nullptr;
+    if (!entry) return nullptr;
+    self.tables_.insert(entry->source); // the importer may look at it until it is done
+    return entry->table->params;
 }
 
 SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)

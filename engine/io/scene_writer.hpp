@@ -43,6 +43,7 @@ class SceneWriter : public Exchange {
     void add_camera();
 
     const plugin::Registry& registry_;
+    std::set<std::shared_ptr<const plugin::MaterialSource>> tables_; // that the importer was given
     RestageSceneWriter1 table_{};
     std::map<std::string, std::set<std::string>> names_;    // by kind
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given

@@ -8,11 +8,12 @@
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #else
-#include <dlfcn.h>
-#endif
-#if defined(__linux__)
 #include "base/file.hpp"
 
+#include <dlfcn.h>
+#include <unistd.h>
+#endif
+#if defined(__linux__)
 #include <elf.h>
 #include <cstring>
 #include <fstream>
@@ -38,6 +39,8 @@ Result<Library> Library::open(const std::filesystem::path& path) {
         return Library(handle);
     return fail(path.string() + ": " + std::system_category().message(static_cast<int>(GetLastError())));
 }
+
+Result<Library> Library::open_copy(const std::filesystem::path& path) { return open(path); } // files in use are locked
 
 Library::~Library() {
     if (handle_) FreeLibrary(static_cast<HMODULE>(handle_));
@@ -96,6 +99,30 @@ Result<Library> Library::open(const std::filesystem::path& path) {
     const char* why = dlerror(); // begins with the path where it is about this file
     const std::string text = why ? why : "unknown reason";
     return fail(text.starts_with(path.string()) ? text : path.string() + ": " + text);
+}
+
+Result<Library> Library::open_copy(const std::filesystem::path& path) {
+#if defined(__linux__)
+    RESTAGE_CHECK(check_elf(path)); // messages name the plugin's own file
+#endif
+    RESTAGE_TRY(const std::string bytes, read_file(path));
+    std::error_code code;
+    const auto folder = std::filesystem::temp_directory_path(code);
+    if (code) return open(path); // without it, the plugin cannot be replaced while in use, which is all
+    std::string copy = (folder / "restage-plugin-XXXXXX").string();
+    const int file = mkstemp(copy.data());
+    if (file < 0) return open(path);
+    ::close(file);
+    auto result = [&]() -> Result<Library> {
+        RESTAGE_CHECK(write_file_atomic(copy, bytes));
+        if (void* handle = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
+        const char* why = dlerror();
+        std::string text = why ? why : "unknown reason";
+        if (const auto at = text.find(copy); at != std::string::npos) text.replace(at, copy.size(), path.string());
+        return fail(text.starts_with(path.string()) ? text : path.string() + ": " + text);
+    }();
+    std::filesystem::remove(copy, code); // what is mapped stays
+    return result;
 }
 
 Library::~Library() {

@@ -12,6 +12,8 @@ class Library {
   public:
     // All symbols are resolved at once and stay invisible to other libraries, so a plugin that does not fit fails here.
     static Result<Library> open(const std::filesystem::path&);
+    // The same of a private copy, so that the file may be replaced, or opened anew, while this one is in use.
+    static Result<Library> open_copy(const std::filesystem::path&);
     static const char* extension(); // ".so", ".dll"
 
     Library(Library&&) noexcept;

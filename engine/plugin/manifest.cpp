@@ -122,9 +122,15 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
         return fail(file + ": \"kind\": \"" + kind +
                     "\" is unknown; material, importer, exporter and denoiser are known");
     RESTAGE_CHECK(read_abi(object, file, out));
-    RESTAGE_TRY(const std::string library, text_of(object, "library", file));
-    RESTAGE_TRY(out.library, inner_path(library, "library", file));
-    if (!out.library.has_extension()) out.library += Library::extension();
+    if (object.contains("materials")) { // material_json.cpp reads them
+        if (out.kind != Kind::material) return fail(file + ": only a plugin of kind material has \"materials\"");
+        if (object.contains("library"))
+            return fail(file + ": has both \"library\" and \"materials\": the tables come from one of them");
+    } else {
+        RESTAGE_TRY(const std::string library, text_of(object, "library", file));
+        RESTAGE_TRY(out.library, inner_path(library, "library", file));
+        if (!out.library.has_extension()) out.library += Library::extension();
+    }
     if (const auto files = object.find("files"); files != object.end()) {
         if (!files->is_array()) return fail(file + ": \"files\" must be a list of paths");
         for (const json& entry : *files) {

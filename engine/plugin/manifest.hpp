@@ -5,6 +5,14 @@
 //     "licence": "MIT", "library": "velvet", "files": ["velvet.glsl"] }
 // "abi": 1 is short for min = max = 1. "library" without an extension gets that of the platform. Paths are relative to
 // the manifest's folder and stay inside it. Other keys are ignored (`restage check` reads "exceptions").
+// A material without native code has no "library"; its table stands in the manifest:
+//   "materials": [{ "type": "velvet", "label": "Velvet", "prefix": "velvet", "glsl": "velvet.glsl", "tooltip":
+//   "Cloth.",
+//     "flags": ["lossless"],                       stochastic lossless transmissive nonreciprocal tangent additive
+//     "params": [{ "id": "fuzz", "label": "Fuzz", "type": "float",           float color int bool enum text
+//       "min": 0, "max": 1, "default": 0.5, "unit": "", "tooltip": "How fuzzy.",
+//       "choices": ["a", "b"],                     of an enum; its default is one of them
+//       "flags": ["texturable", "advanced"] }] }]
 #pragma once
 
 #include "base/result.hpp"
@@ -23,7 +31,7 @@ struct Manifest {
     std::string id, version, licence;
     Kind kind = Kind::material;
     std::uint32_t abi_min = 0, abi_max = 0;
-    std::filesystem::path library; // file name as it is on this platform
+    std::filesystem::path library; // file name as it is on this platform; empty: no native code
     std::vector<std::filesystem::path> files; // that the plugin needs beside its library
 };
 

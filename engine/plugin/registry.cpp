@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding, judging and loading. Order of the questions: manifest, id taken, abi range, files there, library opens,
-// entry symbol, entry abi and size, id and version as promised, init, tables.
+// Finding plugins, and keeping the lists of what they provide. What a plugin must fulfil is asked in loaded.cpp.
 #include "plugin/registry.hpp"
 
 #include "base/file.hpp"
-#include "plugin/library.hpp"
-#include "plugin/tables.hpp"
+#include "plugin/loaded.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <set>
 
 namespace restage::plugin {
@@ -19,35 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int deepest_folder = 3;              // lib/restage/plugins/<kinds>/<name>, and one for a vendor
-constexpr std::uint32_t most_tables = 256;     // in one library: an endless query() is a bug of the plugin
-
-struct Host { // one per plugin, so that its log lines carry its name
-    RestageHost c; // first: a RestageHost* of ours is a Host*
-    RestageLog1 log_table;
-    Log* log;
-    const Entry* entry;
-};
-
-void host_log(const RestageHost* host, int level, const char* line) {
-    const Host& self = *reinterpret_cast<const Host*>(host);
-    const LogLevel as = level >= RESTAGE_LOG_ERROR     ? LogLevel::error
-                        : level == RESTAGE_LOG_WARNING ? LogLevel::warning
-                                                       : LogLevel::info;
-    self.log->write(as, self.entry->manifest.id + ": " + (line ? line : ""));
-}
-
-const void* host_service(const RestageHost* host, const char* id) {
-    return id && std::strcmp(id, RESTAGE_LOG) == 0 ? &reinterpret_cast<const Host*>(host)->log_table : nullptr;
-}
-
-template <class Table>
-std::string_view key(const Table& table) {
-    if constexpr (std::is_same_v<Table, RestageMaterial1> || std::is_same_v<Table, RestageDenoiser1>)
-        return table.type;
-    else
-        return table.format;
-}
+constexpr int deepest_folder = 3; // lib/restage/plugins/<kinds>/<name>, and one for a vendor
 
 template <class Table>
 const Provided<Table>* find_in(const std::vector<Provided<Table>>& list, std::string_view name) {
@@ -78,21 +47,37 @@ void find_folders(const fs::path& folder, int depth, std::vector<fs::path>& out)
         find_folders(f, depth - 1, out);
 }
 
+// Time and size of everything in a plugin's folder: another number means that something was written.
+std::uint64_t stamp_of(const fs::path& folder) {
+    std::set<std::string> lines;
+    std::error_code code;
+    fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, code), end;
+    for (; !code && it != end; it.increment(code)) {
+        if (it.depth() >= 4) it.disable_recursion_pending();
+        std::error_code ignored;
+        if (!it->is_regular_file(ignored)) continue;
+        const auto time = it->last_write_time(ignored).time_since_epoch().count();
+        lines.insert(it->path().string() + '\n' + std::to_string(time) + '\n' + std::to_string(it->file_size(ignored)));
+    }
+    std::uint64_t stamp = 1;
+    for (const std::string& line : lines)
+        stamp = hash64(line, stamp);
+    return stamp;
+}
+
 } // namespace
 
 struct Registry::Plugin {
     Entry entry;
-    Host host{};
-    std::optional<Library> library;
-    const RestagePlugin* table = nullptr;
-    bool running = false; // init succeeded: shutdown is due
-
-    ~Plugin() {
-        if (running && table->shutdown) table->shutdown();
-    }
+    std::unique_ptr<Loaded> loaded;
 };
 
-Registry::Registry(Log& log) : log_(log) {}
+Blame Entry::blame(const std::string& doing) const {
+    return crash_file.empty() ? Blame() : Blame{crash_file, Quarantine::note(doing, stamp)};
+}
+
+Registry::Registry(Log& log, RegistryOptions options)
+    : log_(log), options_(std::move(options)), quarantine_(options_.quarantine) {}
 
 Registry::~Registry() {
     while (!plugins_.empty())
@@ -116,12 +101,18 @@ std::vector<SearchPath> Registry::default_paths(fs::path prefix) {
         }
     }
     if (const auto here = executable_dir(); prefix.empty() && here) prefix = here->parent_path();
-    if (!prefix.empty()) paths.push_back({prefix / "lib" / "restage" / "plugins", false});
+    if (!prefix.empty()) paths.push_back({.folder = prefix / "lib" / "restage" / "plugins", .own = true});
     return paths;
+}
+
+fs::path Registry::default_quarantine() {
+    const auto user = user_data_dir();
+    return user ? *user / "quarantine" : fs::path();
 }
 
 void Registry::scan(std::span<const SearchPath> paths) {
     for (const SearchPath& path : paths) {
+        if (options_.safe_mode && !path.own) continue;
         std::error_code code;
         if (!fs::is_directory(path.folder, code)) {
             if (path.required) log_.warning("plugin folder " + path.folder.string() + " does not exist");
@@ -130,134 +121,150 @@ void Registry::scan(std::span<const SearchPath> paths) {
         std::vector<fs::path> folders;
         find_folders(path.folder, deepest_folder, folders);
         for (const fs::path& folder : folders)
-            add(fs::absolute(folder, code).lexically_normal());
+            add(fs::absolute(folder, code).lexically_normal(), path.own);
     }
-    const auto by_key = [](const auto& a, const auto& b) { return key(*a.table) < key(*b.table); };
-    std::sort(materials_.begin(), materials_.end(), by_key);
-    std::sort(importers_.begin(), importers_.end(), by_key);
-    std::sort(exporters_.begin(), exporters_.end(), by_key);
-    std::sort(denoisers_.begin(), denoisers_.end(), by_key);
+    list();
 }
 
-void Registry::add(const fs::path& folder) {
+void Registry::add(const fs::path& folder, bool own) {
     if (std::any_of(plugins_.begin(), plugins_.end(), [&](const auto& p) { return p->entry.folder == folder; }))
         return; // two search paths lead here
     auto plugin = std::make_unique<Plugin>();
     Entry& entry = plugin->entry;
     entry.folder = folder;
-    auto loaded = [&]() -> Result<> {
-        RESTAGE_TRY(entry.manifest, read_manifest(folder / "plugin.json"));
-        return load(*plugin);
-    }();
-    if (loaded) {
-        entry.state = State::loaded;
+    entry.own = own;
+    if (const auto done = load(*plugin, false); done) {
         log_.debug("plugin " + entry.name() + " " + entry.manifest.version + " loaded from " + folder.string());
     } else {
-        entry.reason = loaded.error().message;
-        if (plugin->running && plugin->table->shutdown) plugin->table->shutdown();
-        plugin->running = false;
-        plugin->library.reset();
+        entry.reason = done.error().message;
         log_.warning("plugin " + entry.name() + " is not used: " + entry.reason);
     }
     plugins_.push_back(std::move(plugin));
 }
 
-Result<> Registry::load(Plugin& plugin) {
+// Takes the plugin as its files are now, or leaves everything as it was.
+Result<> Registry::load(Plugin& plugin, bool judged) {
     Entry& entry = plugin.entry;
-    const Manifest& manifest = entry.manifest;
+    entry.stamp = stamp_of(entry.folder);
+    RESTAGE_TRY(const Manifest manifest, read_manifest(entry.folder / "plugin.json"));
     const std::string file = (entry.folder / "plugin.json").string();
+    if (!plugin.loaded) entry.manifest = manifest; // so that a refusal has a name
     for (const auto& other : plugins_)
-        if (other->entry.state == State::loaded && other->entry.manifest.id == manifest.id)
+        if (other.get() != &plugin && other->loaded && other->entry.manifest.id == manifest.id)
             return fail(file + ": a plugin with this id is already loaded from " + other->entry.folder.string() +
                         ", which comes first in the search order");
-    if (RESTAGE_ABI < manifest.abi_min)
-        return fail(file + ": needs plugin interface " + std::to_string(manifest.abi_min) + ", this program has " +
-                    std::to_string(RESTAGE_ABI) + ": the plugin is too new; update the program");
-    if (RESTAGE_ABI > manifest.abi_max)
-        return fail(file + ": was made for plugin interface " + std::to_string(manifest.abi_max) +
-                    ", this program has " + std::to_string(RESTAGE_ABI) + ": the plugin is too old; update the plugin");
-    std::error_code code;
-    for (const fs::path& needed : manifest.files)
-        if (!fs::exists(entry.folder / needed, code))
-            return fail(file + ": \"files\": " + (entry.folder / needed).string() + " is missing");
-    const fs::path library = entry.folder / manifest.library;
-    if (!fs::exists(library, code)) return fail(library.string() + ": the library is missing");
-    RESTAGE_TRY(plugin.library, Library::open(library));
-
-    const auto* table = static_cast<const RestagePlugin*>(plugin.library->symbol(RESTAGE_PLUGIN_SYMBOL));
-    if (!table) return fail(library.string() + ": exports no symbol \"" RESTAGE_PLUGIN_SYMBOL "\": this is no plugin");
-    if (table->abi != RESTAGE_ABI)
-        return fail(library.string() + ": was built for plugin interface " + std::to_string(table->abi) +
-                    ", this program has " + std::to_string(RESTAGE_ABI) + " (its manifest says otherwise)");
-    if (table->size < sizeof(RestagePlugin))
-        return fail(library.string() + ": its entry table has " + std::to_string(table->size) + " bytes, " +
-                    std::to_string(sizeof(RestagePlugin)) + " are needed: rebuild it with this SDK");
-    if (!table->id || manifest.id != table->id)
-        return fail(library.string() + ": says its id is \"" + (table->id ? table->id : "") +
-                    "\", the manifest says \"" + manifest.id + "\"");
-    if (!table->version || manifest.version != table->version)
-        return fail(library.string() + ": says its version is \"" + (table->version ? table->version : "") +
-                    "\", the manifest says \"" + manifest.version + "\"");
-    if (!table->query) return fail(library.string() + ": has no query function");
-
-    plugin.table = table;
-    plugin.host = {
-        .c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = host_version, .service = host_service},
-        .log_table = {.size = sizeof(RestageLog1), .log = host_log},
-        .log = &log_,
-        .entry = &entry};
-    if (table->init && !table->init(&plugin.host.c))
-        return fail(library.string() + ": its init function reports failure");
-    plugin.running = true;
-    return take_tables(plugin);
+    if (!entry.own) {
+        entry.crash_file = quarantine_.note_of(manifest.id);
+        const auto crashed = quarantine_.reason(manifest.id, entry.stamp);
+        entry.quarantined = crashed.has_value();
+        if (crashed)
+            return fail(file + ": " + *crashed +
+                        "; it stays off until it changes, or until 'restage plugins --enable " + manifest.id + "'");
+    }
+    std::unique_ptr<Loaded> loaded;
+    {
+        const CrashNote note(entry.blame("while it was being loaded"));
+        RESTAGE_TRY(loaded, Loaded::open(entry.folder, manifest, log_));
+    }
+    RESTAGE_CHECK(unique(plugin, *loaded));
+    if (judged && judge_)
+        for (const auto& source : loaded->materials)
+            RESTAGE_CHECK(judge_({&source->table(), &entry, entry.blame("while its GLSL was being compiled"), source}));
+    plugin.loaded = std::move(loaded); // what was open before is shut down; who renders with its tables has them
+    entry.manifest = manifest;
+    entry.state = State::loaded;
+    entry.reason.clear();
+    entry.trouble.clear();
+    return {};
 }
 
-Result<> Registry::take_tables(Plugin& plugin) {
-    const Entry& entry = plugin.entry;
-    const std::string library = (entry.folder / entry.manifest.library).string();
-    // All of a plugin's tables are judged before the first is taken.
-    const auto take = [&]<class Table>(const char* interface_id, std::vector<Provided<Table>>& list) -> Result<> {
-        std::vector<Provided<Table>> found;
-        for (std::uint32_t i = 0; const auto* table = static_cast<const Table*>(plugin.table->query(interface_id, i));
-             ++i) {
-            if (i == most_tables) return fail(library + ": provides " + interface_id + " without end");
-            std::string problem;
-            if constexpr (std::is_same_v<Table, RestageMaterial1>)
-                problem = check_table(*table, entry.folder);
-            else
-                problem = check_table(*table);
-            if (!problem.empty()) return fail(library + ": " + problem);
-            if (find_in(found, key(*table)))
-                return fail(library + ": provides \"" + std::string(key(*table)) + "\" twice");
-            if (const auto* other = find_in(list, key(*table)))
-                return fail(library + ": \"" + std::string(key(*table)) + "\" is already provided by " +
-                            other->plugin->name());
-            if constexpr (std::is_same_v<Table, RestageMaterial1>)
-                for (const auto* known : {&list, &found})
-                    for (const auto& other : *known)
-                        if (table->prefix && other.table->prefix && !std::strcmp(table->prefix, other.table->prefix))
-                            return fail(library + ": material \"" + table->type + "\": the prefix \"" + table->prefix +
-                                        "\" is already taken by material \"" + other.table->type + "\" of " +
-                                        other.plugin->name());
-            found.push_back({table, &entry});
-        }
-        if (found.empty())
-            return fail(library + ": provides no " + interface_id + ", though its kind is " +
-                        to_string(entry.manifest.kind));
-        list.insert(list.end(), found.begin(), found.end());
-        return {};
+// What a plugin provides must not be provided by another one.
+Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
+    const std::string who = (plugin.entry.folder / plugin.entry.manifest.library).string();
+    const auto taken = [&](std::string_view what, const Plugin& by) {
+        return fail(who + ": \"" + std::string(what) + "\" is already provided by " + by.entry.name());
     };
-    switch (entry.manifest.kind) {
-        case Kind::material:
-            return take(RESTAGE_MATERIAL1, materials_);
-        case Kind::importer:
-            return take(RESTAGE_IMPORTER1, importers_);
-        case Kind::exporter:
-            return take(RESTAGE_EXPORTER1, exporters_);
-        case Kind::denoiser:
-            return take(RESTAGE_DENOISER1, denoisers_);
+    for (const auto& other : plugins_) {
+        if (other.get() == &plugin || !other->loaded) continue;
+        const auto twice = [&](const auto& mine, const auto& theirs) -> Result<> {
+            for (const auto* a : mine)
+                for (const auto* b : theirs)
+                    if (key(*a) == key(*b)) return taken(key(*a), *other);
+            return {};
+        };
+        RESTAGE_CHECK(twice(loaded.importers, other->loaded->importers));
+        RESTAGE_CHECK(twice(loaded.exporters, other->loaded->exporters));
+        RESTAGE_CHECK(twice(loaded.denoisers, other->loaded->denoisers));
+        for (const auto& a : loaded.materials)
+            for (const auto& b : other->loaded->materials) {
+                const RestageMaterial1 &mine = a->table(), &theirs = b->table();
+                if (key(mine) == key(theirs)) return taken(key(mine), *other);
+                if (mine.prefix && theirs.prefix && !std::strcmp(mine.prefix, theirs.prefix))
+                    return fail(who + ": material \"" + mine.type + "\": the prefix \"" + mine.prefix +
+                                "\" is already taken by material \"" + theirs.type + "\" of " + other->entry.name());
+            }
     }
     return {};
+}
+
+void Registry::list() {
+    std::vector<MaterialEntry> materials;
+    inspectors_.clear(), importers_.clear(), exporters_.clear(), denoisers_.clear();
+    for (const auto& plugin : plugins_) {
+        if (!plugin->loaded) continue;
+        const Entry* entry = &plugin->entry;
+        for (const auto& source : plugin->loaded->materials)
+            materials.push_back({&source->table(), entry, entry->blame("while its GLSL was being compiled"), source});
+        for (const auto* table : plugin->loaded->inspectors)
+            inspectors_.push_back(table);
+        for (const auto* table : plugin->loaded->importers)
+            importers_.push_back({table, entry});
+        for (const auto* table : plugin->loaded->exporters)
+            exporters_.push_back({table, entry});
+        for (const auto* table : plugin->loaded->denoisers)
+            denoisers_.push_back({table, entry});
+    }
+    const auto by_key = [](const auto& a, const auto& b) { return key(*a.table) < key(*b.table); };
+    std::sort(materials.begin(), materials.end(), by_key);
+    std::sort(importers_.begin(), importers_.end(), by_key);
+    std::sort(exporters_.begin(), exporters_.end(), by_key);
+    std::sort(denoisers_.begin(), denoisers_.end(), by_key);
+    {
+        std::lock_guard lock(materials_mutex_);
+        materials_.swap(materials);
+    }
+    ++version_;
+}
+
+std::vector<Reload> Registry::reload_changed() {
+    std::vector<Reload> news;
+    for (const auto& plugin : plugins_) {
+        Entry& entry = plugin->entry;
+        if (!entry.manifest.id.empty() && entry.manifest.kind != Kind::material) continue;
+        if (stamp_of(entry.folder) == entry.stamp) continue;
+        const auto done = load(*plugin, true);
+        if (done) {
+            log_.info("plugin " + entry.name() + ": its newest version is in use");
+        } else {
+            (plugin->loaded ? entry.trouble : entry.reason) = done.error().message;
+            log_.error("plugin " + entry.name() + ": " + done.error().message +
+                       (plugin->loaded ? " (the version before goes on)" : ""));
+        }
+        news.push_back({&entry, done ? "" : done.error().message});
+    }
+    if (!news.empty()) list();
+    return news;
+}
+
+Result<> Registry::reload(const Entry& which) {
+    for (const auto& plugin : plugins_) {
+        if (&plugin->entry != &which) continue;
+        const auto done = load(*plugin, true);
+        if (!done) (plugin->loaded ? plugin->entry.trouble : plugin->entry.reason) = done.error().message;
+        list();
+        return done;
+    }
+    return fail("no such plugin");
 }
 
 std::vector<const Entry*> Registry::entries() const {
@@ -267,7 +274,21 @@ std::vector<const Entry*> Registry::entries() const {
     return result;
 }
 
-const MaterialEntry* Registry::find_material(std::string_view type) const { return find_in(materials_, type); }
+std::optional<MaterialEntry> Registry::find_material(std::string_view type) const {
+    std::lock_guard lock(materials_mutex_);
+    for (const MaterialEntry& material : materials_)
+        if (key(*material.table) == type) return material;
+    return std::nullopt;
+}
+std::vector<MaterialEntry> Registry::materials() const {
+    std::lock_guard lock(materials_mutex_);
+    return materials_;
+}
+const RestageInspector1* Registry::find_inspector(std::string_view type) const {
+    for (const RestageInspector1* table : inspectors_)
+        if (key(*table) == type) return table;
+    return nullptr;
+}
 const ImporterEntry* Registry::find_importer(std::string_view format) const { return find_in(importers_, format); }
 const ExporterEntry* Registry::find_exporter(std::string_view format) const { return find_in(exporters_, format); }
 const DenoiserEntry* Registry::find_denoiser(std::string_view type) const { return find_in(denoisers_, type); }

@@ -189,4 +189,10 @@ std::string check_table(const RestageDenoiser1& t) {
     return t.available && t.run ? "" : "denoiser " + quoted(t.type) + " lacks available or run";
 }
 
+std::string check_table(const RestageInspector1& t) {
+    if (const std::string problem = check_size(t, RESTAGE_INSPECTOR1); !problem.empty()) return problem;
+    if (!t.type || !is_type_name(t.type)) return "an inspector that does not say for which material it is";
+    return t.draw ? "" : "the inspector of " + quoted(t.type) + " lacks draw";
+}
+
 } // namespace restage::plugin

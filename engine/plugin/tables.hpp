@@ -4,6 +4,7 @@
 #pragma once
 
 #include <restage/denoiser.h>
+#include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
 #include <filesystem>
@@ -18,5 +19,6 @@ std::string check_table(const RestageMaterial1&, const std::filesystem::path& fo
 std::string check_table(const RestageImporter1&);
 std::string check_table(const RestageExporter1&);
 std::string check_table(const RestageDenoiser1&);
+std::string check_table(const RestageInspector1&);
 
 } // namespace restage::plugin

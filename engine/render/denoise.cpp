@@ -3,9 +3,11 @@
 
 namespace restage::render {
 
-Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const RestageDenoiser1& denoiser,
+Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& entry,
                                        RestageDenoiseQuality quality, unsigned threads,
                                        std::function<bool(double done)> keep_going) {
+    const RestageDenoiser1& denoiser = *entry.table;
+    const CrashNote note(entry.plugin->blame("while it denoised a picture"));
     const char* reason = "";
     if (!denoiser.available(&reason))
         return fail(std::string("the denoiser ") + denoiser.type + " is not available: " + reason);

@@ -3,15 +3,15 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "plugin/registry.hpp"
 #include "render/film.hpp"
 
-#include <restage/denoiser.h>
 #include <functional>
 
 namespace restage::render {
 
 // Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: an error then.
-Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const RestageDenoiser1& denoiser,
+Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& denoiser,
                                        RestageDenoiseQuality quality, unsigned threads = 0,
                                        std::function<bool(double done)> keep_going = {});
 

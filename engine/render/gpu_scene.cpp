@@ -42,7 +42,8 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     const bool meshes = first_ || scene.meshes.version() != seen_.meshes;
     const bool images = first_ || scene.images.version() != seen_.images;
     const bool textures = images || scene.textures.version() != seen_.textures;
-    const bool materials = first_ || scene.materials.version() != seen_.materials || textures;
+    const bool plugins = refresh_types();
+    const bool materials = first_ || scene.materials.version() != seen_.materials || textures || plugins;
     const bool instances = first_ || meshes || scene.instances.version() != seen_.instances;
     const bool lights = instances || images || scene.lights.version() != seen_.lights ||
                         scene.environment.version != seen_.environment || scene.meshes.version() != seen_.meshes;
@@ -53,6 +54,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
     if (lights || !changes.instances.empty()) RESTAGE_CHECK(sync_lights(scene, changes));
     RESTAGE_CHECK(sync_root(scene, changes));
+    changes.shaders |= plugins;
     changes.film = first_ || scene.film.version != seen_.film;
     // A name, a group, a further camera: nothing of them is on the device, and nothing shows.
     changes.image = changes.image || changes.film || changes.shaders || !changes.meshes.empty() ||

@@ -88,6 +88,7 @@ class GpuScene {
     Result<void> sync_root(const scene::Scene&, SceneChanges&);
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
+    bool refresh_types();
     shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
     glm::vec2 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
 

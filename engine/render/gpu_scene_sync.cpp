@@ -24,6 +24,18 @@ std::uint32_t GpuScene::type_index(const std::string& type) {
     return std::uint32_t(types_.size() - 1);
 }
 
+// Plugins may have been loaded anew, or have come; see MaterialLookup.
+bool GpuScene::refresh_types() {
+    bool changed = false;
+    for (MaterialType& t : types_) {
+        const MaterialPlugin now = lookup_(t.type).value_or(MaterialPlugin{});
+        if (now.table == t.plugin.table && now.revision() == t.plugin.revision()) continue;
+        changed |= now.revision() != t.plugin.revision() || !now.table != !t.plugin.table;
+        t.plugin = now;
+    }
+    return changed;
+}
+
 // Material records: 0 is the placeholder, then one per Id<Material>. Only types that a visible instance uses are noted.
 Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes) {
     std::vector<char> used(scene.materials.size() + 1);

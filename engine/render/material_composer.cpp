@@ -79,8 +79,10 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
     source.name = stand_in ? "<stand-in>" : "<composed for " + type.type + ">";
     source.stage = stage;
     source.include_dirs = {type.plugin.folder};
+    if (type.plugin.source) source.texts = type.plugin.source->glsl();
     source.text = fmt::format(
         R"(#version 460
+// revision {revision:016x} of the plugin's table and files: what is made of this text is made anew when they change
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 {rt}#include "lib/bsdf.glsl"
@@ -101,9 +103,9 @@ BsdfSample material_sample(Material m, vec3 wo, vec3 u, inout Rng rng) {{ return
 vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 #include "{main}"
 )",
-        fmt::arg("p", prefix), fmt::arg("fields", fields), fmt::arg("fetch", fetch),
-        fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),
-        fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
+        fmt::arg("revision", type.plugin.revision()), fmt::arg("p", prefix), fmt::arg("fields", fields),
+        fmt::arg("fetch", fetch), fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""),
+        fmt::arg("rng", rng), fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
         fmt::arg("rt", stage == gpu::ShaderStage::compute ? "" : "#extension GL_EXT_ray_tracing : require\n"));
     return source;
 }
@@ -115,6 +117,21 @@ gpu::ShaderSource compose_material(const MaterialType& type, const std::string& 
 }
 gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
     return compose(type, main_file, stage, true);
+}
+
+plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {
+    auto compiler = std::make_shared<const gpu::ShaderCompiler>(
+        gpu::ShaderCompilerOptions{.include_dirs = {std::move(shader_dir)}, .cache_dir = {}});
+    return [compiler](const plugin::MaterialEntry& entry) -> Result<> {
+        const CrashNote note(entry.blame);
+        MaterialType type;
+        type.type = entry.table->type;
+        type.plugin = {entry.table, entry.plugin->folder, entry.source};
+        type.textured = ~std::uint64_t(0);
+        if (type.mix() || type.null_surface()) return {};
+        RESTAGE_CHECK(compiler->compile(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute)));
+        return {};
+    };
 }
 
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guides, Strategy strategy,

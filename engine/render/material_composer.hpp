@@ -29,6 +29,9 @@ gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_
 // own colour; see MaterialData::params.
 gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage);
 
+// Does a material's GLSL compile in what renders it? No device is needed. For Registry::set_judge. [main]
+plugin::Registry::Judge material_judge(std::filesystem::path shader_dir);
+
 // For a material's shader: what this type uses; or for a kernel without material.
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures&, bool guides, Strategy,
                                               const MaterialType* = nullptr);

@@ -6,6 +6,14 @@
 
 namespace restage::render {
 
+MaterialLookup material_lookup(const plugin::Registry& registry) {
+    return [&registry](const std::string& type) -> std::optional<MaterialPlugin> {
+        const auto entry = registry.find_material(type);
+        if (!entry) return std::nullopt;
+        return MaterialPlugin{entry->table, entry->plugin->folder, entry->source, entry->blame};
+    };
+}
+
 std::uint32_t value_words(const RestageParam& p) {
     switch (p.type) {
         case RESTAGE_COLOR:
@@ -48,6 +56,14 @@ std::vector<std::uint32_t> pack_material(const RestageMaterial1& table, const sc
         if (line.flags & RESTAGE_PARAM_TEXTURABLE) words.push_back(value.texture.value);
     }
     return words;
+}
+
+std::string word_layout(const RestageMaterial1* table) {
+    std::string layout;
+    for (std::uint32_t i = 0; table && i < table->param_count; ++i)
+        layout += " " + std::to_string(value_words(table->params[i])) + "+" +
+                  std::to_string(line_words(table->params[i]) - value_words(table->params[i]));
+    return layout;
 }
 
 std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1& table, const scene::ParamSet& params) {

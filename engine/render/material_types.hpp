@@ -3,6 +3,7 @@
 // render/material_composer.cpp writes the GLSL that reads what pack_material writes: both follow for_each_word.
 #pragma once
 
+#include "plugin/registry.hpp"
 #include "scene/scene.hpp"
 
 #include <restage/material.h>
@@ -18,9 +19,15 @@ namespace restage::render {
 struct MaterialPlugin {
     const RestageMaterial1* table = nullptr;
     std::filesystem::path folder; // where its GLSL is
+    // Holds the table and the text of the GLSL; nullptr: the table outlives the renderer, and the folder is read.
+    std::shared_ptr<const plugin::MaterialSource> source = nullptr;
+    Blame blame = {}; // of a crash while it is compiled
+    std::uint64_t revision() const { return source ? source->revision() : 0; }
 };
-// Finds the plugin of a material type; nullopt = there is none. The tables outlive the renderer.
+// Finds the plugin of a material type; nullopt = there is none. Asked at each Renderer::sync: an answer of another
+// revision than before is composed anew. [any]
 using MaterialLookup = std::function<std::optional<MaterialPlugin>(const std::string& type)>;
+MaterialLookup material_lookup(const plugin::Registry& registry); // `registry` outlives what uses it
 
 struct MaterialType {
     std::string type;
@@ -41,6 +48,9 @@ inline std::uint32_t line_words(const RestageParam& p) {
 
 // The words of one material: values of the table's lines in order, defaults where nothing is set.
 std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::ParamSet&);
+
+// How those words lie, as a text: shaders composed for one table read what was packed for another of the same layout.
+std::string word_layout(const RestageMaterial1*);
 
 // What the material looks like while its shader is being compiled: its first colour that is a reflectance, or grey.
 // Lies in the three words before its own, for compose_stand_in.

@@ -203,7 +203,7 @@ class VulkanTracer final : public Tracer {
         wanted_ = store_.want("path tracer", std::move(made));
         wanted_types_.clear();
         for (const auto& type : scene.types())
-            wanted_types_.push_back(type.type);
+            wanted_types_.push_back(type.type + word_layout(type.plugin.table));
         shown_ = false;
         if (wanted_->pipeline) arrive();
         return {};

@@ -9,12 +9,16 @@ namespace restage::render {
 
 Result<void> WaveKernels::select(const GpuScene& scene) {
     features_ = scene.features();
-    types_ = scene.types();
+    auto before = std::exchange(types_, scene.types());
     stand_in_type_ = scene.materials()[0].type;
     if (types_.size() > escape) return fail("a scene may use at most 254 material types");
     slots_.resize(types_.size());
+    before.resize(types_.size());
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        if (slots_[i].what != types_[i].type) slots_[i] = {.what = types_[i].type}; // another scene
+        // Another scene, or a plugin that was loaded anew with another table
+        if (slots_[i].what != types_[i].type ||
+            word_layout(before[i].plugin.table) != word_layout(types_[i].plugin.table))
+            slots_[i] = {.what = types_[i].type};
         slots_[i].settled = slots_[i].shown = false;
         slots_[i].wanted = nullptr;
     }
@@ -35,6 +39,7 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
     } else if (&slot >= slots_.data() && &slot < slots_.data() + slots_.size()) {
         type = &types_[std::size_t(&slot - slots_.data())];
         r.shader = compose_material(*type, "wave_shade.glsl", gpu::ShaderStage::compute);
+        r.blame = type->plugin.blame;
     } else {
         const auto path = c_.shader_dir / slot.what;
         RESTAGE_TRY(auto text, read_file(path));

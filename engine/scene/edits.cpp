@@ -279,6 +279,16 @@ Result<Edit> set_param(const Scene& scene, Id<Texture> id, std::string_view para
     return set_param_of(scene, id, param, std::move(value));
 }
 
+Result<Edit> set_params(const Scene& scene, Id<Material> id, std::span<const std::pair<std::string, Value>> values,
+                        std::string label) {
+    return modify(scene, id, std::move(label), [&](Material& m) {
+        for (const auto& [param, value] : values) {
+            m.params.set(param, value);
+            forget_edited(m.origin, param);
+        }
+    });
+}
+
 Result<Edit> reset_param(const Scene& scene, Id<Material> id, std::string_view param) {
     return modify(scene, id, "Reset " + std::string(param), [&](Material& m) {
         m.params.remove(param);

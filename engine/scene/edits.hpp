@@ -81,6 +81,7 @@ Result<Edit> set_hidden(const Scene&, std::span<const Id<Instance>>, bool hidden
 void forget_edited(Origin&, std::string_view param);
 Result<Edit> set_param(const Scene&, Id<Material>, std::string_view param, Value);
 Result<Edit> set_param(const Scene&, Id<Texture>, std::string_view param, Value);
+Result<Edit> set_params(const Scene&, Id<Material>, std::span<const std::pair<std::string, Value>>, std::string label);
 Result<Edit> reset_param(const Scene&, Id<Material>, std::string_view param); // back to the table's default
 Result<Edit> set_material_type(const Scene&, Id<Material>, std::string type); // values of other ids stay
 

@@ -2,6 +2,7 @@
 #include "session/document.hpp"
 
 #include "base/file.hpp"
+#include "session/isolate.hpp"
 #include "session/project.hpp"
 
 namespace restage::session {
@@ -22,9 +23,15 @@ const DataSource* DataSources::find(const void* data) const {
 
 bool is_project(const std::filesystem::path& path) { return path.extension() == project_extension; }
 
+Result<io::ImportedScene> read_scene(const std::string& path, const plugin::Registry& registry,
+                                     const ReadOptions& options, const std::string& format) {
+    if (options.isolate) return import_isolated(path, registry, *options.isolate, options.progress);
+    return io::import_scene(path, registry, {.progress = options.progress, .format = format});
+}
+
 Result<Document> read_document(const std::string& path, const plugin::Registry& registry, const ReadOptions& options) {
     if (is_project(path)) return read_project(path, registry, options);
-    RESTAGE_TRY(io::ImportedScene imported, io::import_scene(path, registry, {.progress = options.progress}));
+    RESTAGE_TRY(io::ImportedScene imported, read_scene(path, registry, options));
     RESTAGE_TRY(const std::string bytes, read_file(path));
     Document document;
     document.path = path;

@@ -63,8 +63,11 @@ enum class BaseProblem {
     changed
 }; // of a project's base, where somebody can help by naming another file
 
+struct IsolateOptions; // isolate.hpp
+
 struct ReadOptions {
     io::Progress progress;
+    std::shared_ptr<const IsolateOptions> isolate = nullptr; // scenes are read in a process of their own
     std::filesystem::path base; // stands for the one the project names; "" = that
     bool drop_lost = false;     // changes to things the base has no more are left out and reported, not an error
     BaseProblem* problem = nullptr; // set when reading fails for this reason
@@ -73,6 +76,9 @@ struct ReadOptions {
 inline constexpr std::string_view project_extension = ".restage";
 bool is_project(const std::filesystem::path& path);
 
+// A scene file, isolated or not. `format`: of one importer; "" = ask all of them. [worker]
+Result<io::ImportedScene> read_scene(const std::string& path, const plugin::Registry&, const ReadOptions&,
+                                     const std::string& format = {});
 // A scene file or a project, by the extension. [worker]
 Result<Document> read_document(const std::string& path, const plugin::Registry&, const ReadOptions& = {});
 

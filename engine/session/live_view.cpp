@@ -135,13 +135,8 @@ struct LiveView::Impl {
     void open(Work& work, render::RendererOptions options) {
         set_state(ViewState::starting);
         work.renderer.reset();
-        const auto lookup = [this](const std::string& type) -> std::optional<render::MaterialPlugin> {
-            const auto* entry = registry.find_material(type);
-            if (!entry) return std::nullopt;
-            return render::MaterialPlugin{entry->table, entry->plugin->folder};
-        };
         options.stand_ins = true; // never wait for a compiler
-        auto made = render::Renderer::create(options, lookup, log);
+        auto made = render::Renderer::create(options, render::material_lookup(registry), log);
         work.shown = 0;
         if (!made) return failed(made.error());
         work.renderer = std::move(*made);
@@ -309,9 +304,8 @@ struct LiveView::Impl {
     void denoise_loop() {
         lower_thread_priority(7);
         const auto& denoisers = registry.denoisers();
-        const RestageDenoiser1* denoiser = denoisers.empty() ? nullptr : denoisers[0].table;
         const char* reason = "no denoiser plugin is loaded";
-        if (!denoiser || !denoiser->available(&reason)) {
+        if (denoisers.empty() || !denoisers[0].table->available(&reason)) {
             std::lock_guard lock(mutex);
             no_denoiser = reason;
             return;
@@ -330,7 +324,7 @@ struct LiveView::Impl {
                 std::lock_guard lock(mutex);
                 return !stop && (source->divider > 1 || visible == source->request);
             };
-            auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
+            auto color = render::denoise(source->image, denoisers[0], RESTAGE_DENOISE_FAST, 0, keep_going);
             if (!color) continue; // stopped; a lasting fault shows as pictures that stay noisy
             auto frame = std::make_shared<Frame>(*source);
             frame->image.color = std::move(*color);

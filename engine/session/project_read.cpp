@@ -160,8 +160,7 @@ class Reader : public ValueReader {
         }
         RESTAGE_TRY(const std::string bytes, read_file(base.file));
         base.hash = hash64(bytes);
-        RESTAGE_TRY(io::ImportedScene imported,
-                    io::import_scene(base.file, registry_, {.progress = options_.progress}));
+        RESTAGE_TRY(io::ImportedScene imported, read_scene(base.file, registry_, options_));
         base.scene = std::move(imported.scene);
         base.format = imported.importer;
         doc_.report = std::move(imported.report);
@@ -219,7 +218,7 @@ class Reader : public ValueReader {
             j.contains("format") && j["format"].is_string() ? j["format"].template get<std::string>() : "";
         auto [at, fresh] = imported_.try_emplace(file);
         if (fresh) {
-            auto scene = io::import_scene(file, registry_, {.format = format});
+            auto scene = read_scene(file, registry_, {.isolate = options_.isolate}, format);
             if (scene) {
                 doc_.sources.note_all(scene->scene, file, format);
                 at->second = std::move(scene->scene);

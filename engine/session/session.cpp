@@ -119,7 +119,7 @@ Result<bool> Session::set_param(Id<Material> id, std::string_view param, Value v
 
 Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value value) const {
     const Material* material = scene_.materials.find(id);
-    const auto* plugin = material ? registry_.find_material(material->type) : nullptr;
+    const auto plugin = material ? registry_.find_material(material->type) : std::nullopt;
     const bool common = param == "bump" || param == "normalmap";
     if (plugin && !common) {
         const std::string who = "material \"" + material->name + "\": parameter \"" + std::string(param) + "\"";

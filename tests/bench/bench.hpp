@@ -57,13 +57,7 @@ struct Plugins {
         log.set_threshold(LogLevel::warning);
         registry.scan(plugin::Registry::default_paths());
     }
-    render::MaterialLookup lookup() {
-        return [this](const std::string& type) -> std::optional<render::MaterialPlugin> {
-            const auto* entry = registry.find_material(type);
-            if (!entry) return std::nullopt;
-            return render::MaterialPlugin{entry->table, entry->plugin->folder};
-        };
-    }
+    render::MaterialLookup lookup() { return render::material_lookup(registry); }
     std::unique_ptr<render::Renderer> renderer(render::RendererOptions options = {}) {
         if (options.tracer.empty()) options.tracer = "embree";
         return take(render::Renderer::create(options, lookup(), log));

@@ -35,8 +35,8 @@ Bench::Bench()
                                    .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
 }
 
-const plugin::MaterialEntry& Bench::material(const char* type) const {
-    const plugin::MaterialEntry* entry = registry_.find_material(type);
+plugin::MaterialEntry Bench::material(const char* type) const {
+    const auto entry = registry_.find_material(type);
     if (!entry) throw std::runtime_error(std::string("no plugin provides the material ") + type);
     return *entry;
 }

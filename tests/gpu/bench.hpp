@@ -20,8 +20,8 @@ class Bench {
     static Bench& get(); // made at first use; throws what is missing as a sentence
     gpu::Device& device() { return *device_; }
     const gpu::ShaderCompiler& compiler() { return *compiler_; }
-    const std::vector<plugin::MaterialEntry>& materials() const { return registry_.materials(); }
-    const plugin::MaterialEntry& material(const char* type) const;
+    std::vector<plugin::MaterialEntry> materials() const { return registry_.materials(); }
+    plugin::MaterialEntry material(const char* type) const;
 
   private:
     Bench();

@@ -3,7 +3,12 @@
 #include <restage/material.h>
 #include <restage/scene_io.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
+
+#if defined(TEST_IMPORTER_CRASHES) || defined(TEST_IMPORTER_HANGS) || defined(TEST_IMPORTER_EATS)
+#define TEST_IMPORTER
+#endif
 
 #if defined(TEST_SMALL_ENTRY)
 #define ENTRY_SIZE 8u
@@ -64,6 +69,15 @@ static int load(const char* path, const RestageSceneWriter1* out) {
     RestageCamera camera;
     RestageFilm film;
     int i;
+#if defined(TEST_IMPORTER_CRASHES)
+    abort();
+#elif defined(TEST_IMPORTER_HANGS)
+    for (volatile int forever = 1; forever;)
+        ;
+#elif defined(TEST_IMPORTER_EATS) /* as a careless one does, which does not look at what malloc gives */
+    for (;;)
+        memset(malloc(1 << 26), 1, 1 << 26);
+#endif
     memset(&instance, 0, sizeof instance);
     memset(&camera, 0, sizeof camera);
     memset(&film, 0, sizeof film);
@@ -96,6 +110,9 @@ static const RestageHost* used_host;
 static int init(const RestageHost* host) {
     const RestageLog1* log = (const RestageLog1*)host->service(host, RESTAGE_LOG);
     used_host = host;
+#if defined(TEST_CRASHES)
+    abort();
+#endif
     if (log) log->log(host, RESTAGE_LOG_INFO, "velvet is here");
 #if defined(TEST_INIT_FAILS)
     return 0;

@@ -19,13 +19,7 @@ struct Plugins { // of the build tree
         const plugin::SearchPath path{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true};
         registry.scan({&path, 1});
     }
-    render::MaterialLookup lookup() {
-        return [this](const std::string& type) -> std::optional<render::MaterialPlugin> {
-            const auto* entry = registry.find_material(type);
-            if (!entry) return std::nullopt;
-            return render::MaterialPlugin{entry->table, entry->plugin->folder};
-        };
-    }
+    render::MaterialLookup lookup() { return render::material_lookup(registry); }
 };
 inline Plugins& plugins() {
     static Plugins instance;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // plugin: what is sound loads; what is foreign, too new, broken or missing is one sentence, and nothing crashes.
-#include "base/file.hpp"
-#include "plugin/library.hpp"
-#include "plugin/registry.hpp"
 #include "plugin/tables.hpp"
-#include "temporary_folder.hpp"
+#include "plugin_folder.hpp"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -17,54 +14,8 @@ using namespace restage;
 using namespace restage::plugin;
 using Catch::Matchers::ContainsSubstring;
 
-namespace {
-
-const fs::path built = fs::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_bad";
-
-std::string manifest(const char* kind = "material", const char* abi = "1", const char* id = "org.example.velvet") {
-    return std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
-           R"(", "version": "1.0.0", "licence": "MIT", "abi": )" + abi + R"(, "library": "velvet"})";
-}
-
-// A search path in a temporary folder that this test fills with plugins.
-struct Folder {
-    test::TemporaryFolder own;
-    const fs::path& path = own.path();
-    std::vector<std::string> lines;
-    Log log{[this](LogLevel, std::string_view line) { lines.emplace_back(line); }};
-
-    fs::path add(const std::string& name, const std::string& json, const char* library) {
-        const fs::path folder = path / name;
-        fs::create_directories(folder);
-        REQUIRE(write_file_atomic(folder / "plugin.json", json));
-        REQUIRE(write_file_atomic(folder / "velvet.glsl", "// empty"));
-        if (library)
-            fs::copy_file(built / (std::string(library) + Library::extension()),
-                          folder / (std::string("velvet") + Library::extension()));
-        return folder;
-    }
-    void scan(Registry& registry) { registry.scan(std::vector<SearchPath>{{path, true}}); }
-
-    // The sentence that refuses the only plugin there is.
-    std::string refusal() {
-        Registry registry(log);
-        scan(registry);
-        REQUIRE(registry.entries().size() == 1);
-        CHECK(registry.entries()[0]->state == State::refused);
-        CHECK(registry.materials().empty());
-        const std::string reason = registry.entries()[0]->reason;
-        CHECK(std::any_of(lines.begin(), lines.end(),
-                          [&](const auto& l) { return l.find(reason) != std::string::npos; }));
-        return reason;
-    }
-    std::string refusal_of(const std::string& json, const char* library) {
-        fs::remove_all(path);
-        add("p", json, library);
-        return refusal();
-    }
-};
-
-} // namespace
+using Folder = restage::test::PluginFolder;
+using restage::test::manifest;
 
 TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plugin]") {
     Folder folder;
@@ -76,7 +27,7 @@ TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plug
         REQUIRE(registry.entries().size() == 1);
         INFO(registry.entries()[0]->reason);
         REQUIRE(registry.entries()[0]->state == State::loaded);
-        const MaterialEntry* velvet = registry.find_material("velvet");
+        const auto velvet = registry.find_material("velvet");
         REQUIRE(velvet);
         CHECK(velvet->plugin->folder == where);
         CHECK(velvet->table->param_count == 2);
@@ -138,7 +89,7 @@ TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") 
 
 TEST_CASE("a file that is no library for this machine is refused, not opened", "[plugin]") {
     Folder folder;
-    const std::string good = read_file(built / (std::string("good") + Library::extension())).value();
+    const std::string good = read_file(test::built_plugins / (std::string("good") + Library::extension())).value();
     const auto refused = [&](const std::string& bytes) {
         fs::remove_all(folder.path);
         const fs::path where = folder.add("p", manifest(), nullptr);

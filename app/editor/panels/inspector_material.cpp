@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inspector, material: which one, who shares it, its type, and a row for every line of the plugin's table.
 #include "inspector.hpp"
+#include "panels/plugin_ui.hpp"
 #include "param_widget.hpp"
 #include "pick_tool.hpp"
 #include "state.hpp"
@@ -34,7 +35,7 @@ constexpr RestageParam surface_lines[] = {
     {"normalmap", "Normal map", RESTAGE_TEXTURE, 0, 0, 1, {0}, "", nullptr, "Tangent-space normals, as games use them"},
 };
 
-scene::ParamTable table_of(const plugin::MaterialEntry* plugin) {
+scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
     return plugin ? scene::ParamTable(plugin->table->params, plugin->table->param_count) : scene::ParamTable();
 }
 
@@ -190,7 +191,8 @@ void texture_for_selected(Editor& e, const std::string& file) {
     const scene::Instance* instance = e.scene().instances.find(e.selection.active());
     const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
     if (!material) return;
-    for (const RestageParam& line : table_of(e.registry().find_material(material->type)))
+    const auto plugin = e.registry().find_material(material->type);
+    for (const RestageParam& line : table_of(plugin))
         if (line.type == RESTAGE_COLOR && (line.flags & RESTAGE_PARAM_TEXTURABLE)) {
             ask_image(e, instance->material, line, file);
             return;
@@ -200,7 +202,7 @@ void texture_for_selected(Editor& e, const std::string& file) {
 
 glm::vec3 swatch_color(const Editor& e, const scene::Material& material) {
     glm::vec3 seen(0.5f);
-    const plugin::MaterialEntry* plugin = e.registry().find_material(material.type);
+    const auto plugin = e.registry().find_material(material.type);
     for (const RestageParam& line : table_of(plugin)) {
         if (line.type != RESTAGE_COLOR || line.max != 1) continue;
         const scene::Value* set = material.params.find(line.id);
@@ -230,7 +232,7 @@ void material_section(Editor& e, MaterialId id) {
     if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });
     e.mark("material.name");
 
-    const plugin::MaterialEntry* plugin = e.registry().find_material(material->type);
+    const auto plugin = e.registry().find_material(material->type);
     form_row("Type", plugin ? plugin->table->tooltip : "What kind of surface it is");
     if (ImGui::BeginCombo("##type", plugin ? plugin->table->label : material->type.c_str(),
                           ImGuiComboFlags_HeightLargest)) {
@@ -238,7 +240,7 @@ void material_section(Editor& e, MaterialId id) {
             if (ImGui::Selectable(choice.table->label, material->type == choice.table->type) &&
                 material->type != choice.table->type)
                 e.edit([id, type = std::string(choice.table->type), before = table_of(plugin),
-                        after = table_of(&choice)](const scene::Scene& s) {
+                        after = table_of(choice)](const scene::Scene& s) {
                     return scene::switch_material_type(s, id, type, before, after);
                 });
             tip(choice.table->tooltip);
@@ -253,8 +255,14 @@ void material_section(Editor& e, MaterialId id) {
                         material->type)
                 .c_str());
 
+    std::set<std::string> shown; // by the plugin itself
+    if (const auto* inspector = plugin ? e.registry().find_inspector(material->type) : nullptr)
+        shown = draw_plugin_inspector(*inspector, {e, id, *material, *plugin, [&](const RestageParam& line) {
+                                                       param_row(e, id, *material, line);
+                                                   }});
     bool advanced = false;
     for (const RestageParam& line : table_of(plugin)) {
+        if (shown.contains(line.id)) continue;
         if (line.flags & RESTAGE_PARAM_ADVANCED)
             advanced = true;
         else
@@ -268,7 +276,8 @@ void material_section(Editor& e, MaterialId id) {
         e.mark("material.advanced");
         if (unfolded) {
             for (const RestageParam& line : table_of(plugin))
-                if (line.flags & RESTAGE_PARAM_ADVANCED) param_row(e, id, *material, line);
+                if ((line.flags & RESTAGE_PARAM_ADVANCED) && !shown.contains(line.id))
+                    param_row(e, id, *material, line);
             ImGui::TreePop();
         }
     }

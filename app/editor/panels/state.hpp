@@ -3,10 +3,12 @@
 #pragma once
 
 #include "assets.hpp"
+#include "check/step.hpp"
 #include "image_loads.hpp"
 #include "selection.hpp"
 
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -83,6 +85,8 @@ struct ConvergenceState {
 };
 
 struct PanelState {
+    std::map<std::string, check::PluginReport> checks; // by plugin, the latest
+    std::set<std::string> said; // warnings that are not to come again with each frame
     explicit PanelState(std::function<void()> wake) : loads(std::move(wake)) {}
     // Of a scene that is no more.
     void forget_document() {

@@ -8,10 +8,12 @@
 #include <restage/scene_io.h>
 #include <string.h>
 
+#if !defined(RESTAGE_C_LINKAGE)
 #ifdef __cplusplus
 #define RESTAGE_C_LINKAGE extern "C"
 #else
 #define RESTAGE_C_LINKAGE extern
+#endif
 #endif
 
 #define RESTAGE_IMPORTER_PLUGIN(plugin_id, plugin_version, table)                                              \

@@ -16,6 +16,9 @@ class Values {
     void number(const char* id, double value) {
         values_.push_back({id, RESTAGE_FLOAT, 0, {static_cast<float>(value), 0, 0, 0}, nullptr});
     }
+    void integer(const char* id, int value) {
+        values_.push_back({id, RESTAGE_INT, 0, {static_cast<float>(value), 0, 0, 0}, nullptr});
+    }
     void boolean(const char* id, bool value) {
         values_.push_back({id, RESTAGE_BOOL, 0, {value ? 1.f : 0.f, 0, 0, 0}, nullptr});
     }

@@ -176,7 +176,8 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
         plugin = "interface";
         if (!anonymous && type.empty() && !import_.v3() && !d.params.has("type"))
             import_.approximated(d.at, what, "it has no \"string type\"; taken as interface");
-    } else if (!material_v4(d, type, values, plugin) && !material_v3(d, type, values, plugin)) {
+    } else if (!material_v4(d, type, values, plugin) && !material_v3(d, type, values, plugin) &&
+               !material_of_plugin(d, type, values, plugin)) {
         approximated_material(d, type, values, plugin);
         // The whole of it goes back out as it came, unless it is edited ("=*": instead of all that would be written).
         exact_ = "=* \"string type\" [ " + quote(type) + " ]\n";

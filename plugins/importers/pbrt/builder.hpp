@@ -85,6 +85,7 @@ class Builder {
     RestageHandle material_of_shape(const Directive& shape);
     bool material_v4(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    bool material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     Rgb hair_color(const Directive& d);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     void disney(const Directive& d, Values& values);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Metal: the parameter table; the physics is in conductor.glsl, formulas and sources in README.md. */
+#include "inspector.h"
+
 #include <restage/material_plugin.h>
 #include <restage/material_rows.h>
 
@@ -26,4 +28,4 @@ static const RestageMaterial1 material = {
     .tooltip = "A metal, given by its optical constants or by a colour.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.conductor", "0.1.0", material)
+RESTAGE_MATERIAL_PLUGIN_UI("org.restage.material.conductor", "0.1.0", material, conductor_inspector)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugins: what is loaded, from where, and why not. Log: what happened.
+// Log: what happened.
 #include "panels.hpp"
 
 #include "state.hpp"
@@ -11,58 +11,6 @@
 #include <misc/cpp/imgui_stdlib.h>
 
 namespace restage::editor {
-
-void draw_plugins(Editor& e) {
-    const auto entries = e.registry().entries();
-    std::size_t refused = 0;
-    for (const plugin::Entry* entry : entries)
-        refused += entry->state == plugin::State::refused;
-    ImGui::TextDisabled("%zu loaded, %zu refused", entries.size() - refused, refused);
-    if (entries.empty()) {
-        empty_note(
-            "No plugins were found: nothing can be opened or rendered. They are looked for beside the program, in the "
-            "folder for a user's own, and in those that RESTAGE_PLUGIN_PATH names.");
-        return;
-    }
-    if (!ImGui::BeginTable("plugins", 4,
-                           ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerV |
-                               ImGuiTableFlags_ScrollY))
-        return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Plugin", 0, 3);
-    ImGui::TableSetupColumn("Kind", 0, 1);
-    ImGui::TableSetupColumn("Version", 0, 1);
-    ImGui::TableSetupColumn("Folder, or why it was refused", 0, 6);
-    ImGui::TableHeadersRow();
-    for (const bool show_refused : {true, false}) // what went wrong comes first
-        for (const plugin::Entry* entry : entries) {
-            if ((entry->state == plugin::State::refused) != show_refused) continue;
-            ImGui::PushID(entry);
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            if (show_refused)
-                ImGui::TextColored(colors::error, "%s", entry->name().c_str());
-            else
-                ImGui::TextUnformatted(entry->name().c_str());
-            ImGui::TableNextColumn();
-            if (!entry->manifest.id.empty())
-                ImGui::TextDisabled("%s", choice_label(plugin::to_string(entry->manifest.kind)).c_str());
-            ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", entry->manifest.version.c_str());
-            ImGui::TableNextColumn();
-            if (show_refused)
-                warning_note(entry->reason.c_str());
-            else
-                ImGui::TextDisabled("%s", entry->folder.string().c_str());
-            tip(fmt::format("{}\nClick to copy the folder's path", entry->folder.string()).c_str());
-            if (ImGui::IsItemClicked()) {
-                ImGui::SetClipboardText(entry->folder.string().c_str());
-                e.notices.add(LogLevel::info, "Copied: " + entry->folder.string());
-            }
-            ImGui::PopID();
-        }
-    ImGui::EndTable();
-}
 
 void draw_log(Editor& e) {
     LogState& state = e.panel_state->log;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// C++20 sugar for material tables: the lines of RestageParam as functions, checked as they are written. Nothing of it
+// crosses the ABI; a plugin in C does without.
+#pragma once
+
+#include <restage/material_plugin.h>
+#include <array>
+
+namespace restage::sdk {
+
+struct ParamText {
+    const char* tooltip = "";
+    const char* unit = "";
+    bool texturable = false;
+    bool advanced = false; // folded away at first
+};
+
+namespace detail {
+consteval RestageParam line(const char* id, const char* label, RestageType type, float min, float max, ParamText text) {
+    RestageParam p{};
+    p.id = id;
+    p.label = label;
+    p.type = type;
+    p.flags = (text.texturable ? RESTAGE_PARAM_TEXTURABLE : 0u) | (text.advanced ? RESTAGE_PARAM_ADVANCED : 0u);
+    p.min = min;
+    p.max = max;
+    p.unit = text.unit;
+    p.tooltip = text.tooltip;
+    return p;
+}
+} // namespace detail
+
+// A default out of range does not compile.
+consteval RestageParam number(const char* id, const char* label, float min, float max, float value,
+                              ParamText text = {}) {
+    RestageParam p = detail::line(id, label, RESTAGE_FLOAT, min, max, text);
+    p.def[0] = value >= min && value <= max ? value : throw "the default is out of its range";
+    return p;
+}
+consteval RestageParam integer(const char* id, const char* label, int min, int max, int value, ParamText text = {}) {
+    RestageParam p = detail::line(id, label, RESTAGE_INT, static_cast<float>(min), static_cast<float>(max), text);
+    p.def[0] = value >= min && value <= max ? static_cast<float>(value) : throw "the default is out of its range";
+    return p;
+}
+// Linear sRGB primaries, each in [0, max].
+consteval RestageParam color(const char* id, const char* label, std::array<float, 3> value, ParamText text = {},
+                             float max = 1) {
+    RestageParam p = detail::line(id, label, RESTAGE_COLOR, 0, max, text);
+    for (int i = 0; i < 3; ++i)
+        p.def[i] = value[i] >= 0 && value[i] <= max ? value[i] : throw "the default is out of its range";
+    return p;
+}
+consteval RestageParam toggle(const char* id, const char* label, bool value, ParamText text = {}) {
+    RestageParam p = detail::line(id, label, RESTAGE_BOOL, 0, 1, text);
+    p.def[0] = value ? 1 : 0;
+    return p;
+}
+// `choices`: "ggx|beckmann"; `value`: the index of the default.
+consteval RestageParam choice(const char* id, const char* label, const char* choices, int value, ParamText text = {}) {
+    int count = 1;
+    for (const char* c = choices; *c; ++c)
+        count += *c == '|';
+    RestageParam p = detail::line(id, label, RESTAGE_ENUM, 0, static_cast<float>(count - 1), text);
+    p.choices = choices;
+    p.def[0] = value >= 0 && value < count ? static_cast<float>(value) : throw "the default is no choice";
+    return p;
+}
+
+} // namespace restage::sdk

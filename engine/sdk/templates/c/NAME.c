@@ -1,0 +1,21 @@
+/* @LABEL@: the parameter table; the physics is in @NAME@.glsl. */
+#include <restage/material_plugin.h>
+
+static const RestageParam params[] = {
+    {"tint", "Tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.8f, 0.4f, 0.2f}, "", NULL,
+     "The share of light that comes back."},
+};
+
+static const RestageMaterial1 material = {
+    .size = sizeof(RestageMaterial1),
+    .flags = RESTAGE_MATERIAL_LOSSLESS,
+    .type = "@NAME@",
+    .label = "@LABEL@",
+    .prefix = "@NAME@",
+    .glsl_file = "@NAME@.glsl",
+    .params = params,
+    .param_count = RESTAGE_COUNT(params),
+    .tooltip = "What somebody who looks for a material reads about it.",
+};
+
+RESTAGE_MATERIAL_PLUGIN("@ID@", "0.1.0", material)

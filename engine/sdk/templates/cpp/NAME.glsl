@@ -1,0 +1,23 @@
+// @LABEL@: Lambert's diffuse reflection, f = tint / pi, to begin with. What the four functions must fulfil is said in
+// <restage/material.h>; `restage check` tests it.
+#include "lib/sampling.glsl"
+
+vec3 @NAME@_eval(@NAME@_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? m.tint * INV_PI * abs_cos(wi) : vec3(0);
+}
+
+float @NAME@_pdf(@NAME@_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? cosine_hemisphere_pdf(abs_cos(wi)) : 0.0;
+}
+
+BsdfSample @NAME@_sample(@NAME@_Params m, vec3 wo, vec3 u) {
+    vec3 wi = sample_cosine_hemisphere(u.xy);
+    float pdf = cosine_hemisphere_pdf(wi.z);
+    if (!(pdf > 0.0) || wo.z == 0.0)
+        return BSDF_NONE;
+    if (wo.z < 0.0)
+        wi.z = -wi.z; // seen from the back: both sides are alike
+    return BsdfSample(wi, m.tint, pdf, BSDF_REFLECT, 1.0);
+}
+
+vec3 @NAME@_albedo(@NAME@_Params m, vec3 wo) { return m.tint; }

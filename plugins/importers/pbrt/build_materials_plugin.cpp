@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials pbrt does not know but a plugin of the host does: Material "velvet" "float fuzz" 0.5. Parameters go by the
+// ids of the plugin's table; what is not in it is reported, as ever.
+#include "builder.hpp"
+
+#include <algorithm>
+
+namespace restage::pbrt {
+
+bool Builder::material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin) {
+    std::uint32_t count = 0;
+    const RestageParam* lines = import_.out.material_table(import_.out.ctx, type.c_str(), &count);
+    if (!lines) return false;
+    plugin = type;
+    const auto least = [](const RestageParam& line, double v) {
+        return std::clamp(v, static_cast<double>(line.min), static_cast<double>(line.max));
+    };
+    for (const RestageParam* line = lines; line != lines + count; ++line) {
+        if (!d.params.has(line->id)) continue;
+        switch (line->type) {
+            case RESTAGE_FLOAT:
+                put_float(values, line->id, d, line->id, line->def[0]);
+                break;
+            case RESTAGE_COLOR:
+                put_color(values, line->id, d, line->id, line->max <= 1 ? Role::albedo : Role::unbounded,
+                          {line->def[0], line->def[1], line->def[2]});
+                break;
+            case RESTAGE_INT:
+                values.integer(line->id, static_cast<int>(least(*line, d.params.integer(line->id, 0))));
+                break;
+            case RESTAGE_BOOL:
+                values.boolean(line->id, d.params.boolean(line->id, false));
+                break;
+            case RESTAGE_ENUM:
+                if (const Param* word = d.params.find(line->id, "string"); word && !word->strings.empty()) {
+                    const std::string all = "|" + std::string(line->choices) + "|";
+                    if (all.find("|" + word->strings[0] + "|") != std::string::npos)
+                        values.choice(line->id, word->strings[0].c_str());
+                    else
+                        import_.approximated(d.at, "material " + quote(type),
+                                             quote(line->id) + " cannot be " + quote(word->strings[0]) + "; " +
+                                                 line->choices + " are possible; the default stands for it");
+                }
+                break;
+            default:
+                break;
+        }
+    }
+    return true;
+}
+
+} // namespace restage::pbrt

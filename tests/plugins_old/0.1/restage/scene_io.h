@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What importers push and exporters pull: the scene in plain C structs.
+ *
+ * Handles are 1-based and per kind; 0 is none. Matrices are column-major double[16], object to world, right-handed or
+ * mirrored as they come. Lengths are in the scene's own unit. Colours are linear sRGB primaries; radiometric values are
+ * relative as in pbrt. `verbatim` holds what the importer did not understand, one "key value" line each, written back
+ * by the exporter of the same format. A line "=id text" holds what the value `id` was before it was reduced (a spectrum
+ * that became a colour), "=* text" what the whole thing was before it was approximated: the exporter writes it instead,
+ * and the host drops it once that value, or any, is edited. Strings are UTF-8, never NULL ("" instead) in what the host
+ * gives. */
+#ifndef RESTAGE_SCENE_IO_H
+#define RESTAGE_SCENE_IO_H
+
+#include <restage/params.h>
+#include <restage/plugin.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef uint32_t RestageHandle;
+
+typedef struct RestageText { /* where a thing came from, and what was not understood of it */
+    const char* name;        /* "" = the host invents one */
+    const char* verbatim;    /* '\n'-separated lines, "" = none */
+    const char* verbatim_format; /* "pbrt-v3", "pbrt-v4", "gltf", ... */
+} RestageText;
+
+typedef struct RestageMesh {
+    RestageText text;
+    uint32_t vertex_count, triangle_count;
+    const float* positions;   /* 3 a vertex */
+    const float* normals;     /* 3 a vertex, or NULL */
+    const float* uvs;         /* 2 a vertex, or NULL */
+    const uint32_t* indices;  /* 3 a triangle, < vertex_count */
+    const char* source_file;  /* the PLY/OBJ it was read from, absolute, or "": an exporter may refer to it */
+    const char* primitive;    /* "", or the shape this tessellates, as a pbrt line: `sphere "float radius" 1` */
+} RestageMesh;
+
+typedef enum RestageEncoding { RESTAGE_LINEAR = 0, RESTAGE_SRGB = 1, RESTAGE_GAMMA = 2 } RestageEncoding;
+typedef struct RestageImage { /* an image file, read by the host; or pixels, when `path` is "" */
+    RestageText text;
+    const char* path;   /* absolute */
+    uint32_t encoding;  /* RestageEncoding of 8-bit files; float files are linear */
+    float gamma;        /* for RESTAGE_GAMMA */
+    uint32_t width, height, channels; /* 1, 3 or 4; row 0 is the top */
+    const float* pixels;              /* linear, or NULL when `path` is given */
+} RestageImage;
+
+/* Texture types the engine evaluates, and their values (ids):
+ *   constant      value (COLOR)
+ *   imagemap      image by RestageTexture.image; scale (FLOAT, default 1), invert (BOOL), wrap (ENUM
+ * repeat|black|clamp) scale         tex (COLOR, texturable), scale (COLOR, texturable)              tex * scale mix
+ * tex1, tex2 (COLOR, texturable), amount (FLOAT, texturable)      lerp checkerboard  tex1, tex2 (COLOR, texturable); on
+ * uv All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping. Other types are kept,
+ * written back, and shade as their `average` (COLOR). */
+typedef struct RestageTexture {
+    RestageText text;
+    const char* type;
+    uint32_t is_float; /* 1: a scalar texture, 0: colour */
+    RestageHandle image;
+    const RestageValue* values;
+    uint32_t value_count;
+} RestageTexture;
+
+typedef struct RestageMaterialDesc {
+    RestageText text;
+    const char* type;            /* of a material plugin */
+    /* Of its table; unset ones have the default. Besides, for any material: `bump` and `normalmap` (TEXTURE). */
+    const RestageValue* values;
+    uint32_t value_count;
+} RestageMaterialDesc;
+
+typedef struct RestageMedium { /* homogeneous; only absorption is rendered (Beer-Lambert) */
+    RestageText text;
+    float sigma_a[3], sigma_s[3]; /* [1/unit], scale applied */
+    float g;
+} RestageMedium;
+
+enum {
+    RESTAGE_INSTANCE_REVERSE_ORIENTATION = 1u, /* pbrt ReverseOrientation: flips the normal (side of emission) */
+    RESTAGE_INSTANCE_HIDDEN = 2u,
+    RESTAGE_INSTANCE_EMITS = 4u,
+    RESTAGE_INSTANCE_TWO_SIDED = 8u /* emission from both sides */
+};
+typedef struct RestageInstance {
+    RestageText text;
+    RestageHandle mesh, material, group;
+    RestageHandle alpha_texture; /* scalar, or 0 */
+    RestageHandle interior, exterior; /* media, 0 = vacuum; used where `has_medium_interface` */
+    uint32_t has_medium_interface;
+    uint32_t flags;
+    float alpha;        /* constant when alpha_texture is 0 */
+    float emission[3];  /* radiance [W/(m^2 sr)], scale applied, when RESTAGE_INSTANCE_EMITS */
+    double object_to_world[16];
+} RestageInstance;
+
+typedef struct RestageGroup { /* something a user selects as one: an ObjectInstance, an imported node */
+    RestageText text;
+    RestageHandle parent;
+} RestageGroup;
+
+typedef enum RestageLightKind {
+    RESTAGE_LIGHT_POINT = 1,
+    RESTAGE_LIGHT_SPOT = 2,
+    RESTAGE_LIGHT_DISTANT = 3
+} RestageLightKind;
+typedef struct RestageLight {
+    RestageText text;
+    uint32_t kind;
+    float value[3];  /* point, spot: radiant intensity [W/sr]; distant: irradiance at normal incidence [W/m^2] */
+    double light_to_world[16]; /* at the origin; spot and distant light travels along +z */
+    float cone_angle,
+        cone_delta; /* spot [deg]: half angle, width of the smooth edge (pbrt: coneangle, conedeltaangle) */
+} RestageLight;
+
+typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } RestageMapping;
+typedef struct RestageEnvironment {
+    RestageText text;
+    RestageHandle image;   /* 0 = constant */
+    /* RestageMapping. EQUIRECT: pbrt-v3, z up, u = phi/2pi, v = theta/pi, row 0 = +z.
+     * OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4. */
+    uint32_t mapping;
+    float scale[3];        /* times the image; or the radiance itself */
+    double light_to_world[16]; /* rotation (and mirror) */
+    uint32_t hidden_from_camera; /* shines, but where the camera looks past everything it sees black */
+} RestageEnvironment;
+
+typedef struct RestageCamera {
+    RestageText text;
+    double camera_to_world[16]; /* pbrt: looks along +z, +y up, +x right */
+    float fov;                  /* [deg], of the shorter image side */
+    float screen_window[4];     /* x0 x1 y0 y1; all 0 = from the aspect ratio */
+    float lens_radius, focal_distance;
+    float frame_aspect;         /* 0 = width/height */
+} RestageCamera;
+
+typedef struct RestageFilm {
+    uint32_t width, height;
+    float crop[4];       /* x0 x1 y0 y1 in [0,1] */
+    const char* filter;  /* box triangle gaussian mitchell sinc */
+    float filter_radius[2];
+    float filter_params[2]; /* gaussian: sigma | mitchell: B C | sinc: tau */
+    float exposure;      /* linear factor on the film (pbrt-v4 sensor), 1 = none */
+    const char* filename; /* what the scene file asked for, "" = none */
+} RestageFilm;
+
+typedef struct RestageSettings {
+    uint32_t max_depth;      /* path vertices beyond the camera, pbrt's maxdepth: 0 = emission only */
+    uint32_t samples;        /* a pixel, as the file says; 0 = not said */
+    RestageText text;        /* integrator, sampler, options not understood */
+} RestageSettings;
+
+typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_DROPPED = 2 } RestageFate;
+
+#define RESTAGE_IMPORTER1 "restage.importer/1"
+#define RESTAGE_EXPORTER1 "restage.exporter/1"
+
+/* Where an importer writes. Every function [worker], one thread at a time; data is copied before it returns.
+ * A returned handle of 0 means the host refused (out of memory, invalid data) and has noted why: go on or give up. */
+typedef struct RestageSceneWriter1 {
+    uint32_t size;
+    void* ctx;
+    RestageHandle (*mesh)(void* ctx, const RestageMesh*);
+    RestageHandle (*image)(void* ctx, const RestageImage*);
+    RestageHandle (*texture)(void* ctx, const RestageTexture*);
+    RestageHandle (*material)(void* ctx, const RestageMaterialDesc*);
+    RestageHandle (*medium)(void* ctx, const RestageMedium*);
+    RestageHandle (*group)(void* ctx, const RestageGroup*);
+    RestageHandle (*instance)(void* ctx, const RestageInstance*);
+    RestageHandle (*light)(void* ctx, const RestageLight*);
+    void (*environment)(void* ctx, const RestageEnvironment*);
+    RestageHandle (*camera)(void* ctx, const RestageCamera*); /* the first is the active one */
+    void (*camera_medium)(void* ctx, RestageHandle medium);
+    void (*film)(void* ctx, const RestageFilm*);
+    void (*settings)(void* ctx, const RestageSettings*);
+    /* One line of the import report. `what`: 'material "oak"'; `note`: what was lost, or "" */
+    void (*report)(void* ctx, int fate, const char* file, uint32_t line, const char* what, const char* note);
+    /* Marks the import as broken: "mine, but malformed". The first call is the one that is shown. */
+    void (*error)(void* ctx, const char* file, uint32_t line, uint32_t column, const char* message);
+    /* 0..1; returns 0 when the user wants to stop: then return from load at once. */
+    int (*progress)(void* ctx, float done, const char* what);
+    /* Is there a material plugin for `type`? Its table, or NULL. */
+    const RestageParam* (*material_table)(void* ctx, const char* type, uint32_t* count);
+} RestageSceneWriter1;
+
+typedef struct RestageImporter1 {
+    uint32_t size;
+    const char* format;     /* "pbrt" */
+    const char* label;      /* "pbrt scene (v3, v4)" */
+    const char* extensions; /* "pbrt|gz" without dots, '|' between */
+    /* [any] 0..100: how sure that this file is mine. head: the first bytes of the file (up to 4 KiB). */
+    int (*probe)(const char* path, const void* head, size_t head_size);
+    /* [worker] 1 = done (perhaps with a report), 0 = broken: error() has been called. */
+    int (*load)(const char* path, const RestageSceneWriter1* out);
+} RestageImporter1;
+
+/* Where an exporter reads. [worker]; handles are 1..count(kind), holes (removed things) give 0 from the getter.
+ * Pointers live until the export ends. */
+typedef enum RestageKind {
+    RESTAGE_KIND_MESH = 1,
+    RESTAGE_KIND_IMAGE,
+    RESTAGE_KIND_TEXTURE,
+    RESTAGE_KIND_MATERIAL,
+    RESTAGE_KIND_MEDIUM,
+    RESTAGE_KIND_GROUP,
+    RESTAGE_KIND_INSTANCE,
+    RESTAGE_KIND_LIGHT,
+    RESTAGE_KIND_CAMERA
+} RestageKind;
+typedef struct RestageSceneReader1 {
+    uint32_t size;
+    void* ctx;
+    uint32_t (*count)(void* ctx, uint32_t kind);
+    int (*mesh)(void* ctx, RestageHandle, RestageMesh*);
+    int (*image)(void* ctx, RestageHandle, RestageImage*); /* pixels may be NULL when `path` exists on disk */
+    int (*texture)(void* ctx, RestageHandle, RestageTexture*);
+    int (*material)(void* ctx, RestageHandle, RestageMaterialDesc*);
+    int (*medium)(void* ctx, RestageHandle, RestageMedium*);
+    int (*group)(void* ctx, RestageHandle, RestageGroup*);
+    int (*instance)(void* ctx, RestageHandle, RestageInstance*);
+    int (*light)(void* ctx, RestageHandle, RestageLight*);
+    int (*environment)(void* ctx, RestageEnvironment*); /* 0 = none */
+    int (*camera)(void* ctx, RestageHandle, RestageCamera*);
+    RestageHandle (*active_camera)(void* ctx);
+    RestageHandle (*camera_medium)(void* ctx);
+    void (*film)(void* ctx, RestageFilm*);
+    void (*settings)(void* ctx, RestageSettings*);
+    void (*report)(void* ctx, int fate, const char* what, const char* note); /* what the format cannot hold */
+    void (*error)(void* ctx, const char* file, const char* message);
+    int (*progress)(void* ctx, float done, const char* what);
+} RestageSceneReader1;
+
+typedef struct RestageExporter1 {
+    uint32_t size;
+    const char* format;
+    const char* label;
+    const char* extensions;
+    const RestageParam* options; /* for example `version` (ENUM v4|v3), `textures` (ENUM copy|reference) */
+    uint32_t option_count;
+    /* [worker] Writes `path` and files beside it; 1 = done, 0 = error() has been called. Same scene, same bytes. */
+    int (*save)(const char* path, const RestageSceneReader1* in, const RestageValue* options, uint32_t option_count);
+} RestageExporter1;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

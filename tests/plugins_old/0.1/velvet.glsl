@@ -1,0 +1,1 @@
+// Never compiled: only its table is looked at.

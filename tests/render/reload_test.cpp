@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material whose plugin is loaded anew while it is rendered: the picture follows, a version that does not compile
+// changes nothing, and nothing of the old versions stays.
+#include "base/file.hpp"
+#include "render/checks.hpp"
+#include "render/material_composer.hpp"
+
+#include <catch2/generators/catch_generators.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include "temporary_folder.hpp"
+
+#include <thread>
+
+using namespace restage;
+using namespace restage::tests;
+
+namespace {
+
+// A diffuse material whose colour stands in its GLSL, or in its parameter.
+std::string glsl(const std::string& color) {
+    return "#include \"lib/sampling.glsl\"\nvec3 paint_color(paint_Params m) { return " + color + R"(; }
+vec3 paint_eval(paint_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? paint_color(m) * INV_PI * abs_cos(wi) : vec3(0);
+}
+float paint_pdf(paint_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? abs_cos(wi) * INV_PI : 0.0;
+}
+BsdfSample paint_sample(paint_Params m, vec3 wo, vec3 u) {
+    vec3 wi = sample_cosine_hemisphere(u.xy);
+    float pdf = wi.z * INV_PI;
+    if (wo.z < 0.0)
+        wi.z = -wi.z;
+    return pdf > 0.0 ? BsdfSample(wi, paint_color(m), pdf, BSDF_REFLECT, 1.0) : BSDF_NONE;
+}
+vec3 paint_albedo(paint_Params m, vec3 wo) { return paint_color(m); }
+)";
+}
+std::string manifest(const std::string& params) {
+    return R"({"id": "org.example.paint", "kind": "material", "version": "1.0.0", "licence": "MIT", "abi": 1,
+"materials": [{"type": "paint", "glsl": "paint.glsl", "params": )" +
+           params + "}]}";
+}
+const char* const one = R"([{"id": "gray", "type": "float", "default": 0.5}])";
+const char* const two =
+    R"([{"id": "tint", "type": "color", "default": [0.1, 0.2, 0.3]}, {"id": "gray", "type": "float", "default": 0.5}])";
+
+struct Paint { // our plugins, and one that the test edits
+    test::TemporaryFolder folder;
+    std::string said;
+    Log log{[this](LogLevel level, std::string_view line) {
+        if (level == LogLevel::error) said += std::string(line) + "\n";
+    }};
+    plugin::Registry registry{log};
+    Paint() {
+        write("vec3(m.gray)", one);
+        const std::filesystem::path shaders = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+        const plugin::SearchPath paths[] = {
+            {std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true}, {folder.path(), true}};
+        registry.scan(paths);
+        registry.set_judge(render::material_judge(shaders));
+    }
+    void write(const std::string& color, const char* params) {
+        REQUIRE(write_file_atomic(folder / "plugin.json", manifest(params)));
+        REQUIRE(write_file_atomic(folder / "paint.glsl", glsl(color)));
+    }
+    std::unique_ptr<render::Renderer> renderer(const std::string& tracer, bool stand_ins) {
+        // A sample of the sky by the material alone: each is the albedo, without noise.
+        render::RendererOptions options{
+            .tracer = tracer, .strategy = render::Strategy::bsdf_only, .stand_ins = stand_ins};
+        options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+        auto made = render::Renderer::create(options, render::material_lookup(registry), log);
+        if (!made) FAIL(made.error().message);
+        return std::move(*made);
+    }
+};
+
+// A wall that fills the picture, under a white sky: each pixel is the albedo.
+struct Wall : SceneBuilder {
+    scene::Id<scene::Material> paint = material("paint");
+    Wall() {
+        set_camera({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 30);
+        set_film(8, 8);
+        instance(quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}), paint);
+        environment(glm::vec3(1));
+    }
+};
+
+glm::vec3 color_of(render::Renderer& renderer, const scene::Scene& scene) {
+    return render_image(renderer, scene, 1).color[8 * 4 + 4];
+}
+bool near(glm::vec3 a, glm::vec3 b) { return glm::length(a - b) < 1e-3f; }
+
+} // namespace
+
+TEST_CASE("an edited plugin is seen by who renders with it", "[reload]") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    Paint paint;
+    Wall wall;
+    const auto renderer = paint.renderer(tracer, false);
+    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f)));
+
+    paint.write("vec3(0.9, 0.1, m.gray)", one);
+    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f))); // nobody has looked yet
+    REQUIRE(paint.registry.reload_changed().size() == 1);
+    CHECK(near(color_of(*renderer, wall.scene), {0.9f, 0.1f, 0.5f}));
+
+    // Values live in the scene: they survive, also when the table has another shape afterwards.
+    auto m = wall.scene.materials[wall.paint];
+    m.params.set("gray", scene::Value::number(0.25f));
+    wall.scene.materials.set(wall.paint, m, ++wall.scene.clock);
+    paint.write("m.tint + vec3(m.gray)", two);
+    REQUIRE(paint.registry.reload_changed().size() == 1);
+    CHECK(near(color_of(*renderer, wall.scene), {0.35f, 0.45f, 0.55f}));
+}
+
+TEST_CASE("a version that does not compile changes nothing, and the error names the plugin's own line", "[reload]") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    Paint paint;
+    Wall wall;
+    const auto renderer = paint.renderer(tracer, false);
+    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f)));
+    paint.write("vec3(m.grey)", one);
+    const auto news = paint.registry.reload_changed();
+    REQUIRE(news.size() == 1);
+    CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring((paint.folder / "paint.glsl").string() + ":2:"));
+    CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring("grey"));
+    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f)));
+    // Also for who begins only now: what is on disk is not looked at.
+    const auto another = paint.renderer(tracer, false);
+    CHECK(near(color_of(*another, wall.scene), glm::vec3(0.5f)));
+    paint.write("vec3(1) - vec3(0.1)", one);
+    REQUIRE(paint.registry.reload_changed().size() == 1);
+    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.9f)));
+}
+
+TEST_CASE("while an editor renders, the version before goes on until the new one is compiled", "[reload]") {
+    Paint paint;
+    Wall wall;
+    const auto renderer = paint.renderer("embree", true);
+    const auto settled = [&](glm::vec3 color) {
+        for (int i = 0; i < 3000; ++i) {
+            REQUIRE(renderer->sync(wall.scene));
+            REQUIRE(renderer->trace(1));
+            if (!renderer->compiling() && near(renderer->image().color[36], color)) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    };
+    REQUIRE(settled(glm::vec3(0.5f)));
+    paint.write("vec3(0.2, 0.4, 0.6)", one);
+    REQUIRE(paint.registry.reload_changed().size() == 1);
+    REQUIRE(renderer->sync(wall.scene));
+    REQUIRE(renderer->trace(1));
+    const glm::vec3 meanwhile = renderer->image().color[36];
+    CHECK((near(meanwhile, glm::vec3(0.5f)) || near(meanwhile, {0.2f, 0.4f, 0.6f})));
+    CHECK(settled({0.2f, 0.4f, 0.6f}));
+}
+
+TEST_CASE("a hundred reloads leave no memory behind", "[reload]") {
+    Paint paint;
+    Wall wall;
+    const auto renderer = paint.renderer("embree", false);
+    const char* const colors[] = {"vec3(0.2)", "vec3(0.7)"};
+    std::uint64_t after_ten = 0;
+    for (int i = 0; i < 100; ++i) { // two texts: what is compiled is in the caches after the second
+        paint.write(colors[i % 2], i % 2 ? two : one);
+        REQUIRE(paint.registry.reload_changed().size() == 1);
+        REQUIRE(near(color_of(*renderer, wall.scene), glm::vec3(i % 2 ? 0.7f : 0.2f)));
+        if (i == 10) after_ten = renderer->device().allocated_bytes();
+    }
+    CHECK(after_ten > 0);
+    CHECK(renderer->device().allocated_bytes() == after_ten);
+}

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""--isolate: scenes are read in a process of their own. What they hold is the same; what goes wrong there is a sentence."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+RESTAGE = Path(os.environ["RESTAGE_BIN"]).resolve() if "RESTAGE_BIN" in os.environ else None
+pytestmark = pytest.mark.skipif(RESTAGE is None, reason="RESTAGE_BIN names no program")
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+def run(*arguments, env=None):
+    return subprocess.run(
+        [str(RESTAGE), *map(str, arguments)], capture_output=True, text=True, timeout=120, env={**os.environ, **(env or {})}
+    )
+
+
+def test_an_isolated_scene_is_the_same(tmp_path):
+    scene = SCENES / "demo" / "demo.pbrt"
+    plain = run("info", scene, "--json")
+    isolated = run("--isolate", "info", scene, "--json")
+    assert isolated.returncode == 0, isolated.stderr
+    assert json.loads(isolated.stdout) == json.loads(plain.stdout)
+    for name, first in (("plain", []), ("isolated", ["--isolate"])):
+        assert run(*first, "convert", scene, tmp_path / name / "scene.pbrt").returncode in (0, 1)
+        (tmp_path / name).mkdir(exist_ok=True)
+        done = run(*first, "convert", scene, tmp_path / name / "scene.pbrt")
+        assert done.returncode == 0, done.stderr
+    same = run("compare", tmp_path / "plain/scene.pbrt", tmp_path / "isolated/scene.pbrt")
+    assert same.returncode == 0, same.stdout
+
+
+def test_what_is_wrong_with_a_file_is_said_as_ever(tmp_path):
+    broken = tmp_path / "broken.pbrt"
+    broken.write_text('WorldBegin\nShape "sphere" "float radius" [ 1\n')
+    plain, isolated = run("info", broken), run("--isolate", "info", broken)
+    assert plain.returncode == isolated.returncode == 1
+    assert plain.stderr == isolated.stderr
+
+
+@pytest.mark.parametrize(
+    "case, limits, said",
+    [
+        ("importer_crashes", [], "reading it ended with SIGABRT"),
+        ("importer_hangs", ["--isolate-time", "2"], "no end within 2 s"),
+        ("importer_eats", ["--isolate-memory", "1.5"], "reading it ended with SIGSEGV"),
+    ],
+)
+def test_an_importer_that_misbehaves_ends_itself_alone(tmp_path, case, limits, said):
+    folder = tmp_path / "plugins" / "test"
+    folder.mkdir(parents=True)
+    shutil.copy(RESTAGE.parents[1] / "tests" / "plugins_bad" / f"{case}.so", folder / "test.so")
+    manifest = {"id": "org.example.velvet", "kind": "importer", "version": "1.0.0", "licence": "MIT", "abi": 1}
+    (folder / "plugin.json").write_text(json.dumps({**manifest, "library": "test"}))
+    scene = tmp_path / "scene.test"
+    scene.write_text("TEST")
+    env = {"XDG_DATA_HOME": str(tmp_path / "data")}
+    done = run("--plugin-path", tmp_path / "plugins", "--isolate", *limits, "info", scene, env=env)
+    assert done.returncode == 1, done
+    assert said in done.stderr and "nothing of it was taken" in done.stderr
+    if case == "importer_crashes":  # and is known from now on
+        listed = run("--plugin-path", tmp_path / "plugins", "plugins", env=env).stdout
+        assert f"it crashed (SIGABRT) while it read {scene}" in listed

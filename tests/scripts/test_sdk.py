@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The SDK as a stranger meets it: Restage is installed, plugins are written by `restage new-plugin`, built outside of the
+tree against what was installed, checked and rendered. And what plugins that crash do to the program: little."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+RESTAGE = Path(os.environ["RESTAGE_BIN"]).resolve() if "RESTAGE_BIN" in os.environ else None
+pytestmark = pytest.mark.skipif(RESTAGE is None, reason="RESTAGE_BIN names no program")
+SOURCE = Path(__file__).resolve().parents[2]
+
+
+def run(*command, ok=True, cwd=None, env=None):
+    done = subprocess.run(
+        [str(c) for c in command], capture_output=True, text=True, cwd=cwd, env={**os.environ, **(env or {})}, timeout=300
+    )
+    if ok:
+        assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory):
+    """The prefix Restage was installed to."""
+    prefix = tmp_path_factory.mktemp("prefix")
+    run("cmake", "--install", RESTAGE.parents[1], "--prefix", prefix)
+    return prefix
+
+
+def build(folder, prefix):
+    run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release")
+    run("cmake", "--build", folder / "build")
+    return folder / "build" / "lib" / "restage" / "plugins" / f"material-{folder.name}"
+
+
+def picture(restage, plugins, scene, out):
+    run(restage, "-q", "--plugin-path", plugins, "render", scene, "-o", out, "--spp", "4", "--size", "60x50")
+    return out.read_bytes()
+
+
+def test_plugins_from_the_templates(installed, tmp_path):
+    """JSON, C and C++: each loads, passes the checker and renders the same ball."""
+    restage = installed / "bin" / "restage"
+    pictures = {}
+    for language in ("json", "c", "cpp"):
+        home = tmp_path / language
+        home.mkdir()
+        run(restage, "new-plugin", "velours", "--language", language, "--label", "Velours", cwd=home)
+        folder = home / "velours"
+        assert "Velours" in (folder / "README.md").read_text()
+        assert not [f for f in folder.iterdir() if "@" in f.read_text()], "a placeholder was left"
+        plugin = folder if language == "json" else build(folder, installed)
+        done = run(restage, "check", plugin, "--quick")
+        assert "velours" in done.stdout
+        pictures[language] = picture(restage, plugin, folder / "scene.pbrt", home / "ball.png")
+    assert pictures["json"] == pictures["c"] == pictures["cpp"]
+    # The material itself is seen, with its parameters, not a placeholder.
+    scene = tmp_path / "json" / "velours" / "scene.pbrt"
+    info = json.loads(run(restage, "--plugin-path", tmp_path / "json", "info", scene, "--json").stdout)
+    assert info["materials"]["velours"] == 1 and not info["materials_without_plugin"]
+    assert info["report_counts"]["dropped"] == info["report_counts"]["approximated"] == 0
+
+
+def test_new_plugin_refuses(installed, tmp_path):
+    restage = installed / "bin" / "restage"
+
+    def said(*arguments):
+        done = run(restage, "new-plugin", *arguments, ok=False, cwd=tmp_path)
+        assert done.returncode == 1
+        return done.stderr
+
+    for name in ("Velvet", "9x", "a-b", "float", "x_", "a__b"):
+        assert "cannot be the name of a material" in said(name)
+    assert 'there is a material "diffuse" already' in said("diffuse")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "file").write_text("mine")
+    assert "is there already, and not empty" in said("velours", "--folder", "full")
+    assert (tmp_path / "full" / "file").read_text() == "mine"
+
+
+def test_the_tutorial(installed, tmp_path):
+    """docs/plugins.md, literally: what it says to type is typed, and what it says happens happens."""
+    restage = installed / "bin" / "restage"
+    text = (SOURCE / "docs" / "plugins.md").read_text()
+    blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.S)
+    row, ui = (b for language, b in blocks if language == "c")
+    (glsl,) = (b for language, b in blocks if language == "glsl")
+    run(restage, "new-plugin", "minnaert", "--language", "c", "--label", "Minnaert", cwd=tmp_path)
+    folder = tmp_path / "minnaert"
+    source = folder / "minnaert.c"
+    table = source.read_text()
+    table = table.replace("};\n\nstatic const RestageMaterial1", row + "};\n\nstatic const RestageMaterial1")
+    source.write_text(table)
+    (folder / "minnaert.glsl").write_text(glsl)
+    plugin = build(folder, installed)
+    failed = run(restage, "check", plugin, "--quick", ok=False)
+    assert failed.returncode == 1 and "furnace" in failed.stdout  # still declared lossless
+    table = table.replace(".flags = RESTAGE_MATERIAL_LOSSLESS", ".flags = 0")
+    before, _, _ = table.partition("RESTAGE_MATERIAL_PLUGIN(")
+    source.write_text(before + ui)
+    cmake = folder / "CMakeLists.txt"
+    cmake.write_text(cmake.read_text().replace("MANIFEST plugin.json)", "MANIFEST plugin.json LINK m)"))
+    plugin = build(folder, installed)
+    run(restage, "check", plugin, "--quick")
+    assert picture(restage, plugin.parent, folder / "scene.pbrt", tmp_path / "ball.png")
+
+
+@pytest.fixture
+def crashing(tmp_path):
+    """A home with a plugin that ends the program when it is loaded."""
+    built = RESTAGE.parents[1] / "tests" / "plugins_bad" / "crashes.so"
+    folder = tmp_path / "data" / "restage" / "plugins" / "velvet"
+    folder.mkdir(parents=True)
+    shutil.copy(built, folder / "velvet.so")
+    (folder / "velvet.glsl").write_text("// empty")
+    (folder / "plugin.json").write_text(
+        json.dumps(
+            {
+                "id": "org.example.velvet",
+                "kind": "material",
+                "version": "1.0.0",
+                "licence": "MIT",
+                "abi": 1,
+                "library": "velvet",
+            }
+        )
+    )
+    return {"XDG_DATA_HOME": str(tmp_path / "data")}
+
+
+def test_a_plugin_that_crashed_is_left_out_and_named(crashing):
+    assert run(RESTAGE, "--safe-mode", "plugins", env=crashing).stdout.count("REFUSED") == 0
+    assert run(RESTAGE, "plugins", ok=False, env=crashing).returncode == -6  # SIGABRT
+    listed = run(RESTAGE, "plugins", env=crashing).stdout
+    assert "it crashed (SIGABRT) while it was being loaded" in listed
+    assert "restage plugins --enable org.example.velvet" in listed
+    entry = next(
+        p for p in json.loads(run(RESTAGE, "plugins", "--json", env=crashing).stdout) if p["id"] == "org.example.velvet"
+    )
+    assert entry["quarantined"] and not entry["loaded"]
+    # Everything else works.
+    run(RESTAGE, "-q", "info", SOURCE / "scenes" / "demo" / "demo.pbrt", env=crashing)
+    run(RESTAGE, "plugins", "--enable", "org.example.velvet", env=crashing)
+    assert run(RESTAGE, "plugins", ok=False, env=crashing).returncode == -6

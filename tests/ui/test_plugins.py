@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plugins in the editor, with a real mouse: the part of the inspector that one draws itself, and a material that is
+edited on disk while its picture is on the screen."""
+
+import json
+
+import numpy as np
+import pytest
+
+SCENE = """LookAt 0 0 5  0 0 0  0 1 0
+Camera "perspective" "float fov" 30
+Film "rgb" "integer xresolution" 640 "integer yresolution" 360
+WorldBegin
+LightSource "infinite" "rgb L" [0.7 0.7 0.7]
+Material %s
+Shape "sphere" "float radius" 1
+"""
+BALL = ("picture", 0.5, 0.5)
+
+PAINT = """#include "lib/sampling.glsl"
+vec3 paint_eval(paint_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? COLOR * INV_PI * abs_cos(wi) : vec3(0);
+}
+float paint_pdf(paint_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? abs_cos(wi) * INV_PI : 0.0;
+}
+BsdfSample paint_sample(paint_Params m, vec3 wo, vec3 u) {
+    vec3 wi = sample_cosine_hemisphere(u.xy);
+    float pdf = wi.z * INV_PI;
+    if (wo.z < 0.0)
+        wi.z = -wi.z;
+    return pdf > 0.0 ? BsdfSample(wi, COLOR, pdf, BSDF_REFLECT, 1.0) : BSDF_NONE;
+}
+vec3 paint_albedo(paint_Params m, vec3 wo) { return COLOR; }
+"""
+
+
+def scene(tmp_path, material):
+    file = tmp_path / "ball.pbrt"
+    file.write_text(SCENE % material)
+    return file
+
+
+def ball(editor):
+    """The mean colour of the ball, below the handles."""
+    picture = editor.picture()
+    h, w = picture.shape[:2]
+    return picture[int(0.6 * h) : int(0.68 * h), int(0.52 * w) : int(0.57 * w), :3].mean(axis=(0, 1))
+
+
+def test_a_metal_is_chosen_by_its_name(launch, tmp_path):
+    editor = launch(scene(tmp_path, '"conductor" "rgb eta" [0.2 0.92 1.1] "rgb k" [3.9 2.45 2.14] "float roughness" 0.2'))
+    editor.settled()
+    copper = ball(editor)
+    editor.click(BALL)
+    editor.wait(lambda s: len(s["selection"]) == 1, "the ball")
+    editor.click("tab.Inspector")
+    editor.reveal("material.ui.combo.0")
+    editor.click("material.ui.combo.0")
+    editor.click("material.ui.combo.0.Silver")
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "silver")
+    assert state["history"]["labels"] == ["Silver"]
+    assert state["material"]["k"]["value"][0] == pytest.approx(4.4437)
+    editor.settled()
+    silver = ball(editor)
+    assert np.ptp(copper) > 4 * np.ptp(silver), "copper is tinted, silver is not"
+    assert silver.mean() > copper.mean()
+    # By its colour: the optical constants give way to one parameter.
+    editor.click("material.ui.combo.0")
+    editor.click("material.ui.combo.0.By its colour")
+    editor.wait(lambda s: s["material"]["use_reflectance"]["value"][0] == 1, "the colour")
+    editor.reveal("material.reflectance")
+    editor.key("ctrl+z", "ctrl+z")
+    state = editor.wait(lambda s: s["history"]["position"] == 0, "undo")
+    editor.settled()
+    assert np.abs(ball(editor) - copper).max() < 0.05
+
+
+def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
+    plugin = tmp_path / "paint"
+    plugin.mkdir()
+    params = [{"id": "tint", "label": "Tint", "type": "color", "default": [0.9, 0.2, 0.2]}]
+    manifest = {
+        "id": "org.example.paint",
+        "kind": "material",
+        "version": "1.0.0",
+        "licence": "MIT",
+        "abi": 1,
+        "materials": [{"type": "paint", "glsl": "paint.glsl", "params": params}],
+    }
+    glsl = plugin / "paint.glsl"
+    glsl.write_text(PAINT.replace("COLOR", "m.tint"))
+    (plugin / "plugin.json").write_text(json.dumps(manifest))
+    editor = launch(
+        "--plugin-path", plugin, scene(tmp_path, '"paint" "rgb tint" [0.1 0.8 0.2]')
+    )
+    editor.settled(samples=2)
+    green = ball(editor)
+    assert green[1] > 2 * green[0]
+
+    def until(condition, what):
+        def seen(_):
+            return condition(ball(editor))
+
+        editor.wait(seen, what, 60)
+
+    glsl.write_text(PAINT.replace("COLOR", "m.tint.bgr.grb"))  # the colours change places
+    until(lambda c: c[0] > 1.5 * c[1], "the edited GLSL")
+    red = ball(editor)
+    # What does not compile changes nothing, and says where.
+    glsl.write_text(PAINT.replace("COLOR", "m.tinted"))
+    editor.wait(lambda s: "paint.glsl:3:" in editor.output(), "the error", 30)
+    editor.settled()
+    assert np.abs(ball(editor) - red).max() < 0.05
+    # Another table: the value lives in the scene, and is there.
+    manifest["materials"][0]["params"] = [{"id": "gloss", "label": "Gloss", "type": "float", "default": 0.5}] + params
+    (plugin / "plugin.json").write_text(json.dumps(manifest))
+    glsl.write_text(PAINT.replace("COLOR", "m.tint"))
+    until(lambda c: c[1] > 1.5 * c[0], "the edited table")
+    editor.click(BALL)
+    editor.click("tab.Inspector")
+    editor.reveal("material.gloss")
+    assert editor.state()["material"]["tint"]["value"][1] == pytest.approx(0.8)

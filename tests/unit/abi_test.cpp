@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plugin ABI does not change: sizes, offsets and numbers as they were released (64-bit platforms), and plugins built
+// with the headers of earlier releases. If this fails, the header is wrong, not the test: growth is a new interface id.
+#include "plugin_folder.hpp"
+
+#include <restage/denoiser.h>
+#include <restage/inspector.h>
+#include <restage/scene_io.h>
+#include <cstddef>
+
+namespace fs = std::filesystem;
+using namespace restage;
+
+namespace {
+
+struct Frozen {
+    const char* what;
+    std::size_t released, now;
+};
+#define SIZE(type, bytes) {#type, bytes, sizeof(type)},
+#define FIELD(type, field, offset) {#type "::" #field, offset, offsetof(type, field)},
+const Frozen layout[] = {
+    // clang-format off
+    SIZE(RestageHost, 24)
+        FIELD(RestageHost, abi, 0) FIELD(RestageHost, size, 4) FIELD(RestageHost, version, 8)
+        FIELD(RestageHost, service, 16)
+    SIZE(RestagePlugin, 48)
+        FIELD(RestagePlugin, abi, 0) FIELD(RestagePlugin, size, 4) FIELD(RestagePlugin, id, 8)
+        FIELD(RestagePlugin, version, 16) FIELD(RestagePlugin, init, 24) FIELD(RestagePlugin, shutdown, 32)
+        FIELD(RestagePlugin, query, 40)
+    SIZE(RestageLog1, 16)
+        FIELD(RestageLog1, size, 0) FIELD(RestageLog1, log, 8)
+    SIZE(RestageParam, 72)
+        FIELD(RestageParam, id, 0) FIELD(RestageParam, label, 8) FIELD(RestageParam, type, 16)
+        FIELD(RestageParam, flags, 20) FIELD(RestageParam, min, 24) FIELD(RestageParam, max, 28)
+        FIELD(RestageParam, def, 32) FIELD(RestageParam, unit, 48) FIELD(RestageParam, choices, 56)
+        FIELD(RestageParam, tooltip, 64)
+    SIZE(RestageValue, 40)
+        FIELD(RestageValue, id, 0) FIELD(RestageValue, type, 8) FIELD(RestageValue, ref, 12)
+        FIELD(RestageValue, v, 16) FIELD(RestageValue, text, 32)
+    SIZE(RestageMaterial1, 64)
+        FIELD(RestageMaterial1, size, 0) FIELD(RestageMaterial1, flags, 4) FIELD(RestageMaterial1, type, 8)
+        FIELD(RestageMaterial1, label, 16) FIELD(RestageMaterial1, prefix, 24)
+        FIELD(RestageMaterial1, glsl_file, 32) FIELD(RestageMaterial1, params, 40)
+        FIELD(RestageMaterial1, param_count, 48) FIELD(RestageMaterial1, tooltip, 56)
+    SIZE(RestageDenoiseJob, 72)
+        FIELD(RestageDenoiseJob, size, 0) FIELD(RestageDenoiseJob, width, 4)
+        FIELD(RestageDenoiseJob, height, 8) FIELD(RestageDenoiseJob, color, 16)
+        FIELD(RestageDenoiseJob, albedo, 24) FIELD(RestageDenoiseJob, normal, 32)
+        FIELD(RestageDenoiseJob, output, 40) FIELD(RestageDenoiseJob, quality, 48)
+        FIELD(RestageDenoiseJob, threads, 52) FIELD(RestageDenoiseJob, progress_ctx, 56)
+        FIELD(RestageDenoiseJob, progress, 64)
+    SIZE(RestageDenoiser1, 40)
+        FIELD(RestageDenoiser1, size, 0) FIELD(RestageDenoiser1, type, 8) FIELD(RestageDenoiser1, label, 16)
+        FIELD(RestageDenoiser1, available, 24) FIELD(RestageDenoiser1, run, 32)
+    SIZE(RestageUi1, 128)
+        FIELD(RestageUi1, size, 0) FIELD(RestageUi1, param, 8) FIELD(RestageUi1, hide, 16)
+        FIELD(RestageUi1, slider, 24) FIELD(RestageUi1, color, 32) FIELD(RestageUi1, texture, 40)
+        FIELD(RestageUi1, combo, 48) FIELD(RestageUi1, button, 56) FIELD(RestageUi1, text, 64)
+        FIELD(RestageUi1, begin_group, 72) FIELD(RestageUi1, end_group, 80) FIELD(RestageUi1, plot, 88)
+        FIELD(RestageUi1, curve, 96) FIELD(RestageUi1, image, 104) FIELD(RestageUi1, get, 112)
+        FIELD(RestageUi1, set, 120)
+    SIZE(RestageInspector1, 24)
+        FIELD(RestageInspector1, size, 0) FIELD(RestageInspector1, type, 8) FIELD(RestageInspector1, draw, 16)
+    SIZE(RestageText, 24)
+        FIELD(RestageText, name, 0) FIELD(RestageText, verbatim, 8) FIELD(RestageText, verbatim_format, 16)
+    SIZE(RestageMesh, 80)
+        FIELD(RestageMesh, text, 0) FIELD(RestageMesh, vertex_count, 24)
+        FIELD(RestageMesh, triangle_count, 28) FIELD(RestageMesh, positions, 32)
+        FIELD(RestageMesh, normals, 40) FIELD(RestageMesh, uvs, 48) FIELD(RestageMesh, indices, 56)
+        FIELD(RestageMesh, source_file, 64) FIELD(RestageMesh, primitive, 72)
+    SIZE(RestageImage, 64)
+        FIELD(RestageImage, text, 0) FIELD(RestageImage, path, 24) FIELD(RestageImage, encoding, 32)
+        FIELD(RestageImage, gamma, 36) FIELD(RestageImage, width, 40) FIELD(RestageImage, height, 44)
+        FIELD(RestageImage, channels, 48) FIELD(RestageImage, pixels, 56)
+    SIZE(RestageTexture, 56)
+        FIELD(RestageTexture, text, 0) FIELD(RestageTexture, type, 24) FIELD(RestageTexture, is_float, 32)
+        FIELD(RestageTexture, image, 36) FIELD(RestageTexture, values, 40)
+        FIELD(RestageTexture, value_count, 48)
+    SIZE(RestageMaterialDesc, 48)
+        FIELD(RestageMaterialDesc, text, 0) FIELD(RestageMaterialDesc, type, 24)
+        FIELD(RestageMaterialDesc, values, 32) FIELD(RestageMaterialDesc, value_count, 40)
+    SIZE(RestageMedium, 56)
+        FIELD(RestageMedium, text, 0) FIELD(RestageMedium, sigma_a, 24) FIELD(RestageMedium, sigma_s, 36)
+        FIELD(RestageMedium, g, 48)
+    SIZE(RestageInstance, 200)
+        FIELD(RestageInstance, text, 0) FIELD(RestageInstance, mesh, 24) FIELD(RestageInstance, material, 28)
+        FIELD(RestageInstance, group, 32) FIELD(RestageInstance, alpha_texture, 36)
+        FIELD(RestageInstance, interior, 40) FIELD(RestageInstance, exterior, 44)
+        FIELD(RestageInstance, has_medium_interface, 48) FIELD(RestageInstance, flags, 52)
+        FIELD(RestageInstance, alpha, 56) FIELD(RestageInstance, emission, 60)
+        FIELD(RestageInstance, object_to_world, 72)
+    SIZE(RestageGroup, 32)
+        FIELD(RestageGroup, text, 0) FIELD(RestageGroup, parent, 24)
+    SIZE(RestageLight, 176)
+        FIELD(RestageLight, text, 0) FIELD(RestageLight, kind, 24) FIELD(RestageLight, value, 28)
+        FIELD(RestageLight, light_to_world, 40) FIELD(RestageLight, cone_angle, 168)
+        FIELD(RestageLight, cone_delta, 172)
+    SIZE(RestageEnvironment, 184)
+        FIELD(RestageEnvironment, text, 0) FIELD(RestageEnvironment, image, 24)
+        FIELD(RestageEnvironment, mapping, 28) FIELD(RestageEnvironment, scale, 32)
+        FIELD(RestageEnvironment, light_to_world, 48) FIELD(RestageEnvironment, hidden_from_camera, 176)
+    SIZE(RestageCamera, 184)
+        FIELD(RestageCamera, text, 0) FIELD(RestageCamera, camera_to_world, 24) FIELD(RestageCamera, fov, 152)
+        FIELD(RestageCamera, screen_window, 156) FIELD(RestageCamera, lens_radius, 172)
+        FIELD(RestageCamera, focal_distance, 176) FIELD(RestageCamera, frame_aspect, 180)
+    SIZE(RestageFilm, 64)
+        FIELD(RestageFilm, width, 0) FIELD(RestageFilm, height, 4) FIELD(RestageFilm, crop, 8)
+        FIELD(RestageFilm, filter, 24) FIELD(RestageFilm, filter_radius, 32)
+        FIELD(RestageFilm, filter_params, 40) FIELD(RestageFilm, exposure, 48)
+        FIELD(RestageFilm, filename, 56)
+    SIZE(RestageSettings, 32)
+        FIELD(RestageSettings, max_depth, 0) FIELD(RestageSettings, samples, 4)
+        FIELD(RestageSettings, text, 8)
+    SIZE(RestageSceneWriter1, 152)
+        FIELD(RestageSceneWriter1, size, 0) FIELD(RestageSceneWriter1, ctx, 8)
+        FIELD(RestageSceneWriter1, mesh, 16) FIELD(RestageSceneWriter1, image, 24)
+        FIELD(RestageSceneWriter1, texture, 32) FIELD(RestageSceneWriter1, material, 40)
+        FIELD(RestageSceneWriter1, medium, 48) FIELD(RestageSceneWriter1, group, 56)
+        FIELD(RestageSceneWriter1, instance, 64) FIELD(RestageSceneWriter1, light, 72)
+        FIELD(RestageSceneWriter1, environment, 80) FIELD(RestageSceneWriter1, camera, 88)
+        FIELD(RestageSceneWriter1, camera_medium, 96) FIELD(RestageSceneWriter1, film, 104)
+        FIELD(RestageSceneWriter1, settings, 112) FIELD(RestageSceneWriter1, report, 120)
+        FIELD(RestageSceneWriter1, error, 128) FIELD(RestageSceneWriter1, progress, 136)
+        FIELD(RestageSceneWriter1, material_table, 144)
+    SIZE(RestageImporter1, 48)
+        FIELD(RestageImporter1, size, 0) FIELD(RestageImporter1, format, 8) FIELD(RestageImporter1, label, 16)
+        FIELD(RestageImporter1, extensions, 24) FIELD(RestageImporter1, probe, 32)
+        FIELD(RestageImporter1, load, 40)
+    SIZE(RestageSceneReader1, 160)
+        FIELD(RestageSceneReader1, size, 0) FIELD(RestageSceneReader1, ctx, 8)
+        FIELD(RestageSceneReader1, count, 16) FIELD(RestageSceneReader1, mesh, 24)
+        FIELD(RestageSceneReader1, image, 32) FIELD(RestageSceneReader1, texture, 40)
+        FIELD(RestageSceneReader1, material, 48) FIELD(RestageSceneReader1, medium, 56)
+        FIELD(RestageSceneReader1, group, 64) FIELD(RestageSceneReader1, instance, 72)
+        FIELD(RestageSceneReader1, light, 80) FIELD(RestageSceneReader1, environment, 88)
+        FIELD(RestageSceneReader1, camera, 96) FIELD(RestageSceneReader1, active_camera, 104)
+        FIELD(RestageSceneReader1, camera_medium, 112) FIELD(RestageSceneReader1, film, 120)
+        FIELD(RestageSceneReader1, settings, 128) FIELD(RestageSceneReader1, report, 136)
+        FIELD(RestageSceneReader1, error, 144) FIELD(RestageSceneReader1, progress, 152)
+    SIZE(RestageExporter1, 56)
+        FIELD(RestageExporter1, size, 0) FIELD(RestageExporter1, format, 8) FIELD(RestageExporter1, label, 16)
+        FIELD(RestageExporter1, extensions, 24) FIELD(RestageExporter1, options, 32)
+        FIELD(RestageExporter1, option_count, 40) FIELD(RestageExporter1, save, 48)
+    // clang-format on
+};
+#undef SIZE
+#undef FIELD
+
+} // namespace
+
+TEST_CASE("sizes and offsets of the ABI are as they were released", "[abi]") {
+    static_assert(sizeof(void*) == 8, "the table is of 64-bit platforms");
+    for (const Frozen& f : layout) {
+        INFO(f.what);
+        CHECK(f.now == f.released);
+    }
+    CHECK(std::size(layout) > 200);
+}
+
+TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
+    CHECK(RESTAGE_ABI == 1);
+    CHECK(std::string(RESTAGE_PLUGIN_SYMBOL) == "restage_plugin");
+    CHECK(std::string(RESTAGE_LOG) == "restage.log/1");
+    CHECK(std::string(RESTAGE_MATERIAL1) == "restage.material/1");
+    CHECK(std::string(RESTAGE_IMPORTER1) == "restage.importer/1");
+    CHECK(std::string(RESTAGE_EXPORTER1) == "restage.exporter/1");
+    CHECK(std::string(RESTAGE_DENOISER1) == "restage.denoiser/1");
+    CHECK(std::string(RESTAGE_INSPECTOR1) == "restage.inspector/1");
+    const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR, RESTAGE_INT,      RESTAGE_BOOL,
+                         RESTAGE_ENUM,  RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE};
+    for (int i = 0; i < 8; ++i)
+        CHECK(types[i] == i + 1);
+    const unsigned flags[] = {RESTAGE_MATERIAL_STOCHASTIC,    RESTAGE_MATERIAL_LOSSLESS, RESTAGE_MATERIAL_TRANSMISSIVE,
+                              RESTAGE_MATERIAL_NONRECIPROCAL, RESTAGE_MATERIAL_NULL,     RESTAGE_MATERIAL_MIX,
+                              RESTAGE_MATERIAL_TANGENT,       RESTAGE_MATERIAL_ADDITIVE};
+    for (unsigned i = 0; i < 8; ++i)
+        CHECK(flags[i] == 1u << i);
+    CHECK(RESTAGE_PARAM_TEXTURABLE == 1u);
+    CHECK(RESTAGE_PARAM_ADVANCED == 2u);
+    CHECK(RESTAGE_INSTANCE_TWO_SIDED == 8u);
+    CHECK(RESTAGE_LIGHT_DISTANT == 3);
+    CHECK(RESTAGE_KIND_CAMERA == 9);
+}
+
+TEST_CASE("plugins built for earlier releases load", "[abi]") {
+    const fs::path folder = fs::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_old";
+    int releases = 0;
+    for (const auto& release : fs::directory_iterator(folder)) {
+        if (!fs::exists(release.path() / "plugin.json")) continue; // CMake's own
+        INFO(release.path());
+        test::PluginFolder lines;
+        plugin::Registry registry(lines.log);
+        registry.scan(std::vector<plugin::SearchPath>{{release.path(), true}});
+        REQUIRE(registry.entries().size() == 1);
+        INFO(registry.entries()[0]->reason);
+        REQUIRE(registry.entries()[0]->state == plugin::State::loaded);
+        const auto velvet = registry.find_material("velvet");
+        REQUIRE(velvet);
+        REQUIRE(velvet->table->param_count == 3);
+        CHECK(velvet->table->flags == RESTAGE_MATERIAL_NONRECIPROCAL);
+        CHECK(std::string(velvet->table->params[1].unit) == "m");
+        CHECK(velvet->table->params[1].max == 2);
+        CHECK(std::string(velvet->table->params[2].choices) == "v4|v3|none");
+        CHECK(velvet->table->params[2].def[0] == 1);
+        CHECK(std::count(lines.lines.begin(), lines.lines.end(), "org.example.velvet: velvet of 0.1 is here") == 1);
+        ++releases;
+    }
+    CHECK(releases >= 1);
+}

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// plugin: materials without native code, materials that change while they are in use, and plugins that crashed.
+#include "plugin/quarantine.hpp"
+#include "plugin_folder.hpp"
+
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <fstream>
+
+namespace fs = std::filesystem;
+using namespace restage;
+using namespace restage::plugin;
+using Catch::Matchers::ContainsSubstring;
+using Folder = restage::test::PluginFolder;
+using restage::test::manifest;
+
+namespace {
+
+std::string json_manifest(const std::string& materials) {
+    return R"({"id": "org.example.velvet", "kind": "material", "version": "1.0.0", "licence": "MIT", "abi": 1,
+ "materials": )" +
+           materials + "}";
+}
+std::string velvet(const std::string& params, const std::string& more = "") {
+    return R"([{"type": "velvet", "label": "Velvet", "glsl": "velvet.glsl", "tooltip": "Cloth.")" + more +
+           R"(, "params": )" + params + "}]";
+}
+const std::string params = R"([
+ {"id": "tint", "label": "Tint", "type": "color", "flags": ["texturable"], "default": [0.1, 0.2, 0.3], "tooltip": "T."},
+ {"id": "fuzz", "type": "float", "min": 0.5, "max": 2, "default": 1.5, "unit": "m", "flags": ["texturable", "advanced"]},
+ {"id": "count", "type": "int", "min": 1, "max": 9, "default": 3},
+ {"id": "soft", "type": "bool", "default": true},
+ {"id": "weave", "type": "enum", "choices": ["plain", "twill"], "default": "twill"}])";
+
+// Mappings of private copies of plugin libraries.
+int open_copies() {
+    std::ifstream maps("/proc/self/maps");
+    int count = 0;
+    for (std::string line; std::getline(maps, line);)
+        count += line.find("restage-plugin-") != std::string::npos;
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("a material without native code: its table stands in the manifest", "[plugin]") {
+    Folder folder;
+    folder.add("velvet", json_manifest(velvet(params, R"(, "flags": ["lossless", "tangent"])")), nullptr);
+    Registry registry(folder.log);
+    folder.scan(registry);
+    const auto found = registry.find_material("velvet");
+    REQUIRE(found);
+    const RestageMaterial1& t = *found->table;
+    CHECK(std::string(t.label) == "Velvet");
+    CHECK(std::string(t.prefix) == "velvet"); // where none is given, the type
+    CHECK(t.flags == (RESTAGE_MATERIAL_LOSSLESS | RESTAGE_MATERIAL_TANGENT));
+    REQUIRE(t.param_count == 5);
+    CHECK(t.params[0].type == RESTAGE_COLOR);
+    CHECK(t.params[0].def[2] == 0.3f);
+    CHECK(std::string(t.params[1].label) == "fuzz"); // where none is given, the id
+    CHECK(t.params[1].flags == (RESTAGE_PARAM_TEXTURABLE | RESTAGE_PARAM_ADVANCED));
+    CHECK((t.params[1].min == 0.5f && t.params[1].max == 2 && t.params[1].def[0] == 1.5f));
+    CHECK(std::string(t.params[1].unit) == "m");
+    CHECK(t.params[2].def[0] == 3);
+    CHECK(t.params[3].def[0] == 1);
+    CHECK(std::string(t.params[4].choices) == "plain|twill");
+    CHECK(t.params[4].def[0] == 1);
+    CHECK(found->source->glsl()->size() == 1);
+}
+
+TEST_CASE("what is wrong in a table written as JSON is named with its place", "[plugin]") {
+    Folder folder;
+    const auto refused = [&](const std::string& materials) {
+        return folder.refusal_of(json_manifest(materials), nullptr);
+    };
+    CHECK_THAT(refused("[]"), ContainsSubstring("\"materials\" must be a list of at least one material"));
+    CHECK_THAT(refused(R"([{"type": "velvet"}])"), ContainsSubstring("\"materials\"[0]: \"glsl\" is missing"));
+    CHECK_THAT(refused(velvet("[{}]")), ContainsSubstring("\"materials\"[0].\"params\"[0]: \"id\" is missing"));
+    CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "colour"}])")),
+               ContainsSubstring("\"type\": \"colour\" is unknown; known are float, color, int, bool, enum, text"));
+    CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "min": "0"}])")),
+               ContainsSubstring("\"min\" must be a number"));
+    CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "mim": 0}])")),
+               ContainsSubstring("the key \"mim\" is unknown"));
+    CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "default": 7}])")),
+               ContainsSubstring("parameter \"a\": its default is out of its range"));
+    CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "color", "default": 1}])")),
+               ContainsSubstring("must be three numbers [red, green, blue]"));
+    CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "enum", "choices": ["x"], "default": "y"}])")),
+               ContainsSubstring("must be one of the choices"));
+    CHECK_THAT(refused(velvet("[]", R"(, "flags": ["shiny"])")), ContainsSubstring("\"shiny\" is unknown"));
+    CHECK_THAT(refused(velvet("[]", R"(, "prefix": "a__b")")), ContainsSubstring("no GLSL identifier"));
+    CHECK_THAT(refused(velvet("[") + "]"), ContainsSubstring("not JSON"));
+    const std::string both = json_manifest(velvet("[]"));
+    CHECK_THAT(folder.refusal_of(both.substr(0, both.size() - 1) + R"(, "library": "velvet"})", "good"),
+               ContainsSubstring("has both \"library\" and \"materials\""));
+}
+
+TEST_CASE("an edited material is taken anew; who uses the one before keeps it", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("velvet", json_manifest(velvet(params)), nullptr);
+    Registry registry(folder.log);
+    folder.scan(registry);
+    const auto before = registry.find_material("velvet");
+    REQUIRE(before);
+    const auto version = registry.version();
+    CHECK(registry.reload_changed().empty());
+    CHECK(registry.version() == version);
+
+    REQUIRE(write_file_atomic(where / "velvet.glsl", "// something else"));
+    auto news = registry.reload_changed();
+    REQUIRE(news.size() == 1);
+    CHECK(news[0].error.empty());
+    CHECK(registry.version() > version);
+    const auto edited = registry.find_material("velvet");
+    CHECK(edited->source->revision() != before->source->revision());
+    CHECK(edited->source->glsl()->begin()->second == "// something else");
+    CHECK(before->source->glsl()->begin()->second == "// empty");
+
+    // A parameter less; the old table is still whole.
+    REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(R"([{"id": "fuzz", "type": "float"}])"))));
+    REQUIRE(registry.reload_changed().size() == 1);
+    CHECK(registry.find_material("velvet")->table->param_count == 1);
+    CHECK(before->table->param_count == 5);
+    CHECK(std::string(before->table->params[4].choices) == "plain|twill");
+
+    // Undone: the same revision as at first.
+    REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(params))));
+    REQUIRE(write_file_atomic(where / "velvet.glsl", "// empty"));
+    REQUIRE(registry.reload_changed().size() == 1);
+    CHECK(registry.find_material("velvet")->source->revision() == before->source->revision());
+}
+
+TEST_CASE("a version that does not fit is not taken: the one before goes on", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("velvet", json_manifest(velvet(params)), nullptr);
+    Registry registry(folder.log);
+    folder.scan(registry);
+    registry.set_judge([](const MaterialEntry& entry) -> Result<> {
+        const std::string& text = entry.source->glsl()->begin()->second;
+        return text == "bad" ? fail("velvet.glsl:3: no good") : Result<>();
+    });
+    const auto still = [&](const std::string& why) {
+        const auto news = registry.reload_changed();
+        REQUIRE(news.size() == 1);
+        CHECK_THAT(news[0].error, ContainsSubstring(why));
+        CHECK(registry.find_material("velvet")->table->param_count == 5);
+        CHECK(registry.find_material("velvet")->source->glsl()->begin()->second == "// empty");
+        CHECK(news[0].plugin->trouble == news[0].error);
+        CHECK(news[0].plugin->state == State::loaded);
+        CHECK(registry.reload_changed().empty()); // said once
+    };
+    REQUIRE(write_file_atomic(where / "velvet.glsl", "bad"));
+    still("velvet.glsl:3: no good");
+    REQUIRE(write_file_atomic(where / "plugin.json", "{ \"id\": "));
+    still("not JSON");
+    REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(params))));
+    REQUIRE(write_file_atomic(where / "velvet.glsl", "good"));
+    REQUIRE(registry.reload_changed().size() == 1);
+    CHECK(registry.find_material("velvet")->source->glsl()->begin()->second == "good");
+    CHECK(registry.entries()[0]->trouble.empty());
+}
+
+TEST_CASE("a plugin that was refused is taken once it is mended", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("velvet", "{", nullptr);
+    Registry registry(folder.log);
+    folder.scan(registry);
+    CHECK_FALSE(registry.find_material("velvet"));
+    REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(params))));
+    REQUIRE(registry.reload_changed().size() == 1);
+    CHECK(registry.find_material("velvet"));
+    CHECK(registry.entries()[0]->state == State::loaded);
+}
+
+TEST_CASE("a library is loaded anew a hundred times, and nothing of it stays", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("velvet", manifest(), "good");
+    const int none = open_copies();
+    {
+        Registry registry(folder.log);
+        folder.scan(registry);
+        const auto first = registry.find_material("velvet");
+        const int one = open_copies();
+        CHECK(one > none);
+        const fs::path library = where / (std::string("velvet") + Library::extension());
+        for (int i = 0; i < 100; ++i) {
+            if (i % 2) { // replaced in place, as cp does, while it is in use
+                const std::string bytes = read_file(library).value();
+                std::ofstream(library, std::ios::binary) << bytes;
+            }
+            REQUIRE(registry.reload(*registry.entries()[0]));
+        }
+        CHECK(open_copies() == one);
+        CHECK(std::string(first->table->params[0].id) == "fuzz"); // a library that is no more
+        const auto said = [&](const char* line) { return std::count(folder.lines.begin(), folder.lines.end(), line); };
+        CHECK(said("org.example.velvet: velvet is here") == 101);
+        CHECK(said("org.example.velvet: velvet leaves") == 100);
+    }
+    CHECK(open_copies() == none);
+}
+
+TEST_CASE("a plugin that crashed stays off until it changes or is let out", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("plugins/velvet", manifest(), "good");
+    const fs::path notes = folder.path / "notes";
+    const auto scan = [&](Registry& registry) {
+        registry.scan(std::vector<SearchPath>{{folder.path / "plugins", true}});
+        return registry.entries().at(0);
+    };
+    const Quarantine quarantine(notes);
+    {
+        Registry registry(folder.log, {.quarantine = notes});
+        const Entry* entry = scan(registry);
+        REQUIRE(entry->state == State::loaded);
+        const Blame blame = entry->blame("while it read sofa.vel");
+        REQUIRE(write_file_atomic(blame.file, blame.text + "\nSIGSEGV\n")); // as a crash leaves it
+    }
+    Registry registry(folder.log, {.quarantine = notes});
+    const Entry* off = scan(registry);
+    CHECK(off->state == State::refused);
+    CHECK(off->quarantined);
+    CHECK_THAT(off->reason, ContainsSubstring("it crashed (SIGSEGV) while it read sofa.vel; it stays off until"));
+    CHECK_THAT(off->reason, ContainsSubstring("restage plugins --enable org.example.velvet"));
+    CHECK(quarantine.release("org.example.velvet").value());
+    CHECK_FALSE(quarantine.release("org.example.velvet").value());
+    Registry again(folder.log, {.quarantine = notes});
+    const Entry* on = scan(again);
+    CHECK(on->state == State::loaded);
+
+    const Blame blame = on->blame("while it was being loaded");
+    REQUIRE(write_file_atomic(blame.file, blame.text + "\nSIGABRT\n"));
+    REQUIRE(write_file_atomic(where / "velvet.glsl", "// mended"));
+    Registry mended(folder.log, {.quarantine = notes});
+    CHECK(scan(mended)->state == State::loaded);
+}
+
+TEST_CASE("safe mode loads the program's own plugins alone", "[plugin]") {
+    Folder folder;
+    folder.add("theirs/velvet", manifest(), "good");
+    folder.add("ours/velvet", manifest(), "good");
+    const std::vector<SearchPath> paths{{folder.path / "theirs", true},
+                                        {.folder = folder.path / "ours", .required = true, .own = true}};
+    Registry all(folder.log), safe(folder.log, {.safe_mode = true});
+    all.scan(paths);
+    safe.scan(paths);
+    CHECK(all.find_material("velvet")->plugin->folder == folder.path / "theirs/velvet");
+    REQUIRE(safe.entries().size() == 1);
+    CHECK(safe.find_material("velvet")->plugin->folder == folder.path / "ours/velvet");
+}
