@@ -22,7 +22,7 @@ from . import _core
 from ._core import (
     Camera, Cameras, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
     Plugin, Progress, Report, ReportEntry, Selection, Session, Sky, Step, Texture, Textures,
-    load_plugins, material_types, merge, new, open, plugins,
+    load_plugins, material_types, merge, new, open, plugins, reload_plugins,
 )
 from .bsdf import Bsdf, BsdfSample
 from . import spread
@@ -56,6 +56,6 @@ def bundled_scene(name: str) -> _pathlib.Path:
 __all__ = [
     "Bsdf", "BsdfSample", "Camera", "Cameras", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
     "Object", "Objects", "Parameter", "Picture", "Plugin", "Progress", "Report", "ReportEntry", "Selection", "Session",
-    "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins",
+    "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins", "reload_plugins",
     "spread",
 ]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host.hpp"
 
+#include "render/material_composer.hpp"
+
 #include <algorithm>
 
 namespace restage::python {
@@ -44,8 +46,9 @@ Host::Host(const fs::path& home)
           const std::lock_guard lock(queue_mutex_);
           queue_.emplace_back(level, line);
       }),
-      registry_(log_) {
+      registry_(log_, {.quarantine = plugin::Registry::default_quarantine()}) {
     registry_.scan(plugin::Registry::default_paths(home));
+    registry_.set_judge(render::material_judge(home / "share/restage/shaders"));
 }
 
 std::vector<const plugin::Entry*> Host::load(const fs::path& folder) {

@@ -232,7 +232,7 @@ void denoise(Picture& p, const std::string& quality, unsigned threads) {
     Result<std::vector<glm::vec3>> clean = [&] {
         const nb::gil_scoped_release release;
         const std::shared_lock plugins(p.host->in_use());
-        return render::denoise(p.film, *denoisers[0].table, as, threads, [&](double) { return pulse.keep_going(); });
+        return render::denoise(p.film, denoisers[0], as, threads, [&](double) { return pulse.keep_going(); });
     }();
     pulse.rethrow();
     p.host->flush_log();

@@ -107,6 +107,20 @@ void bind_plugins(nb::module_& m) {
         "folder"_a,
         "Loads the plugins in a folder (one with a plugin.json, or up to three folders above such). Returns them;\n"
         "raises restage.Error with the reason when one is refused.");
+    m.def(
+        "reload_plugins",
+        [] {
+            nb::dict news;
+            const auto host = Host::get();
+            for (const plugin::Reload& reload : host->registry().reload_changed())
+                news[nb::cast(reload.plugin->name())] = nb::cast(reload.error);
+            host->flush_log();
+            return news;
+        },
+        nb::sig("def reload_plugins() -> dict[str, str]"),
+        "Loads anew the material plugins whose files have changed since. Also while a session renders: its next\n"
+        "render is of the new version. Returns, by id, \"\" or why the new version was not taken (the one before goes\n"
+        "on): an error of its GLSL with file and line, for example.");
 }
 
 } // namespace restage::python

@@ -181,9 +181,9 @@ io::Report export_to(const Shared& w, const std::filesystem::path& path, const s
     auto& registry = w->host().registry();
     io::ExportOptions how;
     how.format = format;
-    const auto* exporter = take(io::find_exporter(path.string(), format, registry));
+    const auto exporter = take(io::find_exporter(path.string(), format, registry));
     for (const auto& [key, value] : options)
-        take(io::set_option(*exporter, nb::cast<std::string>(key) + "=" + nb::cast<std::string>(nb::str(value)),
+        take(io::set_option(*exporter.table, nb::cast<std::string>(key) + "=" + nb::cast<std::string>(nb::str(value)),
                             how.values));
     const Scene copy = w->scene();
     return work(w->host(), progress, [&](io::Progress tell) {

@@ -46,19 +46,13 @@ RendererUse::RendererUse(Workspace& workspace) : in_(workspace) {
 Result<render::Renderer*> RendererUse::get(const RendererKey& key) {
     if (in_.renderer_ && key == in_.key_) return in_.renderer_.get();
     in_.renderer_.reset();
-    auto& registry = in_.host_->registry();
-    render::MaterialLookup lookup = [&registry](const std::string& type) -> std::optional<render::MaterialPlugin> {
-        const auto entry = registry.find_material(type);
-        if (!entry) return std::nullopt;
-        return render::MaterialPlugin{entry->table, entry->plugin->folder};
-    };
     render::RendererOptions options;
     options.device = key.device;
     options.tracer = key.tracer;
     options.threads = key.threads;
     options.strategy = key.strategy;
     options.shader_dir = Host::home() / "share/restage/shaders";
-    RESTAGE_TRY(in_.renderer_, render::Renderer::create(options, std::move(lookup), in_.host_->log()));
+    RESTAGE_TRY(in_.renderer_, render::Renderer::create(options, render::material_lookup(in_.host_->registry()), in_.host_->log()));
     in_.key_ = key;
     return in_.renderer_.get();
 }
