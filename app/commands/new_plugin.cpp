@@ -28,9 +28,8 @@ std::string replace_all(std::string text, const std::string& what, const std::st
 }
 
 Result<int> run(Context& context, Options o) {
-    const bool lower = std::all_of(o.name.begin(), o.name.end(), [](unsigned char c) {
-        return std::islower(c) || std::isdigit(c) || c == '_';
-    });
+    const bool lower = std::all_of(o.name.begin(), o.name.end(),
+                                   [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; });
     if (!lower || !plugin::is_glsl_identifier(o.name) || o.name.back() == '_' || !std::isalpha(o.name[0]))
         return fail("\"" + o.name +
                     "\" cannot be the name of a material: lower case letters, digits and _, a letter first, no word of "
@@ -58,9 +57,12 @@ Result<int> run(Context& context, Options o) {
         RESTAGE_CHECK(write_file_atomic(out, text));
         ++files;
     }
-    if (code || files == 0) return fail(templates.string() + ": the templates are not there; the installation is incomplete");
+    if (code || files == 0)
+        return fail(templates.string() + ": the templates are not there; the installation is incomplete");
     std::printf("%s: a material plugin in %s; %s says how to build, check and render it\n", folder.string().c_str(),
-                o.language == "json" ? "JSON and GLSL, without native code" : o.language == "c" ? "C and GLSL" : "C++ and GLSL",
+                o.language == "json" ? "JSON and GLSL, without native code"
+                : o.language == "c"  ? "C and GLSL"
+                                     : "C++ and GLSL",
                 (folder / "README.md").string().c_str());
     return int(exit_ok);
 }

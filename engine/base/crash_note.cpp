@@ -66,7 +66,7 @@ void on_fatal(int number) {
 
 void install() {
     for (Fatal& f : fatal) {
-        struct sigaction action {};
+        struct sigaction action{};
         action.sa_handler = on_fatal;
         action.sa_flags = SA_ONSTACK | SA_NODEFER;
         sigaction(f.number, &action, &f.before);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// CrashNote: who is to blame if this thread crashes now. While one lives, a fatal signal of its thread (SIGSEGV, SIGBUS,
-// SIGILL, SIGFPE, SIGABRT) writes a note into a file before the program ends as it would have ended; nothing is written
-// otherwise. POSIX; elsewhere it does nothing. Not for crashes of other threads, nor of an overflowed stack.
+// CrashNote: who is to blame if this thread crashes now. While one lives, a fatal signal of its thread (SIGSEGV,
+// SIGBUS, SIGILL, SIGFPE, SIGABRT) writes a note into a file before the program ends as it would have ended; nothing is
+// written otherwise. POSIX; elsewhere it does nothing. Not for crashes of other threads, nor of an overflowed stack.
 #pragma once
 
 #include <string>

@@ -31,8 +31,8 @@ const void* host_service(const RestageHost* host, const char* id) {
 
 // All tables of a kind, judged; or the first one's fault.
 template <class Table>
-Result<std::vector<const Table*>> query_all(const RestagePlugin& plugin, const char* interface_id, const fs::path& folder,
-                                            const std::string& who) {
+Result<std::vector<const Table*>> query_all(const RestagePlugin& plugin, const char* interface_id,
+                                            const fs::path& folder, const std::string& who) {
     std::vector<const Table*> found;
     for (std::uint32_t i = 0; const auto* table = static_cast<const Table*>(plugin.query(interface_id, i)); ++i) {
         if (i == most_tables) return fail(who + ": provides " + interface_id + " without end");

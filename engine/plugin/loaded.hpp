@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to plugin/: one opening of one plugin, from its manifest to tables that have been judged. Closing it shuts the
-// plugin down and unloads its library. [main]
+// Private to plugin/: one opening of one plugin, from its manifest to tables that have been judged. Closing it shuts
+// the plugin down and unloads its library. [main]
 #pragma once
 
 #include "base/log.hpp"
@@ -31,7 +31,8 @@ class Loaded {
   public:
     // Judges, in this order: abi range, files there, library opens, entry symbol, entry abi and size, id and version as
     // promised, init, tables. The error is the sentence that refuses the plugin.
-    static Result<std::unique_ptr<Loaded>> open(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
+    static Result<std::unique_ptr<Loaded>> open(const std::filesystem::path& folder, const Manifest& manifest,
+                                                Log& log);
     ~Loaded();
     Loaded(const Loaded&) = delete;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Material tables written as JSON: the same lines as RestageMaterial1 and RestageParam, by name. Whether they make sense
-// is asked by check_table, as for tables that come from a library.
+// Material tables written as JSON: the same lines as RestageMaterial1 and RestageParam, by name. Whether they make
+// sense is asked by check_table, as for tables that come from a library.
 #include "plugin/material_source.hpp"
 
 #include <algorithm>
@@ -18,12 +18,10 @@ struct Word {
 };
 constexpr Word type_words[] = {{"float", RESTAGE_FLOAT}, {"color", RESTAGE_COLOR}, {"int", RESTAGE_INT},
                                {"bool", RESTAGE_BOOL},   {"enum", RESTAGE_ENUM},   {"text", RESTAGE_TEXT}};
-constexpr Word flag_words[] = {{"stochastic", RESTAGE_MATERIAL_STOCHASTIC},
-                               {"lossless", RESTAGE_MATERIAL_LOSSLESS},
-                               {"transmissive", RESTAGE_MATERIAL_TRANSMISSIVE},
-                               {"nonreciprocal", RESTAGE_MATERIAL_NONRECIPROCAL},
-                               {"tangent", RESTAGE_MATERIAL_TANGENT},
-                               {"additive", RESTAGE_MATERIAL_ADDITIVE}};
+constexpr Word flag_words[] = {
+    {"stochastic", RESTAGE_MATERIAL_STOCHASTIC},     {"lossless", RESTAGE_MATERIAL_LOSSLESS},
+    {"transmissive", RESTAGE_MATERIAL_TRANSMISSIVE}, {"nonreciprocal", RESTAGE_MATERIAL_NONRECIPROCAL},
+    {"tangent", RESTAGE_MATERIAL_TANGENT},           {"additive", RESTAGE_MATERIAL_ADDITIVE}};
 constexpr Word param_flag_words[] = {{"texturable", RESTAGE_PARAM_TEXTURABLE}, {"advanced", RESTAGE_PARAM_ADVANCED}};
 
 // The value of a word, or the sentence that lists what there is.
@@ -79,9 +77,8 @@ struct JsonReader {
     }
 
     Result<RestageParam> param(const json& object, const std::string& where) {
-        RESTAGE_CHECK(know(object,
-                           {"id", "label", "type", "flags", "min", "max", "default", "unit", "choices", "tooltip"},
-                           where));
+        RESTAGE_CHECK(know(
+            object, {"id", "label", "type", "flags", "min", "max", "default", "unit", "choices", "tooltip"}, where));
         RestageParam p{};
         RESTAGE_TRY(p.id, text(object, "id", nullptr, where));
         RESTAGE_TRY(p.label, text(object, "label", p.id, where));
@@ -107,8 +104,8 @@ struct JsonReader {
         if (const auto it = object.find("default"); it != object.end()) {
             const std::string key = where + ": \"default\"";
             if (p.type == RESTAGE_ENUM) {
-                const auto at = it->is_string() ? std::find(choices.begin(), choices.end(), it->get<std::string>())
-                                                : choices.end();
+                const auto at =
+                    it->is_string() ? std::find(choices.begin(), choices.end(), it->get<std::string>()) : choices.end();
                 if (at == choices.end()) return fail(key + " must be one of the choices");
                 p.def[0] = static_cast<float>(at - choices.begin());
             } else if (p.type == RESTAGE_BOOL) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MaterialSource: what the host keeps of one material: a copy of its parameter table, and the text of its GLSL as it was
-// when the plugin was loaded. Nothing of the plugin's library and nothing of its folder is looked at while a scene is
-// rendered, so that both may be replaced meanwhile, and what is on the screen goes on with what it was made of.
+// MaterialSource: what the host keeps of one material: a copy of its parameter table, and the text of its GLSL as it
+// was when the plugin was loaded. Nothing of the plugin's library and nothing of its folder is looked at while a scene
+// is rendered, so that both may be replaced meanwhile, and what is on the screen goes on with what it was made of.
 // Immutable once made; any thread.
 #pragma once
 

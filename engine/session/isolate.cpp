@@ -54,8 +54,8 @@ io::Report read_report(const std::string& text) {
     const json entries = json::parse(text, nullptr, false);
     if (!entries.is_array()) return report;
     for (const json& e : entries)
-        if (e.is_array() && e.size() == 5 && e[0].is_number_integer() && e[2].is_number_unsigned() && e[1].is_string() &&
-            e[3].is_string() && e[4].is_string())
+        if (e.is_array() && e.size() == 5 && e[0].is_number_integer() && e[2].is_number_unsigned() &&
+            e[1].is_string() && e[3].is_string() && e[4].is_string())
             report.add(static_cast<RestageFate>(std::clamp(e[0].get<int>(), 0, 2)), e[3].get<std::string>(),
                        e[4].get<std::string>(), e[1].get<std::string>(), e[2].get<std::uint32_t>());
     return report;
@@ -72,9 +72,8 @@ Result<> import_child(const std::string& path, const std::string& out, const plu
         return true;
     };
     RESTAGE_TRY(io::ImportedScene imported, io::import_scene(path, registry, options));
-    const std::map<std::string, std::string> note{{"importer", imported.importer},
-                                                  {"format", imported.scene.format},
-                                                  {"report", report_text(imported.report)}};
+    const std::map<std::string, std::string> note{
+        {"importer", imported.importer}, {"format", imported.scene.format}, {"report", report_text(imported.report)}};
     const Base nothing;
     const DataSources none;
     return write_file_atomic(

@@ -27,7 +27,8 @@ class Lab {
         device_ = take(gpu::Device::create({.cache_dir = cache}, host_->log()));
         compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{
             .include_dirs = {Host::home() / "share/restage/shaders"}, .cache_dir = cache / "spirv"});
-        lab_.emplace(take(check::BsdfLab::create(*device_, *compiler_, {entry->table, entry->plugin->folder, entry->source})));
+        lab_.emplace(
+            take(check::BsdfLab::create(*device_, *compiler_, {entry->table, entry->plugin->folder, entry->source})));
     }
 
     // All arrays have n rows, `config` names one of the parameter sets for each. The answer: raw records, 96 bytes.

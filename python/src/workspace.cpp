@@ -52,7 +52,8 @@ Result<render::Renderer*> RendererUse::get(const RendererKey& key) {
     options.threads = key.threads;
     options.strategy = key.strategy;
     options.shader_dir = Host::home() / "share/restage/shaders";
-    RESTAGE_TRY(in_.renderer_, render::Renderer::create(options, render::material_lookup(in_.host_->registry()), in_.host_->log()));
+    RESTAGE_TRY(in_.renderer_,
+                render::Renderer::create(options, render::material_lookup(in_.host_->registry()), in_.host_->log()));
     in_.key_ = key;
     return in_.renderer_.get();
 }

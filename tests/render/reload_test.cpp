@@ -54,8 +54,8 @@ struct Paint { // our plugins, and one that the test edits
     Paint() {
         write("vec3(m.gray)", one);
         const std::filesystem::path shaders = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
-        const plugin::SearchPath paths[] = {
-            {std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true}, {folder.path(), true}};
+        const plugin::SearchPath paths[] = {{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true},
+                                            {folder.path(), true}};
         registry.scan(paths);
         registry.set_judge(render::material_judge(shaders));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plugin ABI does not change: sizes, offsets and numbers as they were released (64-bit platforms), and plugins built
-// with the headers of earlier releases. If this fails, the header is wrong, not the test: growth is a new interface id.
+// The plugin ABI does not change: sizes, offsets and numbers as they were released (64-bit platforms), and plugins
+// built with the headers of earlier releases. If this fails, the header is wrong, not the test: growth is a new
+// interface id.
 #include "plugin_folder.hpp"
 
 #include <restage/denoiser.h>

@@ -47,8 +47,8 @@ struct Context {
         return set && set->type == static_cast<RestageType>(p.type) ? *set : scene::default_value(p);
     }
     void ask(const RestageParam& p, scene::Value v) const {
-        editor().edit([id = ui.id, param = std::string(p.id), v = std::move(v)](
-                          const scene::Scene& s) { return scene::set_param(s, id, param, v); },
+        editor().edit([id = ui.id, param = std::string(p.id),
+                       v = std::move(v)](const scene::Scene& s) { return scene::set_param(s, id, param, v); },
                       fmt::format("material.{}.{}", ui.id.value, p.id));
     }
     std::string mark(const char* what) { return "material.ui." + std::string(what) + "." + std::to_string(widgets++); }
@@ -270,8 +270,7 @@ void set(void* ctx, const char* label, const RestageValue* values, std::uint32_t
         for (int k = 0; fits && k < (type == RESTAGE_COLOR ? 3 : 1); ++k) {
             v.v[std::size_t(k)] = values[i].v[k];
             const bool ranged = type == RESTAGE_FLOAT || type == RESTAGE_COLOR || type == RESTAGE_INT;
-            fits = std::isfinite(values[i].v[k]) &&
-                   (!ranged || (values[i].v[k] >= p->min && values[i].v[k] <= p->max));
+            fits = std::isfinite(values[i].v[k]) && (!ranged || (values[i].v[k] >= p->min && values[i].v[k] <= p->max));
         }
         if (fits && (type == RESTAGE_ENUM || type == RESTAGE_TEXT)) {
             v.text = or_empty(values[i].text);

@@ -39,8 +39,7 @@ void start_check(Editor& e, const plugin::Entry& entry) {
             return [name, ran](Editor& editor) {
                 if (!ran) return editor.notices.add(LogLevel::error, ran.error().message);
                 const bool passed = ran->passed();
-                editor.notices.add(passed ? LogLevel::info : LogLevel::error,
-                                   name + ": " + check::verdict_line(*ran));
+                editor.notices.add(passed ? LogLevel::info : LogLevel::error, name + ": " + check::verdict_line(*ran));
                 editor.panel_state->checks[name] = *ran;
             };
         });
@@ -53,7 +52,8 @@ void check_result(const check::PluginReport& report) {
     }
     for (const check::StepResult& step : report.steps)
         if (step.verdict == check::Verdict::fail)
-            warning_note(fmt::format("{}: {}{}{}", step.step, step.text, step.cause.empty() ? "" : "\n", step.cause).c_str());
+            warning_note(
+                fmt::format("{}: {}{}{}", step.step, step.text, step.cause.empty() ? "" : "\n", step.cause).c_str());
 }
 
 void buttons(Editor& e, const plugin::Entry& entry) {

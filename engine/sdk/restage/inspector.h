@@ -32,7 +32,7 @@ typedef struct RestageUi1 {
     /* Chooses one of `count` texts; `current` < 0 = none of them. Returns the one the user has just chosen, or -1. */
     int (*combo)(void* ctx, const char* label, const char* const* choices, uint32_t count, int current);
     int (*button)(void* ctx, const char* label, const char* tooltip); /* 1 = has just been pressed */
-    void (*text)(void* ctx, const char* text);                        /* a line of explanation, wrapped */
+    void (*text)(void* ctx, const char* text); /* a line of explanation, wrapped */
     /* A fold; 1 = open: draw what is in it, then call end_group. 0 = closed: do not. */
     int (*begin_group)(void* ctx, const char* label);
     void (*end_group)(void* ctx);

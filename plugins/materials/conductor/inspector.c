@@ -73,8 +73,8 @@ static void draw(const RestageUi1* ui, void* ctx) {
         const float cos_i = cosf((float)i / (angles - 1) * 1.57079633f);
         for (c = 0; c < 3; ++c) {
             const float r = fminf(fmaxf(tint.v[c], 0), 0.9999f);
-            curves[c * angles + i] = use.v[0] != 0 ? reflectance(cos_i, 1, 2 * sqrtf(r / (1 - r)))
-                                                   : reflectance(cos_i, eta.v[c], k.v[c]);
+            curves[c * angles + i] =
+                use.v[0] != 0 ? reflectance(cos_i, 1, 2 * sqrtf(r / (1 - r))) : reflectance(cos_i, eta.v[c], k.v[c]);
         }
     }
     ui->plot(ctx, "Reflectance from head on to grazing [deg]", curves, angles, 3, 0, 90, 0, 1);

@@ -2,7 +2,15 @@
 #include <restage/material_plugin.h>
 
 static const RestageParam params[] = {
-    {"tint", "Tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.8f, 0.4f, 0.2f}, "", NULL,
+    {"tint",
+     "Tint",
+     RESTAGE_COLOR,
+     RESTAGE_PARAM_TEXTURABLE,
+     0,
+     1,
+     {0.8f, 0.4f, 0.2f},
+     "",
+     NULL,
      "The share of light that comes back."},
 };
 
