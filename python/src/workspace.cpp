@@ -33,7 +33,8 @@ void Workspace::begin_step(std::string label) {
 }
 
 void Workspace::end_step() {
-    if (step_depth_ > 0 && --step_depth_ == 0 && !closed_) session().end_gesture();
+    if (step_depth_ > 0) --step_depth_;
+    if (step_depth_ == 0 && !closed_) session().end_gesture();
 }
 
 RendererUse::RendererUse(Workspace& workspace) : in_(workspace) {
