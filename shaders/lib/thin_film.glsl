@@ -6,19 +6,23 @@
 
 #include "lib/fresnel.glsl"
 
-// The eye's answer to a path difference [nm], linear sRGB: the Fourier transform of Gaussians fitted to the CIE 1931
-// curves (Belcour and Barla 2017, sec. 4.2 and supplemental).
-vec3 thin_film_sensitivity(float path, vec3 shift) {
+// The eye's answer to a path difference [nm] and to twice it, in linear sRGB: the Fourier transform of Gaussians fitted to
+// the CIE 1931 curves (Belcour and Barla 2017, sec. 4.2 and supplemental). X has two of them.
+void thin_film_sensitivity(float path, vec3 shift, out vec3 once, out vec3 twice) {
     float phase = TWO_PI * path * 1e-9;
-    const vec3 value = vec3(5.4856e-13, 4.4201e-13, 5.2481e-13);
-    const vec3 position = vec3(1.6810e+06, 1.7953e+06, 2.2084e+06);
-    const vec3 variance = vec3(4.3278e+09, 9.3046e+09, 6.6121e+09);
-    vec3 xyz = value * sqrt(TWO_PI * variance) * cos(position * phase + shift) * exp(-sqr(phase) * variance);
-    xyz.x += 9.7470e-14 * sqrt(TWO_PI * 4.5282e+09) * cos(2.2399e+06 * phase + shift.x) * exp(-4.5282e+09 * sqr(phase));
-    xyz /= 1.0685e-7;
+    const vec4 value = vec4(5.4856e-13, 4.4201e-13, 5.2481e-13, 9.7470e-14) / 1.0685e-7;
+    const vec4 position = vec4(1.6810e+06, 1.7953e+06, 2.2084e+06, 2.2399e+06);
+    const vec4 variance = vec4(4.3278e+09, 9.3046e+09, 6.6121e+09, 4.5282e+09);
     const mat3 xyz_to_rgb = mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, //
                                  -0.4985314, 0.0415560, 1.0572252);
-    return xyz_to_rgb * xyz;
+    vec4 wave = cos(position * phase + shift.xyzx);
+    vec4 decay = exp(-sqr(phase) * variance);
+    vec4 height = value * sqrt(TWO_PI * variance);
+    vec4 a = height * wave * decay;
+    decay *= decay;
+    vec4 b = height * (2.0 * wave * wave - 1.0) * decay * decay; // of twice the phase
+    once = xyz_to_rgb * vec3(a.x + a.w, a.yz);
+    twice = xyz_to_rgb * vec3(b.x + b.w, b.yz);
 }
 
 // Reflectance under the cosine c of a film (index, thickness [nm]) over a base that reflects f0 head on.
@@ -39,12 +43,9 @@ vec3 thin_film_reflectance(float c, float index, float thickness, vec3 f0) {
     vec3 amplitude = sqrt(r123);
     vec3 series = sqr(t121) * r23 / (1.0 - r123); // Eq. 10, all orders without their phase
     vec3 sum = r12 + series;
-    vec3 order = series - t121;
-    float path = 2.0 * film * thickness * cos_t; // Eq. 3
-    for (int m = 1; m <= 2; ++m) { // higher orders are averaged away by the eye's curves
-        order *= amplitude;
-        sum += order * 2.0 * thin_film_sensitivity(float(m) * path, float(m) * shift);
-    }
+    vec3 once, twice; // higher orders are averaged away by the eye's curves
+    thin_film_sensitivity(2.0 * film * thickness * cos_t, shift, once, twice); // Eq. 3
+    sum += 2.0 * (series - t121) * amplitude * (once + amplitude * twice);
     return clamp(sum, vec3(0), vec3(1)); // outside sRGB's triangle some are negative
 }
 

@@ -28,7 +28,6 @@ struct principled_State {
     float film; // share of the surface that has one
     float film_ior;
     float film_thickness; // nm
-    float mean_fresnel;   // of the dielectric, over the hemisphere, its largest channel
     float mean_loss;      // of the layer, to multiple scattering; 0 when that is left out
     vec3 multiple;        // colour of light reflected more than once
     vec2 turn;            // cosine and sine of the anisotropy's rotation
@@ -39,32 +38,38 @@ float principled_schlick(float c) {
     float x = clamp(1.0 - c, 0.0, 1.0);
     return sqr(x * x) * x;
 }
-vec3 principled_under_film(principled_State s, float c, vec3 bare, vec3 f0) {
-    if (s.film <= 0.0)
-        return bare;
-    return mix(bare, thin_film_reflectance(c, s.film_ior, s.film_thickness, f0), s.film);
-}
-vec3 principled_fresnel(principled_State s, float c) {
-    return principled_under_film(s, c, s.f0 + (s.f90 - s.f0) * principled_schlick(c), s.f0);
+// Of the opaque dielectric. `film`: s.film, or 0 where a guess will do, for the film is much code to compile.
+vec3 principled_fresnel(principled_State s, float c, float film) {
+    vec3 bare = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
+    return film > 0.0 ? mix(bare, thin_film_reflectance(c, s.film_ior, s.film_thickness, s.f0), film) : bare;
 }
 float principled_coat_fresnel(principled_State s, float c) {
     return s.coat * (principled_coat_f0 + (1.0 - principled_coat_f0) * principled_schlick(c));
 }
 
 // What a microfacet seen under the cosine c reflects and lets through.
-vec3 principled_reflected(principled_State s, float c, out vec3 through) {
-    vec3 dielectric = principled_fresnel(s, c);
-    vec3 glass = vec3(s.thin ? max_component(dielectric) : 0.0);
-    if (!s.thin && s.transmission > 0.0) {
-        float cos_t;
-        glass = vec3(fresnel_dielectric(c, s.eta, cos_t));
-        if (cos_t > 0.0) // a film looks alike from both sides
-            glass = principled_under_film(s, s.eta < 1.0 ? cos_t : c, glass, s.f0);
+vec3 principled_reflected(principled_State s, float c, float film, out vec3 through) {
+    vec3 f[3]; // of the opaque dielectric, of glass, of metal; a film takes its share in a loop: compiled once
+    f[0] = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
+    float cos_t = 1.0;
+    f[1] = vec3(!s.thin && s.transmission > 0.0 ? fresnel_dielectric(c, s.eta, cos_t) : 0.0);
+    f[2] = fresnel_schlick(s.base, c);
+    if (film > 0.0) {
+        for (int k = 0; k < 3; ++k) {
+            if (k == 1 && cos_t <= 0.0)
+                continue; // total reflection
+            // A film looks alike from both sides of glass.
+            vec3 filmed = thin_film_reflectance(k == 1 && s.eta < 1.0 ? cos_t : c, s.film_ior, s.film_thickness,
+                                              k == 2 ? s.base : s.f0);
+            f[k] = mix(f[k], filmed, film);
+        }
     }
+    vec3 dielectric = f[0];
+    vec3 glass = s.thin ? vec3(max_component(dielectric)) : f[1];
     float clear = (1.0 - s.metallic) * s.transmission;
     through = clear * (1.0 - glass) * s.base;
     dielectric = mix(dielectric, s.thin ? dielectric : glass, s.transmission);
-    return mix(dielectric, principled_under_film(s, c, fresnel_schlick(s.base, c), s.base), s.metallic);
+    return mix(dielectric, f[2], s.metallic);
 }
 
 // The share of the layer's samples that reflect.
@@ -77,20 +82,22 @@ float principled_reflects(vec3 reflected, vec3 through) {
 // The matte part below the layer: what the layer lets in on the way of wi and out on the way of wo, scaled so that a
 // smooth white surface loses nothing. Shirley, Smits, Hu and Lafortune 1997, "A Practitioners' Assessment of Light
 // Reflection Models", Eq. 7.
-vec3 principled_diffuse(principled_State s, float cos_o, float cos_i) {
-    float o = 1.0 - max_component(principled_fresnel(s, cos_o));
-    float i = 1.0 - max_component(principled_fresnel(s, cos_i));
-    return s.base * ((1.0 - s.metallic) * (1.0 - s.transmission) * o * i / max(1.0 - s.mean_fresnel, 1e-4));
+vec3 principled_diffuse(principled_State s, float cos_o, float cos_i, float mean_fresnel, float film) {
+    float through = 1.0;
+    for (int k = 0; k < 2; ++k)
+        through *= 1.0 - max_component(principled_fresnel(s, k == 0 ? cos_o : cos_i, film));
+    return s.base * ((1.0 - s.metallic) * (1.0 - s.transmission) * through / max(1.0 - mean_fresnel, 1e-4));
 }
 
 // Over the hemisphere, cosine-weighted: of Schlick's curve it is f0 + (f90 - f0) / 21; under a film a Gauss-Jacobi rule.
+float principled_bare_mean(principled_State s) { return max_component(fresnel_schlick_average(s.f0, s.f90)); }
 float principled_mean_fresnel(principled_State s) {
     if (s.film <= 0.0)
-        return max_component(fresnel_schlick_average(s.f0, s.f90));
+        return principled_bare_mean(s);
     const vec3 node = vec3(0.21234054, 0.59053314, 0.91141204), weight = vec3(0.13965396, 0.45848221, 0.40186383);
     float sum = 0.0;
     for (int k = 0; k < 3; ++k)
-        sum += weight[k] * max_component(principled_fresnel(s, node[k]));
+        sum += weight[k] * max_component(principled_fresnel(s, node[k], s.film));
     return sum;
 }
 
@@ -131,7 +138,6 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     s.film = clamp(m.iridescence, 0.0, 1.0);
     s.film_ior = clamp(m.iridescence_ior, 1.0, 3.0);
     s.film_thickness = max(m.iridescence_thickness, 0.0);
-    s.mean_fresnel = principled_mean_fresnel(s);
     s.mean_loss = 0.0;
     s.multiple = vec3(0);
     if (m.multiscatter && !alpha_is_smooth(s.alpha)) {
@@ -143,10 +149,10 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     s.coat = clamp(m.clearcoat, 0.0, 1.0);
     float c = abs(wo.z);
     vec3 through;
-    vec3 reflected = principled_reflected(s, c, through);
+    vec3 reflected = principled_reflected(s, c, 0.0, through);
     float coat = principled_coat_fresnel(s, c);
     float below = (1.0 - coat) * principled_under_sheen(s, c, c);
-    s.choice = vec4(below * (max_component(principled_diffuse(s, c, 0.7)) + max_component(s.multiple) * s.mean_loss),
+    s.choice = vec4(below * (max_component(principled_diffuse(s, c, 0.7, principled_bare_mean(s), 0.0)) + max_component(s.multiple) * s.mean_loss),
                     below * (max_component(reflected) + max_component(through)), coat,
                     (1.0 - coat) * max_component(s.sheen) * sheen_albedo(c, s.sheen_alpha));
     s.choice /= max(dot(s.choice, vec4(1)), 1e-20);
@@ -167,7 +173,7 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     float ci = abs(wi.z);
     vec3 f = vec3(0);
     if (reflects) {
-        f = principled_diffuse(s, wo.z, ci) * (INV_PI * ci);
+        f = principled_diffuse(s, wo.z, ci, principled_mean_fresnel(s), s.film) * (INV_PI * ci);
         pdf = s.choice.x * cosine_hemisphere_pdf(ci);
         if (max_component(s.multiple) > 0.0)
             f += s.multiple * multiscatter_reflection(wo, wi, s.alpha, s.mean_loss, DISTRIBUTION_GGX);
@@ -178,7 +184,7 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
         float ho;
         vec2 layer = rough_interface(wo, mirrored ? vec3(wi.xy, ci) : wi, s.alpha, s.eta, DISTRIBUTION_GGX, ho);
         vec3 through;
-        vec3 reflected = principled_reflected(s, ho, through);
+        vec3 reflected = principled_reflected(s, ho, s.film, through);
         float share = principled_reflects(reflected, through);
         f += (reflects ? reflected : through) * layer.x;
         pdf += s.choice.y * (reflects ? share : 1.0 - share) * layer.y;
@@ -236,7 +242,7 @@ BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
         if (ho <= 0.0)
             return BSDF_NONE;
         vec3 through = vec3(0);
-        vec3 reflected = coat ? vec3(principled_coat_fresnel(s, ho)) : principled_reflected(s, ho, through);
+        vec3 reflected = coat ? vec3(principled_coat_fresnel(s, ho)) : principled_reflected(s, ho, s.film, through);
         float share = principled_reflects(reflected, through);
         bool reflects = coat || layers < s.choice.y * share;
         wi = delta ? vec3(-v.xy, v.z) : normalize(reflect_about(v, h));
@@ -283,8 +289,8 @@ vec3 principled_albedo(principled_Params m, vec3 wo) {
     principled_State s = principled_state(m, wo);
     float c = abs(wo.z);
     vec3 through;
-    vec3 reflected = principled_reflected(s, c, through);
-    float matte = (1.0 - s.metallic) * (1.0 - s.transmission) * (1.0 - max_component(principled_fresnel(s, c)));
+    vec3 reflected = principled_reflected(s, c, s.film, through);
+    float matte = (1.0 - s.metallic) * (1.0 - s.transmission) * (1.0 - max_component(principled_fresnel(s, c, 0.0)));
     float coat = principled_coat_fresnel(s, c);
     vec3 below = principled_under_sheen(s, c, c) * (reflected + through + s.base * matte);
     vec3 fibres = s.sheen * sheen_albedo(c, s.sheen_alpha);
