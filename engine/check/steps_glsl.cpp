@@ -108,7 +108,9 @@ std::vector<Definition> definitions(const std::string& source, std::vector<Defin
         } else if (c == '{') {
             if (depth++ == 0) {
                 // An initialiser's braces belong to their statement.
-                if (statement.find('=') == std::string::npos || statement.find('(') < statement.find('=')) take(true);
+                const std::size_t equals = statement.find('=');
+                if (equals == std::string::npos || statement.substr(0, equals).find('(') != std::string::npos)
+                    take(true);
             }
         } else if (c == '}') {
             depth = std::max(0, depth - 1);

@@ -10,7 +10,6 @@
 namespace restage::check {
 
 using scene::ParamSet;
-using scene::Value;
 
 // Helmholtz, with Veach's eta^2 (1997, Eq. 5.12): f(wo,wi) eta_i^2 / eta_o^2 = f(wi,wo) in radiance transport.
 Result<StepResult> check_reciprocity(Subject& s) {
