@@ -76,6 +76,25 @@ def test_a_metal_is_chosen_by_its_name(launch, tmp_path):
     assert np.abs(ball(editor) - copper).max() < 0.05
 
 
+def test_a_plugin_is_checked_from_its_panel(launch, tmp_path):
+    """One that is sound, and one that loses light though it says it does not."""
+    plugin = tmp_path / "paint"
+    plugin.mkdir()
+    (plugin / "paint.glsl").write_text(PAINT.replace("COLOR", "(0.5 * m.tint)"))
+    material = {"type": "paint", "glsl": "paint.glsl", "flags": ["lossless"], "params": [{"id": "tint", "type": "color"}]}
+    manifest = {"id": "org.example.paint", "kind": "material", "version": "1", "licence": "MIT", "abi": 1}
+    (plugin / "plugin.json").write_text(json.dumps({**manifest, "materials": [material]}))
+    editor = launch("--plugin-path", plugin, scene(tmp_path, '"diffuse"'))
+    editor.settled(samples=1)
+    editor.click("menu.panels")
+    editor.click("panels.Plugins")
+    editor.click("tab.Plugins")
+    editor.click("plugins.check.org.example.paint")
+    editor.wait(lambda s: any("org.example.paint: FAILED" in line for line in s["log"]), "the verdict", 120)
+    editor.click("plugins.check.org.restage.material.diffuse")
+    editor.wait(lambda s: any("material.diffuse: passed" in line for line in s["log"]), "the other verdict", 120)
+
+
 def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
     plugin = tmp_path / "paint"
     plugin.mkdir()

@@ -189,7 +189,7 @@ void plot(void* ctx, const char* label, const float* values, std::uint32_t count
     }
     if (!ImGui::IsItemHovered()) return;
     const float t = std::clamp((ImGui::GetMousePos().x - a.x) / (b.x - a.x), 0.f, 1.f);
-    const auto at = std::min(std::uint32_t(t * float(count - 1) + 0.5f), count - 1);
+    const auto at = std::min(std::uint32_t(std::lround(t * float(count - 1))), count - 1);
     std::string said = fmt::format("{:.4g}:", x_min + (x_max - x_min) * float(at) / float(count - 1));
     for (std::uint32_t k = 0; k < channels; ++k)
         said += fmt::format(" {:.4g}", values[k * count + at]);
@@ -219,7 +219,7 @@ void curve(void* ctx, const char* label, const char* const* ids, std::uint32_t c
     if (!ImGui::IsItemActive()) return;
     // The point nearest to where the drag began follows the mouse.
     const float begun = (ImGui::GetIO().MouseClickedPos[0].x - a.x - radius) / (width - 2 * radius);
-    const auto i = std::min(std::uint32_t(std::clamp(begun, 0.f, 1.f) * float(count - 1) + 0.5f), count - 1);
+    const auto i = std::min(std::uint32_t(std::lround(std::clamp(begun, 0.f, 1.f) * float(count - 1))), count - 1);
     const float y = std::clamp((b.y - radius - ImGui::GetMousePos().y) / (height - 2 * radius), 0.f, 1.f);
     scene::Value v = c.value(*lines[i]);
     const float before = v.v[0];
