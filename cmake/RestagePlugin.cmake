@@ -46,8 +46,10 @@ function(restage_add_plugin)
     if(TARGET restage_warnings)
         target_link_libraries(${target} PRIVATE restage_warnings)
     endif()
-    # GNU's unique symbols pin a library in memory: it could be loaded anew, but never unloaded.
-    target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
+    if(arg_KIND STREQUAL "material")
+        # It may be loaded anew. GNU's unique symbols would pin what was before in memory.
+        target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
+    endif()
     set_target_properties(${target} PROPERTIES
         PREFIX "" OUTPUT_NAME "${arg_NAME}"
         C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON

@@ -46,17 +46,18 @@ Result<int> run(Context& context, Options o) {
     if (fs::exists(folder, code) && !fs::is_empty(folder, code))
         return fail(folder.string() + ": is there already, and not empty; name another place with --folder");
     RESTAGE_TRY(const auto bin, executable_dir());
-    const fs::path templates = bin.parent_path() / "share/restage/templates" / o.language;
+    const fs::path templates = bin.parent_path() / "share/restage/templates";
     fs::create_directories(folder, code);
     if (code) return fail(folder.string() + ": cannot be made: " + code.message());
     int files = 0;
-    for (const auto& file : fs::directory_iterator(templates, code)) {
-        RESTAGE_TRY(std::string text, read_file(file.path()));
-        text = replace_all(replace_all(replace_all(text, "@NAME@", o.name), "@LABEL@", o.label), "@ID@", o.id);
-        const fs::path out = folder / replace_all(file.path().filename().string(), "NAME", o.name);
-        RESTAGE_CHECK(write_file_atomic(out, text));
-        ++files;
-    }
+    for (const std::string& part : {std::string("common"), o.language})
+        for (const auto& file : fs::directory_iterator(templates / part, code)) {
+            RESTAGE_TRY(std::string text, read_file(file.path()));
+            text = replace_all(replace_all(replace_all(text, "@NAME@", o.name), "@LABEL@", o.label), "@ID@", o.id);
+            const fs::path out = folder / replace_all(file.path().filename().string(), "NAME", o.name);
+            RESTAGE_CHECK(write_file_atomic(out, text));
+            ++files;
+        }
     if (code || files == 0)
         return fail(templates.string() + ": the templates are not there; the installation is incomplete");
     std::printf("%s: a material plugin in %s; %s says how to build, check and render it\n", folder.string().c_str(),

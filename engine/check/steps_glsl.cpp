@@ -95,7 +95,7 @@ std::vector<Definition> definitions(const std::string& source, std::vector<Defin
                 end = text.find('\n', end + 1);
             while (end != std::string::npos && text[end - 1] == '\\');
             const std::string directive = text.substr(i, end == std::string::npos ? end : end - i);
-            if (const std::size_t at = directive.find("define"); at != std::string::npos && at < 4) {
+            if (const std::size_t at = directive.find("define"); at < 4) { // not npos
                 const std::size_t name = directive.find_first_not_of(" \t", at + 6);
                 std::size_t stop = name;
                 while (stop < directive.size() && is_word(directive[stop]))

@@ -322,7 +322,7 @@ TEST_CASE("smooth dielectric, thin dielectric, smooth conductor, mirror, uber: t
             double f = ref::fresnel(std::abs(wo.z), eta);
             if (thin) {
                 double sum = f; // face by face: R + T R T + T R^3 T + ...
-                for (int bounce = 1; bounce < 200; bounce += 2)
+                for (int bounce = 1; bounce < 20000; bounce += 2) // F is near 1 at grazing angles
                     sum += (1 - f) * std::pow(f, bounce) * (1 - f);
                 f = sum;
             }

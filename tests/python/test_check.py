@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""restage.check: the program's conformance test, asked from Python. What it finds is tests/scripts/test_check.py's affair."""
+"""restage.check: the program's conformance test, asked from Python. What it finds is tests/scripts/test_check_command.py's affair."""
 import pytest
 
 import restage

@@ -3,7 +3,7 @@
 `mitsuba` beside the package to run it. docs/references.md has what was measured.
 
 diffuse, conductor, dielectric (smooth) are compared directly. Mitsuba's rough models take the uncorrelated Smith term
-G1 G1 (ours: height-correlated), so they are compared with bsdf_references.py in that form, and test_references.py
+G1 G1 (ours: height-correlated), so they are compared with bsdf_references.py in that form, and test_bsdf_references.py
 compares the GPU with the same functions in ours: distribution, Fresnel, Jacobians and scaling by eta are checked end to end.
 Not comparable: plastic and roughplastic (a base with interior scattering; ours is pbrt-v3's sum), principled (Disney's;
 ours is glTF's)."""

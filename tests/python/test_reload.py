@@ -3,27 +3,13 @@
 
 import json
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
 import restage
 
-GLSL = """#include "lib/sampling.glsl"
-vec3 paint_eval(paint_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? COLOR * INV_PI * abs_cos(wi) : vec3(0);
-}
-float paint_pdf(paint_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? abs_cos(wi) * INV_PI : 0.0;
-}
-BsdfSample paint_sample(paint_Params m, vec3 wo, vec3 u) {
-    vec3 wi = sample_cosine_hemisphere(u.xy);
-    float pdf = wi.z * INV_PI;
-    if (wo.z < 0.0)
-        wi.z = -wi.z;
-    return pdf > 0.0 && wo.z != 0.0 ? BsdfSample(wi, COLOR, pdf, BSDF_REFLECT, 1.0) : BSDF_NONE;
-}
-vec3 paint_albedo(paint_Params m, vec3 wo) { return COLOR; }
-"""
+GLSL = (Path(__file__).resolve().parents[1] / "data" / "paint.glsl").read_text()
 SCENE = """LookAt 0 0 5  0 0 0  0 1 0
 Camera "perspective" "float fov" 30
 Film "rgb" "integer xresolution" 16 "integer yresolution" 16
@@ -61,7 +47,7 @@ def test_a_material_is_loaded_anew(tmp_path):
         assert mean() == pytest.approx([0.8, 0.5, 0.2], abs=0.03)
         write("m.hue")
         (error,) = restage.reload_plugins().values()
-        assert "paint.glsl:3:" in error and "hue" in error
+        assert "paint.glsl:4:" in error and "hue" in error
         assert mean() == pytest.approx([0.8, 0.5, 0.2], abs=0.03)
         # While another thread renders.
         write("vec3(m.tint.g)")

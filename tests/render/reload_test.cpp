@@ -18,22 +18,10 @@ namespace {
 
 // A diffuse material whose colour stands in its GLSL, or in its parameter.
 std::string glsl(const std::string& color) {
-    return "#include \"lib/sampling.glsl\"\nvec3 paint_color(paint_Params m) { return " + color + R"(; }
-vec3 paint_eval(paint_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? paint_color(m) * INV_PI * abs_cos(wi) : vec3(0);
-}
-float paint_pdf(paint_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? abs_cos(wi) * INV_PI : 0.0;
-}
-BsdfSample paint_sample(paint_Params m, vec3 wo, vec3 u) {
-    vec3 wi = sample_cosine_hemisphere(u.xy);
-    float pdf = wi.z * INV_PI;
-    if (wo.z < 0.0)
-        wi.z = -wi.z;
-    return pdf > 0.0 ? BsdfSample(wi, paint_color(m), pdf, BSDF_REFLECT, 1.0) : BSDF_NONE;
-}
-vec3 paint_albedo(paint_Params m, vec3 wo) { return paint_color(m); }
-)";
+    std::string text = read_file(std::filesystem::path(RESTAGE_SOURCE_DIR) / "tests/data/paint.glsl").value();
+    for (std::size_t at = 0; (at = text.find("COLOR", at)) != std::string::npos; at += color.size())
+        text.replace(at, 5, color);
+    return text;
 }
 std::string manifest(const std::string& params) {
     return R"({"id": "org.example.paint", "kind": "material", "version": "1.0.0", "licence": "MIT", "abi": 1,
@@ -122,7 +110,7 @@ TEST_CASE("a version that does not compile changes nothing, and the error names 
     paint.write("vec3(m.grey)", one);
     const auto news = paint.registry.reload_changed();
     REQUIRE(news.size() == 1);
-    CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring((paint.folder / "paint.glsl").string() + ":2:"));
+    CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring((paint.folder / "paint.glsl").string() + ":4:"));
     CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring("grey"));
     CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f)));
     // Also for who begins only now: what is on disk is not looked at.

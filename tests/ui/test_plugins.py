@@ -3,6 +3,7 @@
 edited on disk while its picture is on the screen."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,22 +18,7 @@ Shape "sphere" "float radius" 1
 """
 BALL = ("picture", 0.5, 0.5)
 
-PAINT = """#include "lib/sampling.glsl"
-vec3 paint_eval(paint_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? COLOR * INV_PI * abs_cos(wi) : vec3(0);
-}
-float paint_pdf(paint_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? abs_cos(wi) * INV_PI : 0.0;
-}
-BsdfSample paint_sample(paint_Params m, vec3 wo, vec3 u) {
-    vec3 wi = sample_cosine_hemisphere(u.xy);
-    float pdf = wi.z * INV_PI;
-    if (wo.z < 0.0)
-        wi.z = -wi.z;
-    return pdf > 0.0 && wo.z != 0.0 ? BsdfSample(wi, COLOR, pdf, BSDF_REFLECT, 1.0) : BSDF_NONE;
-}
-vec3 paint_albedo(paint_Params m, vec3 wo) { return COLOR; }
-"""
+PAINT = (Path(__file__).resolve().parents[1] / "data" / "paint.glsl").read_text()
 
 
 def scene(tmp_path, material):
@@ -131,7 +117,7 @@ def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
     red = ball(editor)
     # What does not compile changes nothing, and says where.
     glsl.write_text(PAINT.replace("COLOR", "m.tinted"))
-    editor.wait(lambda s: "paint.glsl:3:" in editor.output(), "the error", 30)
+    editor.wait(lambda s: "paint.glsl:4:" in editor.output(), "the error", 30)
     editor.settled()
     assert np.abs(ball(editor) - red).max() < 0.05
     # Another table: the value lives in the scene, and is there.
