@@ -150,3 +150,38 @@ def v3_alpha(roughness):
     """pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha."""
     x = np.log(np.maximum(roughness, 1e-3))
     return 1.62142 + 0.819955 * x + 0.1734 * x**2 + 0.0171201 * x**3 + 0.000640711 * x**4
+
+
+def hair(wo, wi, color, eta, beta_m, beta_n, alpha_degrees):
+    """Chiang et al. 2016, in angles: theta, the inclination to the normal plane, and psi, from the normal about the fibre.
+    From within the fibre (wo.z < 0) nothing is scattered."""
+    theta_o, theta_i = np.arcsin(np.clip(wo[:, 0], -1, 1)), np.arcsin(np.clip(wi[:, 0], -1, 1))
+    psi_o, psi_i = np.arctan2(wo[:, 1], wo[:, 2]), np.arctan2(wi[:, 1], wi[:, 2])
+    # Eqs. 7 and 8, and the s of a logistic distribution
+    v = (0.726 * beta_m + 0.812 * beta_m**2 + 3.7 * beta_m**20)**2
+    variances = [v, v / 4, 4 * v, 4 * v]
+    s = math.sqrt(np.pi / 8) * (0.265 * beta_n + 1.194 * beta_n**2 + 5.372 * beta_n**22)
+    # Eq. 9, then the way through the cylinder of radius 1
+    b = beta_n
+    sigma = (np.log(color) / (5.969 - 0.215 * b + 2.532 * b**2 - 10.73 * b**3 + 5.574 * b**4 + 0.245 * b**5)[:, None])**2
+    theta_t = np.arcsin(np.sin(theta_o) / eta)
+    eta_p = np.sqrt(eta**2 - np.sin(theta_o)**2) / np.cos(theta_o)
+    gamma_t = np.arcsin(np.sin(psi_o) / eta_p)
+    t = np.exp(-sigma * (2 * np.cos(gamma_t) / np.cos(theta_t))[:, None])
+    f = fresnel(np.cos(theta_o) * np.cos(psi_o), eta)[:, None]
+    attenuations = [f + 0 * t, (1 - f)**2 * t, (1 - f)**2 * t**2 * f, (1 - f)**2 * t**3 * f**2 / (1 - f * t)]
+    alpha = np.radians(alpha_degrees)
+    result = 0
+    for p, turn in enumerate((-2, 1, 4, 0)):
+        inclined = theta_o + turn * alpha
+        a = np.cos(theta_i) * np.abs(np.cos(inclined)) / variances[p]
+        # d'Eon et al. 2011, Eq. 7
+        m = np.exp(-np.sin(theta_i) * np.sin(inclined) / variances[p]) * np.i0(a) / (2 * variances[p] * np.sinh(1 / variances[p]))
+        if p < 3:
+            x = psi_i - psi_o - (2 * p * gamma_t - 2 * psi_o + p * np.pi)
+            x = (x + np.pi) % (2 * np.pi) - np.pi
+            n = np.exp(-np.abs(x) / s) / (s * (1 + np.exp(-np.abs(x) / s))**2) / np.tanh(np.pi / (2 * s))
+        else:
+            n = 1 / (2 * np.pi)
+        result = result + attenuations[p] * (m * n)[:, None]
+    return np.where((wo[:, 2] > 0)[:, None], result, 0)

@@ -127,6 +127,13 @@ def translucent(rng, wo, wi):
     return "translucent", wi, given, ref.translucent, [kd, ks, reflect, transmit, alpha], []
 
 
+def hair(rng, wo, wi):
+    tint, eta, bm, bn, alpha = single(color(rng, 0.02, 1), rng.uniform(1.1, 2, N), rng.uniform(0.2, 1, N),
+                                      rng.uniform(0.2, 1, N), rng.uniform(0, 10, N))
+    given = dict(color=tint, eta=eta, beta_m=bm, beta_n=bn, alpha=alpha)
+    return "hair", wi, given, ref.hair, [tint, eta, bm, bn, alpha], []
+
+
 CASES = {
     "diffuse: Lambert": lambert, "diffuse: Oren-Nayar": oren_nayar,
     "conductor: GGX": conductor("ggx"), "conductor: Beckmann": conductor("beckmann"),
@@ -135,7 +142,7 @@ CASES = {
     "dielectric: Beckmann, reflection": dielectric("beckmann", True),
     "dielectric: Beckmann, transmission": dielectric("beckmann", False),
     "substrate": substrate, "plastic (v3, remapped)": plastic, "diffusetransmission": diffuse_transmission,
-    "translucent": translucent,
+    "translucent": translucent, "hair": hair,
 }
 
 

@@ -126,6 +126,14 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         }
         return "diffusetransmission";
     }
+    if (type == "hair") {
+        put_color(p, v, "color", "reflectance", {0.35f, 0.2f, 0.1f});
+        put_float(p, v, "eta", "eta", 1.55f);
+        put_float(p, v, "beta_m", "beta_m", 0.3f);
+        put_float(p, v, "beta_n", "beta_n", 0.3f);
+        put_float(p, v, "alpha", "alpha", 2);
+        return "hair";
+    }
     if (type == "velvet") {
         unlike("pbrt-v4 has no standing fibres; the cloth between them is written");
         put_color(p, v, "reflectance", "reflectance", {0.1f, 0.02f, 0.03f});

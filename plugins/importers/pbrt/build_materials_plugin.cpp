@@ -46,6 +46,20 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
                 break;
         }
     }
+    if (type == "hair") { // pbrt's own, which may say its colour otherwise
+        if (d.params.has("reflectance")) {
+            put_color(values, "color", d, "reflectance", Role::albedo, {0.5, 0.5, 0.5});
+        } else if (!d.params.has("color")) {
+            values.color("color", hair_color(d));
+            for (const char* name : {"sigma_a", "eumelanin", "pheomelanin"})
+                if (const Param* said = d.params.find(name)) exact_ += "=color " + to_text(*said) + "\n";
+        }
+        return true;
+    }
+    // Back out it goes as it came, unless it is edited ("=*": instead of all that would be written).
+    exact_ = "=* \"string type\" [ " + quote(type) + " ]\n";
+    for (const Param& param : d.params.params)
+        if (param.name != "type") exact_ += "=* " + to_text(param) + "\n";
     return true;
 }
 
