@@ -10,7 +10,7 @@ import xml.etree.ElementTree as xml
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage")))
+RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))).resolve()
 BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
 
 
