@@ -60,16 +60,19 @@ TEST_CASE("pbrt's hair, by its colour, its absorption or its pigments", "[pbrt]"
     REQUIRE(r.session.set_param(id, "beta_m", Value::number(0.6f)));
     CHECK_THAT(r.written("v4"), ContainsSubstring("\"float beta_m\" [ 0.6 ]") && ContainsSubstring("\"hair\""));
     REQUIRE(r.session.set_param(id, "color", Value::color(0.2f, 0.1f, 0.05f)));
-    CHECK_THAT(r.written("v4"), ContainsSubstring("\"rgb reflectance\" [ 0.2 0.1 0.05 ]") && !ContainsSubstring("eumelanin"));
+    CHECK_THAT(r.written("v4"),
+               ContainsSubstring("\"rgb reflectance\" [ 0.2 0.1 0.05 ]") && !ContainsSubstring("eumelanin"));
     CHECK_THAT(r.written("v3"), ContainsSubstring("color\" [ 0.2 0.1 0.05 ]"));
 }
 
 TEST_CASE("a plugin's material that pbrt does not know goes back as it came", "[pbrt]") {
     Reading r;
-    const Material& m = r.read(R"("principled" "rgb base_color" [ 0.1 0.2 0.3 ] "float roughness" 0.25 "bool thin" true)");
+    const Material& m =
+        r.read(R"("principled" "rgb base_color" [ 0.1 0.2 0.3 ] "float roughness" 0.25 "bool thin" true)");
     CHECK(m.type == "principled");
     CHECK(near(m.params.color("base_color", {}), {0.1f, 0.2f, 0.3f}));
     CHECK(m.params.number("roughness", 0) == 0.25f);
     CHECK(m.params.number("thin", 0) == 1);
-    CHECK_THAT(r.written("v4"), ContainsSubstring("\"principled\"") && ContainsSubstring("\"rgb base_color\" [ 0.1 0.2 0.3 ]"));
+    CHECK_THAT(r.written("v4"),
+               ContainsSubstring("\"principled\"") && ContainsSubstring("\"rgb base_color\" [ 0.1 0.2 0.3 ]"));
 }
