@@ -248,6 +248,9 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
         put_index(values, "eta", d, "eta", 1.33);
         put_roughness(values, d, "", 0);
         values.choice("remap", !d.params.boolean("remaproughness", true) ? "none" : import_.v3() ? "v3" : "v4");
+    } else if (type == "hair") { // material_of_plugin reads it where the plugin is there
+        note = "no plugin provides hair; a diffuse one of the hair's colour stands for it";
+        color = hair_color(d);
     } else if (type == "disney") {
         note =
             "Disney's model: the principled material stands for it; its diffuse has no retro-reflection, its sheen and "
