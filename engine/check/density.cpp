@@ -23,7 +23,7 @@ std::string say_cell(const SphereCells& cells, std::size_t i, double expected, d
 
 } // namespace
 
-Result<DensityResult> measure_density(BsdfLab& lab, const DensityCase& c, std::size_t draws) {
+Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCase& c, std::size_t draws) {
     DensityResult result;
     result.draws = static_cast<double>(draws);
     RESTAGE_TRY(const std::vector<BsdfDrawn> pilot, lab.draw(c.config, c.wo, c.seed * 2 + 1, pilot_draws));
@@ -34,10 +34,16 @@ Result<DensityResult> measure_density(BsdfLab& lab, const DensityCase& c, std::s
 
     RESTAGE_TRY(const std::vector<BsdfDrawn> samples, lab.draw(c.config, c.wo, c.seed * 2, draws));
     std::vector<double> observed(cells.size()), expected(cells.size());
-    for (const BsdfDrawn& s : samples) {
+    std::vector<std::uint32_t> found(samples.size()); // the search is most of the work on the CPU
+    jobs.parallel_for(samples.size(), 1 << 14, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_spread(samples[i])) found[i] = static_cast<std::uint32_t>(cells.find(samples[i].wi));
+    });
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const BsdfDrawn& s = samples[i];
         const bool spread = is_spread(s);
         result.spread += spread / result.draws;
-        if (spread) observed[cells.find(s.wi)] += 1;
+        if (spread) observed[found[i]] += 1;
         for (std::size_t k = 0; k < 3; ++k)
             result.weight[k].add(spread ? double(s.weight[k]) : 0);
     }
@@ -58,7 +64,7 @@ Result<DensityResult> measure_density(BsdfLab& lab, const DensityCase& c, std::s
         const double n = value * result.draws;
         return std::abs(observed[cell] - n) > 2.5 * std::sqrt(n + 1);
     };
-    RESTAGE_TRY(const Quadrature q, integrate(cells, {evaluate, tolerance, most_evaluations, doubtful}));
+    RESTAGE_TRY(const Quadrature q, integrate(cells, jobs, {evaluate, tolerance, most_evaluations, doubtful}));
     result.evaluations = q.evaluations;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const CellIntegral& cell = q.cells[i];

@@ -31,6 +31,6 @@ struct DensityResult {
     std::size_t evaluations = 0;
 };
 
-Result<DensityResult> measure_density(BsdfLab& lab, const DensityCase& c, std::size_t draws);
+Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCase& c, std::size_t draws);
 
 } // namespace restage::check

@@ -113,7 +113,7 @@ std::size_t SphereCells::find(const Vec3& w) const {
     return static_cast<std::size_t>(nodes_[node].leaf);
 }
 
-Result<Quadrature> integrate(const SphereCells& cells, const QuadratureOptions& options) {
+Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const QuadratureOptions& options) {
     Quadrature result;
     result.cells.resize(cells.size());
     struct Part {
@@ -135,12 +135,12 @@ Result<Quadrature> integrate(const SphereCells& cells, const QuadratureOptions& 
     }
     bool doubted = !options.doubtful;
     while (!parts.empty()) {
-        std::vector<Vec3> directions;
-        directions.reserve(parts.size() * points);
-        for (const Part& part : parts)
-            for (const double u : gauss_at)
-                for (const double v : gauss_at)
-                    directions.push_back(part.rect.at(u, v));
+        std::vector<Vec3> directions(parts.size() * points);
+        jobs.parallel_for(parts.size(), 1 << 12, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (std::size_t k = 0; k < points; ++k)
+                    directions[i * points + k] = parts[i].rect.at(gauss_at[k / 3], gauss_at[k % 3]);
+        });
         RESTAGE_TRY(const std::vector<Integrand> values, options.evaluate(directions));
         result.evaluations += directions.size();
         std::vector<Integrand> sums(parts.size());

@@ -4,6 +4,7 @@
 // by Gauss's rule, split until it is certain. Works in a = 1 - |z|, which keeps its digits near the poles.
 #pragma once
 
+#include "base/jobs.hpp"
 #include "check/bsdf_lab.hpp"
 
 #include <cstdint>
@@ -66,6 +67,6 @@ struct QuadratureOptions {
     std::function<bool(std::size_t cell, double value)> doubtful;
 };
 // Value 0 decides where to split.
-Result<Quadrature> integrate(const SphereCells& cells, const QuadratureOptions& options);
+Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const QuadratureOptions& options);
 
 } // namespace restage::check

@@ -105,8 +105,9 @@ Result<const std::vector<DensityResult>*> Subject::densities() {
     if (!densities_) {
         RESTAGE_TRY(BsdfLab* const used, lab());
         std::vector<DensityResult> all;
+        Jobs jobs;
         for (const DensityCase& c : density_cases()) {
-            RESTAGE_TRY(DensityResult r, measure_density(*used, c, size(1'000'000, 200'000)));
+            RESTAGE_TRY(DensityResult r, measure_density(*used, jobs, c, size(1'000'000, 200'000)));
             all.push_back(std::move(r));
         }
         densities_ = std::move(all);
