@@ -27,6 +27,7 @@ struct DensityResult {
     double unresolved = 0;   // share of pdf in cells whose integral stayed uncertain
     Mean weight[3];          // of the spread samples, over all draws
     double eval_integral[3] = {};
+    bool again = false;      // it is the second, longer measurement of a suspicious case
     double bad_pdf = 0;      // directions whose pdf is not finite or negative (then nothing else is said)
     std::size_t evaluations = 0;
 };

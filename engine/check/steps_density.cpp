@@ -18,16 +18,14 @@ std::string not_for(const Subject& s) {
     return "";
 }
 
-std::string name_case(const DensityCase& c) {
-    return fmt::format("with {}; seed of the samples {}", where(c.config, c.wo), c.seed);
-}
+std::string name_case(const DensityCase& c) { return "with " + where(c.config, c.wo); }
 
 } // namespace
 
 Result<StepResult> check_chi_square(Subject& s) {
     if (const std::string why = not_for(s); !why.empty()) return StepResult::skip(why);
     RESTAGE_TRY(const std::vector<DensityResult>* const all, s.densities());
-    std::size_t tests = 0, failed = 0, worst = 0;
+    std::size_t tests = 0, failed = 0, worst = 0, again = 0;
     double least = 2, draws = 0, unresolved = 0, terms = 0, evaluations = 0;
     for (std::size_t i = 0; i < all->size(); ++i) {
         const DensityResult& r = (*all)[i];
@@ -36,7 +34,7 @@ Result<StepResult> check_chi_square(Subject& s) {
                                                   name_case(s.density_cases()[i])));
         draws += r.draws, unresolved = std::max(unresolved, r.unresolved), evaluations += double(r.evaluations);
         if (r.spread == 0 && r.pdf_integral < 1e-6) continue; // delta lobes alone
-        ++tests, terms += double(r.chi.terms);
+        ++tests, terms += double(r.chi.terms), again += r.again;
         if (r.chi.p < least) least = r.chi.p, worst = i;
     }
     if (tests == 0) return StepResult::skip("all its lobes are delta");
@@ -44,6 +42,7 @@ Result<StepResult> check_chi_square(Subject& s) {
     for (const DensityResult& r : *all)
         failed += (r.spread > 0 || r.pdf_integral >= 1e-6) && r.chi.p < threshold;
     std::vector<Figure> figures = {{"configurations", double(tests)},
+                                   {"looked at again", double(again)},
                                    {"samples of each", draws / double(all->size())},
                                    {"bins compared, mean", terms / double(tests)},
                                    {"least p", least},

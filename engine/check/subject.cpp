@@ -101,13 +101,24 @@ const std::vector<DensityCase>& Subject::density_cases() {
     return density_cases_;
 }
 
+// Of a hundred configurations of a sound material one in ten shows such a p by chance. It is measured anew, with four
+// times the samples: chance does not come twice, and a fault shows all the more.
+constexpr double suspicious = 1e-3;
+
 Result<const std::vector<DensityResult>*> Subject::densities() {
     if (!densities_) {
         RESTAGE_TRY(BsdfLab* const used, lab());
         std::vector<DensityResult> all;
         Jobs jobs;
         for (const DensityCase& c : density_cases()) {
-            RESTAGE_TRY(DensityResult r, measure_density(*used, jobs, c, size(1'000'000, 200'000)));
+            const std::size_t draws = size(1'000'000, 200'000);
+            RESTAGE_TRY(DensityResult r, measure_density(*used, jobs, c, draws));
+            if (r.chi.p < suspicious) {
+                DensityCase longer = c;
+                longer.seed = ~c.seed;
+                RESTAGE_TRY(r, measure_density(*used, jobs, longer, 4 * draws));
+                r.again = true;
+            }
             all.push_back(std::move(r));
         }
         densities_ = std::move(all);
