@@ -2,6 +2,8 @@
 // restage plugins: what is loaded, from where, and what is not and why.
 #include "commands.hpp"
 
+#include "plugin/provides.hpp"
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -13,27 +15,10 @@ namespace {
 
 Result<int> run(Context& context, bool json) {
     auto& registry = context.registry();
-    const auto provides = [&](const plugin::Entry* entry) {
-        std::vector<std::string> names;
-        for (const auto& m : registry.materials())
-            if (m.plugin == entry) names.push_back(std::string("material ") + m.table->type);
-        for (const auto& m : registry.importers())
-            if (m.plugin == entry) names.push_back(std::string("importer ") + m.table->format);
-        for (const auto& m : registry.exporters())
-            if (m.plugin == entry) names.push_back(std::string("exporter ") + m.table->format);
-        for (const auto& m : registry.denoisers())
-            if (m.plugin == entry) {
-                const char* reason = "";
-                const bool usable = m.table->available(&reason);
-                names.push_back(std::string("denoiser ") + m.table->type +
-                                (usable ? "" : std::string(" (not available: ") + reason + ")"));
-            }
-        return names;
-    };
     nlohmann::json list = nlohmann::json::array();
     for (const auto* entry : registry.entries()) {
         const bool loaded = entry->state == plugin::State::loaded;
-        const auto names = provides(entry);
+        const auto names = plugin::provides(registry, *entry);
         if (json) {
             list.push_back({{"id", entry->manifest.id},
                             {"version", entry->manifest.version},

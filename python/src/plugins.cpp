@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plugins and reports for Python.
 #include "host.hpp"
+#include "plugin/provides.hpp"
 #include "workspace.hpp"
 
 namespace restage::python {
 
 namespace {
-
-// What a plugin provides: "material velvet", as `restage plugins` says it.
-std::vector<std::string> provides(const plugin::Registry& registry, const plugin::Entry* entry) {
-    std::vector<std::string> names;
-    for (const auto& m : registry.materials())
-        if (m.plugin == entry) names.push_back(std::string("material ") + m.table->type);
-    for (const auto& m : registry.importers())
-        if (m.plugin == entry) names.push_back(std::string("importer ") + m.table->format);
-    for (const auto& m : registry.exporters())
-        if (m.plugin == entry) names.push_back(std::string("exporter ") + m.table->format);
-    for (const auto& m : registry.denoisers())
-        if (m.plugin == entry) names.push_back(std::string("denoiser ") + m.table->type);
-    return names;
-}
 
 struct PluginInfo { // a copy: what was found, at the time of asking
     std::string id, version, kind, licence, reason;
@@ -38,7 +25,7 @@ std::vector<PluginInfo> describe(const std::vector<const plugin::Entry*>& entrie
                        .reason = e->reason,
                        .folder = e->folder,
                        .loaded = e->state == plugin::State::loaded,
-                       .provides = provides(Host::get()->registry(), e)});
+                       .provides = plugin::provides(Host::get()->registry(), *e)});
     return out;
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plugin provides, for lists that people read.
+#pragma once
+
+#include "plugin/registry.hpp"
+
+#include <string>
+#include <vector>
+
+namespace restage::plugin {
+
+// "material velvet", "importer gltf", "denoiser oidn (not available: ...)". [main]
+std::vector<std::string> provides(const Registry&, const Entry&);
+
+} // namespace restage::plugin
