@@ -5,6 +5,7 @@
 #include "file_browser.hpp"
 #include "io/image_file.hpp"
 #include "panels/state.hpp"
+#include "plugin/table_reader.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -43,6 +44,8 @@ std::string default_text(const RestageParam& line) {
         case RESTAGE_FLOAT:
         case RESTAGE_INT:
             return fmt::format("{:.4g}", v.v[0]);
+        case RESTAGE_TABLE:
+            return v.text.empty() ? "none" : std::filesystem::path(v.text).filename().string();
         default:
             return "none";
     }
@@ -114,11 +117,53 @@ void texture_popup(Editor& e, const scene::Value& value, bool scalar, ParamAsk& 
     ImGui::EndPopup();
 }
 
-void accept_image(ParamAsk& ask) {
-    if (!ImGui::BeginDragDropTarget()) return;
+std::optional<std::string> dropped_path() {
+    std::optional<std::string> path;
+    if (!ImGui::BeginDragDropTarget()) return path;
     if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path"))
-        ask.image_file = static_cast<const char*>(payload->Data);
+        path = static_cast<const char*>(payload->Data);
     ImGui::EndDragDropTarget();
+    return path;
+}
+
+// The name of a table's file, which is dropped on or chosen. Beneath it, what is wrong with it.
+bool table_field(Editor& e, const RestageParam& line, scene::Value& v, const plugin::TableReader* reader,
+                 const std::string& mark) {
+    const std::filesystem::path path(v.text);
+    const std::string problem = reader ? reader->problem(line.id, v.text) : "";
+    const float button = ImGui::CalcTextSize("Choose...").x + 2 * ImGui::GetStyle().FramePadding.x;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    std::string shown = v.text.empty() ? "None" : path.filename().string();
+    ImGui::SetNextItemWidth(std::max(ImGui::CalcItemWidth() - button - gap, button));
+    if (!problem.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertFloat4ToU32(colors::error));
+    ImGui::InputText("##value", &shown, ImGuiInputTextFlags_ReadOnly);
+    if (!problem.empty()) ImGui::PopStyleColor();
+    tip(((line.tooltip ? line.tooltip + std::string("\n") : "") + (v.text.empty() ? "No file is chosen" : v.text))
+            .c_str());
+    e.mark(mark + ".file");
+    std::optional<std::string> chosen = dropped_path();
+    ImGui::SameLine(0, gap);
+    if (ImGui::Button("Choose...")) {
+        std::vector<FileFilter> filters;
+        if (reader) filters.push_back({"Tables", reader->extensions()});
+        filters.push_back({"All files", {}});
+        const std::filesystem::path document(e.session().path());
+        browse(e, {.title = std::string("Choose a file: ") + line.label,
+                   .filters = std::move(filters),
+                   .start = path.empty() ? document.parent_path() : path.parent_path(),
+                   .done = [mark](Editor& editor, const std::filesystem::path& file) {
+                       editor.panel_state->image_choice = {mark, file.string()};
+                   }});
+    }
+    tip("Choose a file; or drop one on its name");
+    if (const std::string file = chosen_image_file(e, mark); !file.empty()) chosen = file;
+    if (!chosen) return false;
+    v.text = std::filesystem::absolute(*chosen).lexically_normal().string();
+    return true;
+}
+
+void accept_image(ParamAsk& ask) {
+    if (auto path = dropped_path()) ask.image_file = std::move(*path);
 }
 
 } // namespace
@@ -156,7 +201,7 @@ bool color_field(const char* id, float* linear, bool hdr) {
 }
 
 ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& value, bool is_set,
-                      const std::string& mark) {
+                      const std::string& mark, const plugin::TableReader* reader) {
     ParamAsk ask;
     scene::Value v = value;
     const bool textured = e.scene().textures.find(value.texture) != nullptr;
@@ -202,10 +247,13 @@ ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& v
             case RESTAGE_MATERIAL:
                 changed = material_combo(e, v, mark);
                 break;
+            case RESTAGE_TABLE:
+                changed = table_field(e, line, v, reader, mark);
+                break;
             case RESTAGE_TEXTURE:
                 break;
         }
-        tip(line.tooltip);
+        if (line.type != RESTAGE_TABLE) tip(line.tooltip);
     }
     e.mark(mark);
     if (ImGui::BeginPopupContextItem("param")) {
@@ -227,6 +275,11 @@ ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& v
         if (const std::string file = chosen_image_file(e, mark + ".texture"); !file.empty()) ask.image_file = file;
     }
     if (changed) ask.value = v;
+    if (line.type == RESTAGE_TABLE && reader)
+        if (const std::string problem = reader->problem(line.id, value.text); !problem.empty()) {
+            error_note((problem + ". It shows as grey.").c_str());
+            e.mark(mark + ".problem");
+        }
     if (textured) texture_settings(e, value.texture, mark + ".image");
     ImGui::PopID();
     return ask;

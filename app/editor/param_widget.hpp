@@ -7,6 +7,10 @@
 #include <optional>
 #include <string>
 
+namespace restage::plugin {
+class TableReader;
+}
+
 namespace restage::editor {
 
 class Editor;
@@ -18,8 +22,9 @@ struct ParamAsk { // what the user wants of it; nothing most of the time
 };
 
 // A row: label, range, unit and tooltip are the table's. A right click offers the default. `mark` names it for tests.
+// `reader`: of the files of RESTAGE_TABLE parameters, for what is wrong with one.
 ParamAsk param_widget(Editor& editor, const RestageParam& line, const scene::Value& value, bool is_set,
-                      const std::string& mark);
+                      const std::string& mark, const plugin::TableReader* reader = nullptr);
 
 // Scale, wrap, inversion and placing of an image texture, as rows that ask for edits themselves.
 void texture_settings(Editor& editor, scene::Id<scene::Texture> texture, const std::string& mark);

@@ -67,11 +67,13 @@ void empty_note(const char* text) {
     ImGui::PopStyleColor();
 }
 
-void warning_note(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colors::warning);
+static void colored_note(const char* text, const ImVec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextWrapped("%s", text);
     ImGui::PopStyleColor();
 }
+void warning_note(const char* text) { colored_note(text, colors::warning); }
+void error_note(const char* text) { colored_note(text, colors::error); }
 
 void draw_icon(ImDrawList* draw, Icon icon, ImVec2 corner, float size, ImU32 color) {
     const ImVec2 c(corner.x + size / 2, corner.y + size / 2);

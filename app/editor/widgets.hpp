@@ -23,6 +23,7 @@ void tip(const char* text);
 void empty_note(const char* text);
 // Wrapped text with the colour of a warning.
 void warning_note(const char* text);
+void error_note(const char* text);
 
 enum class Icon { eye, eye_closed, lock, lock_open, texture, light, camera, sky, cross, mesh };
 // A square button as high as a line; `on` = bright, else dim.

@@ -76,6 +76,7 @@ void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values)
             break;
         case RESTAGE_MATERIAL:
         case RESTAGE_TEXTURE:
+        case RESTAGE_TABLE:
             break; // no option can be one
     }
     e.mark(std::string("export.") + line.id);

@@ -41,7 +41,8 @@ Result<std::vector<Out>> BsdfLab::dispatch(Push push, std::span<const scene::Par
                                            std::size_t count) {
     std::vector<std::uint32_t> words;
     for (const scene::ParamSet& set : configs) {
-        const auto packed = render::pack_material(table(), set);
+        RESTAGE_TRY(const auto tables, tables_.find(material_, set));
+        const auto packed = render::pack_material(table(), set, tables);
         words.insert(words.end(), packed.begin(), packed.end());
     }
     push.words = static_cast<std::uint32_t>(words.size() / configs.size());

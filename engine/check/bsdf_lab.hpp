@@ -6,7 +6,7 @@
 #include "gpu/compiler.hpp"
 #include "gpu/device.hpp"
 #include "gpu/pipeline.hpp"
-#include "render/material_types.hpp"
+#include "render/table_store.hpp"
 #include "scene/params.hpp"
 
 #include <array>
@@ -77,10 +77,12 @@ class BsdfLab {
     bool is(std::uint32_t flag) const { return (table().flags & flag) != 0; }
 
   private:
-    BsdfLab(gpu::Device& device, render::MaterialPlugin material) : device_(&device), material_(std::move(material)) {}
+    BsdfLab(gpu::Device& device, render::MaterialPlugin material)
+        : device_(&device), material_(std::move(material)), tables_(device) {}
     gpu::Device* device_;
     render::MaterialPlugin material_;
     gpu::ComputePipeline pipeline_;
+    render::TableStore tables_;
     gpu::Buffer in_, out_; // of one dispatch; kept
 
     struct Push;

@@ -185,7 +185,7 @@ std::string describe(const ParamSet& set) {
     out.precision(9);
     for (const auto& [id, v] : set.entries()) {
         out << (&id == &set.entries().front().id ? "" : " ") << id << '=';
-        if (v.type == RESTAGE_ENUM)
+        if (v.type == RESTAGE_ENUM || v.type == RESTAGE_TABLE)
             out << v.text;
         else if (v.type == RESTAGE_COLOR)
             out << '(' << v.v[0] << ' ' << v.v[1] << ' ' << v.v[2] << ')';

@@ -19,6 +19,12 @@ using scene::ParamSet;
 
 namespace {
 
+std::string placed(std::string text, const std::string& id) { // "m.$" becomes "m.id"
+    for (std::size_t at; (at = text.find('$')) != std::string::npos;)
+        text.replace(at, 1, id);
+    return text;
+}
+
 // One expression a word, in the order of the table.
 std::vector<std::pair<std::string, std::string>> words_of(const RestageMaterial1& table) { // GLSL, name for people
     std::vector<std::pair<std::string, std::string>> words;
@@ -31,12 +37,19 @@ std::vector<std::pair<std::string, std::string>> words_of(const RestageMaterial1
                 words.emplace_back("floatBitsToUint(m." + id + c + ")", id + c);
         if (p.type == RESTAGE_INT || p.type == RESTAGE_ENUM || p.type == RESTAGE_BOOL)
             words.emplace_back("uint(m." + id + ")", id);
+        if (p.type == RESTAGE_TABLE)
+            for (const char* at : {"0u", "table_size(m.$) - 1u", "table_size(m.$)"}) {
+                std::string word = std::string("table_word(m.$, ") + at + ")", size = "table_size(m.$)";
+                if (std::string_view(at) == "0u") words.emplace_back(placed(size, id), id + ", its size");
+                words.emplace_back(placed(word, id), id + ", its word at " + at);
+            }
     }
     return words;
 }
 
 // What the GLSL must see, from the set itself and not from how it is packed.
-std::vector<std::uint32_t> expected_words(const RestageMaterial1& table, const ParamSet& set) {
+Result<std::vector<std::uint32_t>> expected_words(const Subject& s, const ParamSet& set) {
+    const RestageMaterial1& table = s.table();
     std::vector<std::uint32_t> words;
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& p = table.params[i];
@@ -53,6 +66,14 @@ std::vector<std::uint32_t> expected_words(const RestageMaterial1& table, const P
             for (std::size_t k = 0; v && k < choices(p); ++k)
                 if (choice(p, k) == v->text) index = static_cast<std::uint32_t>(k);
             words.push_back(index);
+        }
+        if (p.type == RESTAGE_TABLE) {
+            RESTAGE_TRY(const auto read, s.material().source->table_reader()->read(p.id, render::table_path(p, set)));
+            const auto& in = read->words;
+            words.push_back(static_cast<std::uint32_t>(in.size()));
+            words.push_back(in.empty() ? 0 : in.front());
+            words.push_back(in.empty() ? 0 : in.back());
+            words.push_back(0); // past its end
         }
     }
     return words;
@@ -77,7 +98,7 @@ Result<StepResult> through_glsl(Subject& s, const std::vector<ParamSet>& sets) {
     RESTAGE_TRY(gpu::ShaderCompiler* const compiler, s.compiler());
     render::MaterialType type;
     type.type = s.table().type;
-    type.plugin = {&s.table(), s.folder};
+    type.plugin = s.material();
     gpu::ShaderSource source = render::compose_material(type, "check_params.glsl", gpu::ShaderStage::compute);
     source.files["check_params.glsl"] = main + "}\n";
     RESTAGE_TRY(const gpu::Spirv spirv, compiler->compile(source));
@@ -86,15 +107,17 @@ Result<StepResult> through_glsl(Subject& s, const std::vector<ParamSet>& sets) {
                 gpu::ComputePipeline::create(*device, spirv, sizeof(Push), constants, "check params"));
     RESTAGE_TRY(gpu::Buffer out,
                 device->create_buffer((words.size() + 4) * 4, gpu::BufferKind::readback, "check params answer"));
+    render::TableStore tables(*device);
     for (const ParamSet& set : sets) {
-        std::vector<std::uint32_t> packed = render::pack_material(s.table(), set);
+        RESTAGE_TRY(const auto found, tables.find(type.plugin, set));
+        std::vector<std::uint32_t> packed = render::pack_material(s.table(), set, found);
         packed.resize(packed.size() + 4);
         RESTAGE_TRY(const gpu::Buffer in, device->create_buffer_of<std::uint32_t>(packed, "check params words"));
         const Push push{in.address(), out.address()};
         RESTAGE_TRY(gpu::CommandList commands, device->begin());
         commands.dispatch(pipeline, gpu::push_bytes(push), 1);
         RESTAGE_CHECK(device->submit_and_wait(commands));
-        const auto expected = expected_words(s.table(), set);
+        RESTAGE_TRY(const auto expected, expected_words(s, set));
         for (std::size_t i = 0; i < words.size(); ++i)
             if (out.span<std::uint32_t>()[i] != expected[i])
                 return StepResult::failed(fmt::format("{} arrives in the GLSL as 0x{:08x}, not as 0x{:08x}\n  with {}",

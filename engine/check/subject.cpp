@@ -51,8 +51,9 @@ Result<> Subject::load() {
     return {};
 }
 
-void Subject::choose(const RestageMaterial1* table) {
-    table_ = table;
+void Subject::choose(const plugin::MaterialEntry& material) {
+    table_ = material.table;
+    source_ = material.source;
     lab_.reset();
     densities_.reset();
     density_cases_.clear();
@@ -82,7 +83,7 @@ Result<BsdfLab*> Subject::lab() {
     if (!lab_) {
         RESTAGE_TRY(gpu::Device* const device_used, device());
         RESTAGE_TRY(gpu::ShaderCompiler* const compiler_used, compiler());
-        RESTAGE_TRY(BsdfLab made, BsdfLab::create(*device_used, *compiler_used, {table_, folder}));
+        RESTAGE_TRY(BsdfLab made, BsdfLab::create(*device_used, *compiler_used, material()));
         lab_ = std::make_unique<BsdfLab>(std::move(made));
         lab_->on_dispatch = alive;
     }
@@ -174,7 +175,7 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
     if (!broken.empty()) return;
     for (const auto& m : subject.registry().materials()) {
         broken.clear();
-        subject.choose(m.table);
+        subject.choose(m);
         run_all(material_steps(), m.table->type);
         if (measured && broken.empty() && !subject.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) measured();
     }

@@ -42,8 +42,9 @@ class Subject {
     const plugin::Entry* entry() const { return entry_; } // null before load
 
     // The material that the following steps are about.
-    void choose(const RestageMaterial1* table);
+    void choose(const plugin::MaterialEntry& material);
     const RestageMaterial1& table() const { return *table_; }
+    render::MaterialPlugin material() const { return {table_, folder, source_}; }
     bool is(std::uint32_t flag) const { return (table_->flags & flag) != 0; }
     Result<gpu::Device*> device();
     Result<gpu::ShaderCompiler*> compiler();
@@ -61,6 +62,7 @@ class Subject {
     std::unique_ptr<plugin::Registry> registry_;
     const plugin::Entry* entry_ = nullptr;
     const RestageMaterial1* table_ = nullptr;
+    std::shared_ptr<const plugin::MaterialSource> source_; // keeps it alive
     std::map<std::string, Exception> exceptions_;
     std::unique_ptr<gpu::Device> device_;
     std::unique_ptr<gpu::ShaderCompiler> compiler_;

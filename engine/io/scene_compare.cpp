@@ -149,6 +149,8 @@ class Describer {
             case RESTAGE_ENUM:
             case RESTAGE_TEXT:
                 return v.text;
+            case RESTAGE_TABLE: // an export may have copied it
+                return std::filesystem::path(v.text).filename().string();
             case RESTAGE_MATERIAL:
                 return "{" + material(v.material, depth + 1) + "}";
             case RESTAGE_TEXTURE:

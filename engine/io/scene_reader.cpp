@@ -20,7 +20,8 @@ std::vector<RestageValue> values_of(const ParamSet& params) { // pointing into p
         RestageValue out{
             .id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = nullptr};
         std::memcpy(out.v, value.v.data(), sizeof out.v);
-        if (value.type == RESTAGE_ENUM || value.type == RESTAGE_TEXT) out.text = value.text.c_str();
+        if (value.type == RESTAGE_ENUM || value.type == RESTAGE_TEXT || value.type == RESTAGE_TABLE)
+            out.text = value.text.c_str();
         out.ref = value.type == RESTAGE_MATERIAL ? value.material.value : value.texture.value;
         list.push_back(out);
     }

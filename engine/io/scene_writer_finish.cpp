@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is done once the importer has pushed all: pixels, a camera where there is none, and the last check.
 #include "io/image_file.hpp"
+#include "io/material_tables.hpp"
 #include "io/scene_writer.hpp"
 #include "scene/bounds.hpp"
 #include "scene/validate.hpp"
@@ -61,7 +62,10 @@ void SceneWriter::add_camera() {
 
 Result<> SceneWriter::finish(Jobs& jobs, bool with_images) {
     if (!scene.active_camera.value) add_camera();
-    if (with_images) read_images(jobs);
+    if (with_images) {
+        read_images(jobs);
+        report_tables(scene, registry_, report);
+    }
     for (const Problem& problem : validate(scene))
         if (problem.severity == Problem::Severity::error) return fail(problem.sentence);
     scene.film.version = scene.settings.version = scene.environment.version = scene.clock;

@@ -15,7 +15,7 @@ ParamSet SceneWriter::params(const RestageValue* values, std::uint32_t count, co
         const RestageValue& in = values[i];
         const std::string id = text(in.id);
         const auto drop = [&](const char* why) { refuse(who + ": parameter \"" + id + "\"", why); };
-        if (id.empty() || in.type < RESTAGE_FLOAT || in.type > RESTAGE_TEXTURE) {
+        if (id.empty() || in.type < RESTAGE_FLOAT || in.type > RESTAGE_TABLE) {
             drop("it has no id or an unknown type");
             continue;
         }

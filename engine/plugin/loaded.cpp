@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "plugin/registry.hpp"
+#include "plugin/table_reader.hpp"
 #include "plugin/tables.hpp"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manif
         return loaded;
     }
     RESTAGE_CHECK(loaded->open_library(folder, manifest, log));
-    RESTAGE_CHECK(loaded->take_tables(folder, manifest));
+    RESTAGE_CHECK(loaded->take_tables(folder, manifest, log));
     return loaded;
 }
 
@@ -112,7 +113,7 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
     return {};
 }
 
-Result<> Loaded::take_tables(const fs::path& folder, const Manifest& manifest) {
+Result<> Loaded::take_tables(const fs::path& folder, const Manifest& manifest, Log& log) {
     const std::string library = (folder / manifest.library).string();
     const auto missing = [&](const char* interface_id) {
         return fail(library + ": provides no " + interface_id + ", though its kind is " + to_string(manifest.kind));
@@ -121,6 +122,8 @@ Result<> Loaded::take_tables(const fs::path& folder, const Manifest& manifest) {
         case Kind::material: {
             RESTAGE_TRY(const auto found, query_all<RestageMaterial1>(*table_, RESTAGE_MATERIAL1, folder, library));
             if (found.empty()) return missing(RESTAGE_MATERIAL1);
+            RESTAGE_TRY(const auto readers, query_all<RestageTable1>(*table_, RESTAGE_TABLE1, folder, library));
+            RESTAGE_CHECK(take_table_readers(found, readers, manifest, log, library));
             RESTAGE_CHECK(take_materials(found, folder, library));
             RESTAGE_TRY(inspectors, query_all<RestageInspector1>(*table_, RESTAGE_INSPECTOR1, folder, library));
             for (const RestageInspector1* i : inspectors)
@@ -159,12 +162,36 @@ Result<> Loaded::take_materials(std::span<const RestageMaterial1* const> tables,
                 return fail(who + ": material \"" + table->type + "\": the prefix \"" + table->prefix +
                             "\" is already taken by material \"" + other->table().type + "\"");
         }
-        materials.push_back(std::make_shared<const MaterialSource>(*table, folder, glsl));
+        const auto reader = std::find_if(table_readers.begin(), table_readers.end(),
+                                         [&](const auto& r) { return r->material_type() == key(*table); });
+        materials.push_back(std::make_shared<const MaterialSource>(*table, folder, glsl,
+                                                                   reader == table_readers.end() ? nullptr : *reader));
     }
     return {};
 }
 
+Result<> Loaded::take_table_readers(std::span<const RestageMaterial1* const> tables,
+                                    std::span<const RestageTable1* const> readers, const Manifest& manifest, Log& log,
+                                    const std::string& who) {
+    for (const RestageTable1* reader : readers) {
+        const auto its = std::find_if(tables.begin(), tables.end(),
+                                      [&](const RestageMaterial1* m) { return key(*m) == key(*reader); });
+        if (its == tables.end() || !has_table(**its))
+            return fail(who + ": reads tables for \"" + reader->type +
+                        "\", which is no material of it with a parameter of that type");
+        table_readers.push_back(std::make_shared<TableReader>(*reader, manifest.id, log));
+    }
+    for (const RestageMaterial1* m : tables)
+        if (has_table(*m) &&
+            std::none_of(readers.begin(), readers.end(), [&](const RestageTable1* r) { return key(*r) == key(*m); }))
+            return fail(who + ": material \"" + m->type +
+                        "\" has a table as a parameter, and nothing reads it: " + RESTAGE_TABLE1 + " is missing");
+    return {};
+}
+
 Loaded::~Loaded() {
+    for (const auto& reader : table_readers)
+        reader->close();
     if (running_ && table_->shutdown) table_->shutdown();
 }
 

@@ -13,6 +13,7 @@
 #include <restage/inspector.h>
 #include <restage/plugin.h>
 #include <restage/scene_io.h>
+#include <restage/table.h>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ class Loaded {
 
     std::vector<std::shared_ptr<const MaterialSource>> materials;
     std::vector<const RestageInspector1*> inspectors;
+    std::vector<std::shared_ptr<TableReader>> table_readers;
     std::vector<const RestageImporter1*> importers;
     std::vector<const RestageExporter1*> exporters;
     std::vector<const RestageDenoiser1*> denoisers;
@@ -45,9 +47,12 @@ class Loaded {
   private:
     Loaded() = default;
     Result<> open_library(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
-    Result<> take_tables(const std::filesystem::path& folder, const Manifest& manifest);
+    Result<> take_tables(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
     Result<> take_materials(std::span<const RestageMaterial1* const> tables, const std::filesystem::path& folder,
                             const std::string& who);
+    Result<> take_table_readers(std::span<const RestageMaterial1* const> materials,
+                                std::span<const RestageTable1* const> readers, const Manifest& manifest, Log& log,
+                                const std::string& who);
 
     std::optional<Library> library_;
     Host host_{};
@@ -58,6 +63,7 @@ class Loaded {
 // "conductor", "pbrt", "oidn": what a table is found by.
 inline std::string_view key(const RestageMaterial1& t) { return t.type; }
 inline std::string_view key(const RestageInspector1& t) { return t.type; }
+inline std::string_view key(const RestageTable1& t) { return t.type; }
 inline std::string_view key(const RestageImporter1& t) { return t.format; }
 inline std::string_view key(const RestageExporter1& t) { return t.format; }
 inline std::string_view key(const RestageDenoiser1& t) { return t.type; }

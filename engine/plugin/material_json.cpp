@@ -83,6 +83,8 @@ struct JsonReader {
         RESTAGE_TRY(p.id, text(object, "id", nullptr, where));
         RESTAGE_TRY(p.label, text(object, "label", p.id, where));
         RESTAGE_TRY(const char* type, text(object, "type", nullptr, where));
+        if (std::string_view(type) == "table")
+            return fail(where + ": a table is read by native code (restage/table.h), which this plugin does not have");
         RESTAGE_TRY(p.type, look_up(type_words, type, where + ": \"type\""));
         RESTAGE_TRY(p.flags, flags(object, param_flag_words, where));
         RESTAGE_TRY(p.min, number(object, "min", 0, where));

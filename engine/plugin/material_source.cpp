@@ -49,8 +49,12 @@ Result<std::shared_ptr<const FileTexts>> read_glsl(const fs::path& folder) {
 
 const char* MaterialSource::keep(const char* text) { return text ? strings_.emplace_back(text).c_str() : nullptr; }
 
-MaterialSource::MaterialSource(const RestageMaterial1& table, fs::path folder, std::shared_ptr<const FileTexts> glsl)
-    : folder_(std::move(folder)), glsl_(std::move(glsl)), params_(table.params, table.params + table.param_count) {
+MaterialSource::MaterialSource(const RestageMaterial1& table, fs::path folder, std::shared_ptr<const FileTexts> glsl,
+                               std::shared_ptr<TableReader> table_reader)
+    : folder_(std::move(folder)),
+      glsl_(std::move(glsl)),
+      table_reader_(std::move(table_reader)),
+      params_(table.params, table.params + table.param_count) {
     table_.size = sizeof table_;
     table_.flags = table.flags;
     table_.type = keep(table.type);
@@ -74,6 +78,8 @@ MaterialSource::MaterialSource(const RestageMaterial1& table, fs::path folder, s
             digest.number(n);
         for (const float v : {p.min, p.max, p.def[0], p.def[1], p.def[2], p.def[3]})
             digest.number(v);
+        if (p.type == RESTAGE_TABLE && p.choices && *p.choices)
+            p.choices = keep((folder_ / p.choices).lexically_normal().string().c_str());
     }
     table_.params = params_.data();
     table_.param_count = static_cast<std::uint32_t>(params_.size());

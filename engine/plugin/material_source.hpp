@@ -19,6 +19,8 @@
 
 namespace restage::plugin {
 
+class TableReader;
+
 // Text of files, by their absolute, lexically normal path.
 using FileTexts = std::map<std::filesystem::path, std::string>;
 
@@ -28,12 +30,15 @@ Result<std::shared_ptr<const FileTexts>> read_glsl(const std::filesystem::path& 
 class MaterialSource {
   public:
     // `table` must have passed check_table.
-    MaterialSource(const RestageMaterial1& table, std::filesystem::path folder, std::shared_ptr<const FileTexts> glsl);
+    MaterialSource(const RestageMaterial1& table, std::filesystem::path folder, std::shared_ptr<const FileTexts> glsl,
+                   std::shared_ptr<TableReader> table_reader = nullptr);
     MaterialSource(const MaterialSource&) = delete;
 
     const RestageMaterial1& table() const { return table_; } // lives as long as this
     const std::filesystem::path& folder() const { return folder_; }
     const std::shared_ptr<const FileTexts>& glsl() const { return glsl_; }
+    // Of its RESTAGE_TABLE parameters, whose defaults are absolute paths here; null = it has none.
+    const std::shared_ptr<TableReader>& table_reader() const { return table_reader_; }
     // Equal numbers: equal table and equal GLSL.
     std::uint64_t revision() const { return revision_; }
 
@@ -42,6 +47,7 @@ class MaterialSource {
 
     std::filesystem::path folder_;
     std::shared_ptr<const FileTexts> glsl_;
+    std::shared_ptr<TableReader> table_reader_;
     std::deque<std::string> strings_; // does not move what it holds
     std::vector<RestageParam> params_;
     RestageMaterial1 table_{};

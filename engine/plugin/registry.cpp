@@ -4,6 +4,7 @@
 
 #include "base/file.hpp"
 #include "plugin/loaded.hpp"
+#include "plugin/table_reader.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -215,6 +216,8 @@ void Registry::list() {
         const Entry* entry = &plugin->entry;
         for (const auto& source : plugin->loaded->materials)
             materials.push_back({&source->table(), entry, entry->blame("while its GLSL was being compiled"), source});
+        for (const auto& reader : plugin->loaded->table_readers)
+            reader->set_blame(entry->blame("while it read a table"));
         for (const auto* table : plugin->loaded->inspectors)
             inspectors_.push_back(table);
         for (const auto* table : plugin->loaded->importers)

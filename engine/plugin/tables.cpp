@@ -76,6 +76,7 @@ std::string check_param(const RestageParam& p) {
         case RESTAGE_TEXT:
         case RESTAGE_MATERIAL:
         case RESTAGE_TEXTURE:
+        case RESTAGE_TABLE:
             return "";
         default:
             return "its type " + std::to_string(p.type) + " is unknown";
@@ -98,6 +99,16 @@ std::string check_size(const T& table, const char* interface_id) {
 bool has_param(const RestageMaterial1& m, std::string_view id, std::uint32_t type) {
     return std::any_of(m.params, m.params + m.param_count,
                        [&](const RestageParam& p) { return p.id == id && p.type == type; });
+}
+
+std::string check_default_table(const RestageParam& p, const fs::path& folder) {
+    if (p.type != RESTAGE_TABLE || !p.choices || !*p.choices) return "";
+    const fs::path file = fs::path(p.choices).lexically_normal();
+    const std::string who = "parameter " + quoted(p.id) + ": its default, ";
+    if (file.is_absolute() || file.has_root_name() || *file.begin() == "..")
+        return who + quoted(p.choices) + ", is outside of the plugin's folder";
+    std::error_code code;
+    return fs::is_regular_file(folder / file, code) ? "" : who + (folder / file).string() + ", is missing";
 }
 
 std::string check_format(const char* what, const char* format, const char* label, const char* extensions) {
@@ -151,6 +162,9 @@ std::string check_table(const RestageMaterial1& m, const fs::path& folder) {
         for (const std::string_view taken : {"bump", "normalmap"})
             if (taken == m.params[i].id)
                 return who + ": parameter \"" + std::string(taken) + "\" belongs to the host: every material has it";
+    for (std::uint32_t i = 0; i < m.param_count; ++i)
+        if (const std::string problem = check_default_table(m.params[i], folder); !problem.empty())
+            return who + ": " + problem;
     if (m.flags & RESTAGE_MATERIAL_MIX)
         return has_param(m, "first", RESTAGE_MATERIAL) && has_param(m, "second", RESTAGE_MATERIAL) &&
                        has_param(m, "amount", RESTAGE_FLOAT)
@@ -193,6 +207,18 @@ std::string check_table(const RestageInspector1& t) {
     if (const std::string problem = check_size(t, RESTAGE_INSPECTOR1); !problem.empty()) return problem;
     if (!t.type || !is_type_name(t.type)) return "an inspector that does not say for which material it is";
     return t.draw ? "" : "the inspector of " + quoted(t.type) + " lacks draw";
+}
+
+std::string check_table(const RestageTable1& t) {
+    if (const std::string problem = check_size(t, RESTAGE_TABLE1); !problem.empty()) return problem;
+    if (!t.type || !is_type_name(t.type)) return "a reader of tables that does not say for which material it is";
+    if (!t.extensions || !*t.extensions) return "the reader of tables of " + quoted(t.type) + " names no extensions";
+    return t.read ? "" : "the reader of tables of " + quoted(t.type) + " lacks read";
+}
+
+bool has_table(const RestageMaterial1& m) {
+    return std::any_of(m.params, m.params + m.param_count,
+                       [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
 }
 
 } // namespace restage::plugin

@@ -7,6 +7,7 @@
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
+#include <restage/table.h>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,5 +21,7 @@ std::string check_table(const RestageImporter1&);
 std::string check_table(const RestageExporter1&);
 std::string check_table(const RestageDenoiser1&);
 std::string check_table(const RestageInspector1&);
+std::string check_table(const RestageTable1&);
+bool has_table(const RestageMaterial1&); // a parameter of type RESTAGE_TABLE
 
 } // namespace restage::plugin

@@ -22,7 +22,7 @@ static_assert(sizeof(shared::LightData) == 64);
 static_assert(sizeof(shared::ImageData) == 24);
 
 GpuScene::GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup)
-    : device_(&device), jobs_(&jobs), lookup_(std::move(lookup)) {
+    : device_(&device), jobs_(&jobs), lookup_(std::move(lookup)), tables_(device) {
     scene_data_.resize(1, {});
 }
 
@@ -270,14 +270,15 @@ std::size_t GpuScene::bytes() const {
         sum += mesh.buffer.size();
     for (const auto& p : pixels_)
         sum += p.buffer.size();
-    return sum;
+    return sum + tables_.bytes();
 }
 
 std::size_t GpuScene::uploaded_bytes() const {
     return instances_.uploaded_bytes() + materials_.uploaded_bytes() + params_.uploaded_bytes() +
            programs_.uploaded_bytes() + ops_.uploaded_bytes() + images_.uploaded_bytes() + lights_.uploaded_bytes() +
            light_alias_.uploaded_bytes() + media_.uploaded_bytes() + env_texels_.uploaded_bytes() +
-           env_alias_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes();
+           env_alias_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() +
+           tables_.uploaded_bytes();
 }
 
 } // namespace restage::render

@@ -10,10 +10,12 @@
 #include "render/gpu_array.hpp"
 #include "render/light_table.hpp"
 #include "render/material_composer.hpp"
+#include "render/table_store.hpp"
 #include "render/texture_program.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>
+#include <set>
 #include <unordered_map>
 
 namespace restage::render {
@@ -34,7 +36,7 @@ struct SceneChanges {
     std::vector<scene::Id<scene::Mesh>> meshes;         // new or replaced
     std::vector<scene::Id<scene::Instance>> instances;  // moved, added, removed, shown, hidden; or of a replaced mesh
     bool film = false;     // size or crop
-    std::vector<std::string> warnings; // of what had to be mended: texels that are no numbers
+    std::vector<std::string> warnings; // of what had to be mended: texels that are no numbers, tables that are none
 };
 
 class GpuScene {
@@ -104,6 +106,8 @@ class GpuScene {
     std::vector<Pixels> pixels_;                                    // by Id<Image>::value
     std::vector<CpuImage> cpu_images_;
     TexturePrograms textures_;
+    TableStore tables_;
+    std::set<std::string> said_; // warnings of tables that were given already
     std::vector<MaterialType> types_;
     std::vector<float> mix_amount_; // constants by MaterialData index
     std::vector<std::uint32_t> mix_texture_;

@@ -30,7 +30,9 @@ bool GpuScene::refresh_types() {
     for (MaterialType& t : types_) {
         const MaterialPlugin now = lookup_(t.type).value_or(MaterialPlugin{});
         if (now.table == t.plugin.table && now.revision() == t.plugin.revision()) continue;
-        changed |= now.revision() != t.plugin.revision() || !now.table != !t.plugin.table;
+        const auto reader = [](const MaterialPlugin& p) { return p.source ? p.source->table_reader() : nullptr; };
+        changed |=
+            now.revision() != t.plugin.revision() || !now.table != !t.plugin.table || reader(now) != reader(t.plugin);
         t.plugin = now;
     }
     return changed;
@@ -65,12 +67,14 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     std::vector<std::uint32_t> words;
     mix_amount_.assign(records.size(), 0.5f);
     mix_texture_.assign(records.size(), 0);
-    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type) {
+    tables_.begin();
+    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type,
+                          std::span<const DeviceTable> tables = {}) {
         record.type = type;
         const auto color = stand_in_color(*types_[type].plugin.table, params);
         words.insert(words.end(), color.begin(), color.end());
         record.params = std::uint32_t(words.size());
-        const auto packed = pack_material(*types_[type].plugin.table, params);
+        const auto packed = pack_material(*types_[type].plugin.table, params, tables);
         words.insert(words.end(), packed.begin(), packed.end());
     };
     scene::ParamSet pink;
@@ -109,7 +113,16 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             record.type = index;
             return;
         }
-        pack(record, m.params, index);
+        const auto tables = tables_.find(type.plugin, m.params);
+        if (!tables) { // its file is missing or broken: grey, until it is mended
+            pack(record, {}, fallback);
+            if (std::string text =
+                    "material \"" + m.name + "\": " + tables.error().message + "; a grey one stands for it";
+                said_.insert(text).second)
+                changes.warnings.push_back(std::move(text));
+            return;
+        }
+        pack(record, m.params, index, *tables);
         record.bump = m.params.texture("bump").value;
         record.normal_map = m.params.texture("normalmap").value;
         type.bump |= record.bump || record.normal_map;
@@ -118,6 +131,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             if ((table.params[i].flags & RESTAGE_PARAM_TEXTURABLE) && m.params.texture(table.params[i].id))
                 type.textured |= std::uint64_t(1) << i;
     });
+    tables_.sweep();
     has_gaps_.assign(records.size(), 0);
     for (int depth = 0; depth < 8; ++depth) // as deep as mixes are resolved
         for (std::size_t i = 0; i < records.size(); ++i)

@@ -15,6 +15,8 @@ const char* glsl_type(const RestageParam& p) {
             return "float";
         case RESTAGE_BOOL:
             return "bool";
+        case RESTAGE_TABLE:
+            return "Table";
         default:
             return "int";
     }
@@ -31,6 +33,11 @@ std::string read_value(const RestageParam& p, std::uint32_t at) {
             return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
         case RESTAGE_BOOL:
             return fmt::format("w.at[at + {}] != 0u", at);
+        case RESTAGE_TABLE:
+            return fmt::format(
+                "Table(uint64_t(w.at[at + {}]) | uint64_t(w.at[at + {}]) << 32, "
+                "w.at[at + {}])",
+                at, at + 1, at + 2);
         default:
             return fmt::format("int(w.at[at + {}])", at);
     }
@@ -44,6 +51,8 @@ std::string default_value(const RestageParam& p) {
             return fmt::format("float({})", p.def[0]);
         case RESTAGE_BOOL:
             return p.def[0] != 0 ? "true" : "false";
+        case RESTAGE_TABLE:
+            return "Table(uint64_t(0), 0u)";
         default:
             return fmt::format("{}", int(p.def[0]));
     }
@@ -55,11 +64,12 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
     const std::string prefix = table.prefix;
     std::string fields, fetch;
     std::uint32_t at = 0;
-    bool colored = false;
+    bool colored = false, tables = false;
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& line = table.params[i];
         const auto n = value_words(line);
         if (n == 0) continue;
+        tables |= line.type == RESTAGE_TABLE;
         fields += fmt::format("    {} {};\n", glsl_type(line), line.id);
         if (stand_in) {
             const bool color = line.type == RESTAGE_COLOR && std::exchange(colored, true) == false;
@@ -88,7 +98,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
 {rt}#include "lib/bsdf.glsl"
 #include "lib/rng.glsl"
 #include "lib/texture.glsl"
-struct {p}_Params {{
+{tables}struct {p}_Params {{
 {fields}}};
 #include "{file}"
 #define Material {p}_Params
@@ -104,8 +114,9 @@ vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 #include "{main}"
 )",
         fmt::arg("revision", type.plugin.revision()), fmt::arg("p", prefix), fmt::arg("fields", fields),
-        fmt::arg("fetch", fetch), fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""),
-        fmt::arg("rng", rng), fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
+        fmt::arg("fetch", fetch), fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),
+        fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),
+        fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
         fmt::arg("rt", stage == gpu::ShaderStage::compute ? "" : "#extension GL_EXT_ray_tracing : require\n"));
     return source;
 }

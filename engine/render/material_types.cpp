@@ -17,6 +17,7 @@ MaterialLookup material_lookup(const plugin::Registry& registry) {
 std::uint32_t value_words(const RestageParam& p) {
     switch (p.type) {
         case RESTAGE_COLOR:
+        case RESTAGE_TABLE: // address, size
             return 3;
         case RESTAGE_FLOAT:
         case RESTAGE_INT:
@@ -28,8 +29,15 @@ std::uint32_t value_words(const RestageParam& p) {
     }
 }
 
-std::vector<std::uint32_t> pack_material(const RestageMaterial1& table, const scene::ParamSet& params) {
+std::string table_path(const RestageParam& line, const scene::ParamSet& params) {
+    const scene::Value* set = params.find(line.id);
+    return set && set->type == RESTAGE_TABLE ? set->text : scene::default_value(line).text;
+}
+
+std::vector<std::uint32_t> pack_material(const RestageMaterial1& table, const scene::ParamSet& params,
+                                         std::span<const DeviceTable> tables) {
     std::vector<std::uint32_t> words;
+    std::size_t next_table = 0;
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& line = table.params[i];
         const auto n = value_words(line);
@@ -45,6 +53,14 @@ std::vector<std::uint32_t> pack_material(const RestageMaterial1& table, const sc
             case RESTAGE_FLOAT:
                 words.push_back(std::bit_cast<std::uint32_t>(value.v[0]));
                 break;
+            case RESTAGE_TABLE: {
+                const DeviceTable t = next_table < tables.size() ? tables[next_table] : DeviceTable{};
+                ++next_table;
+                words.push_back(std::uint32_t(t.address));
+                words.push_back(std::uint32_t(t.address >> 32));
+                words.push_back(t.size);
+                break;
+            }
             case RESTAGE_ENUM: {
                 const auto index = scene::choice_index(line.choices, value.text);
                 words.push_back(std::uint32_t(index ? *index : int(line.def[0])));
@@ -62,7 +78,8 @@ std::string word_layout(const RestageMaterial1* table) {
     std::string layout;
     for (std::uint32_t i = 0; table && i < table->param_count; ++i)
         layout += " " + std::to_string(value_words(table->params[i])) + "+" +
-                  std::to_string(line_words(table->params[i]) - value_words(table->params[i]));
+                  std::to_string(line_words(table->params[i]) - value_words(table->params[i])) +
+                  (table->params[i].type == RESTAGE_TABLE ? "t" : ""); // no number is taken for an address
     return layout;
 }
 

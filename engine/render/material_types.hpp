@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,18 @@ inline std::uint32_t line_words(const RestageParam& p) {
     return n == 0 ? 0 : n + ((p.flags & RESTAGE_PARAM_TEXTURABLE) ? 1 : 0);
 }
 
-// The words of one material: values of the table's lines in order, defaults where nothing is set.
-std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::ParamSet&);
+// A table in device memory; see TableStore.
+struct DeviceTable {
+    std::uint64_t address = 0;
+    std::uint32_t size = 0; // words
+};
+// The file a RESTAGE_TABLE line names: what is set, else its default; "" = none.
+std::string table_path(const RestageParam& line, const scene::ParamSet&);
+
+// The words of one material: values of the table's lines in order, defaults where nothing is set. `tables`: of its
+// RESTAGE_TABLE lines, in order; those that are missing are empty.
+std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::ParamSet&,
+                                         std::span<const DeviceTable> tables = {});
 
 // How those words lie, as a text: shaders composed for one table read what was packed for another of the same layout.
 std::string word_layout(const RestageMaterial1*);

@@ -61,6 +61,9 @@ Value default_value(const RestageParam& param) {
             value.text = rest.substr(0, rest.find('|'));
             break;
         }
+        case RESTAGE_TABLE:
+            value.text = param.choices ? param.choices : "";
+            break;
         case RESTAGE_TEXT:
         case RESTAGE_MATERIAL:
         case RESTAGE_TEXTURE:

@@ -20,7 +20,7 @@ struct Material;
 struct Value {
     RestageType type = RESTAGE_FLOAT;
     std::array<float, 4> v{};
-    std::string text;      // ENUM, TEXT
+    std::string text;      // ENUM, TEXT; TABLE: an absolute path
     Id<Texture> texture;   // stands for v
     Id<Material> material; // MATERIAL
 
@@ -29,6 +29,7 @@ struct Value {
     static Value integer(int i) { return {.type = RESTAGE_INT, .v = {static_cast<float>(i), 0, 0, 0}}; }
     static Value boolean(bool b) { return {.type = RESTAGE_BOOL, .v = {b ? 1.f : 0.f, 0, 0, 0}}; }
     static Value choice(std::string text) { return {.type = RESTAGE_ENUM, .text = std::move(text)}; }
+    static Value table(std::string path) { return {.type = RESTAGE_TABLE, .text = std::move(path)}; }
     bool operator==(const Value&) const = default;
 };
 

@@ -14,7 +14,8 @@ namespace restage::session {
 
 using json = nlohmann::ordered_json;
 
-inline constexpr const char* type_names[] = {"float", "color", "int", "bool", "enum", "text", "material", "texture"};
+inline constexpr const char* type_names[] = {"float", "color",    "int",     "bool", "enum",
+                                             "text",  "material", "texture", "table"};
 
 // The shortest decimal that reads back as this number; "inf", "-inf", "nan" as text.
 json number_json(float x);

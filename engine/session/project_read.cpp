@@ -6,6 +6,7 @@
 
 #include "base/file.hpp"
 #include "io/image_file.hpp"
+#include "io/material_tables.hpp"
 #include "scene/bounds.hpp"
 #include "scene/validate.hpp"
 
@@ -38,11 +39,7 @@ std::shared_ptr<const PixelData> stand_in_pixels() {
 class Reader : public ValueReader {
   public:
     Reader(const std::string& path, const plugin::Registry& registry, const ReadOptions& options)
-        : ValueReader(path),
-          path_(path),
-          folder_(fs::absolute(path).parent_path()),
-          registry_(registry),
-          options_(options) {
+        : ValueReader(path), path_(path), registry_(registry), options_(options) {
         base_ = &doc_.base.scene;
     }
 
@@ -81,6 +78,7 @@ class Reader : public ValueReader {
         for (const Problem& problem : validate(result))
             if (problem.severity == Problem::Severity::error && problem.sentence != no_camera) // it may get one yet
                 return fail(path_ + ": " + problem.sentence);
+        io::report_tables(result, registry_, doc_.report, &base);
         return std::move(doc_);
     }
 
@@ -327,7 +325,6 @@ class Reader : public ValueReader {
     }
 
     const std::string& path_;
-    const fs::path folder_;
     const plugin::Registry& registry_;
     const ReadOptions& options_;
     Document doc_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,7 +36,8 @@ inline std::optional<Ref> parse_ref(const json& j) { // "#17 oak"
 
 class ValueReader {
   public:
-    explicit ValueReader(std::string file) : file_(std::move(file)) {}
+    explicit ValueReader(std::string file)
+        : file_(std::move(file)), folder_(std::filesystem::absolute(file_).parent_path()) {}
 
     // As a visitor of fields().
     template <class T>
@@ -162,6 +164,10 @@ class ValueReader {
             if (const auto list = j.find("v"); list != j.end() && list->is_array())
                 for (std::size_t i = 0; i < std::min<std::size_t>(list->size(), 4); ++i)
                     read((*list)[i], v.v[i], field);
+            if (const auto path = j.find("file"); path != j.end()) { // of a table
+                read(*path, v.text, field);
+                if (!v.text.empty()) v.text = (folder_ / v.text).lexically_normal().string();
+            }
             if (const auto text = j.find("text"); text != j.end()) read(*text, v.text, field);
             if (const auto texture = j.find("texture"); texture != j.end()) read(*texture, v.texture, field);
             if (const auto material = j.find("material"); material != j.end()) read(*material, v.material, field);
@@ -202,6 +208,7 @@ class ValueReader {
     }
 
     const std::string file_;
+    const std::filesystem::path folder_; // paths in the file are relative to it
     const scene::Scene* base_ = nullptr;
     std::map<std::string, std::uint32_t> sizes_; // of the base when the project was saved, by kind
     std::vector<std::string> lost_;              // things the base has no more

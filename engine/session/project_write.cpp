@@ -176,7 +176,12 @@ class Writer {
         json j;
         j["type"] = type_names[v.type - RESTAGE_FLOAT];
         if (used > 0) j["v"] = list(used);
-        if (!v.text.empty()) j["text"] = v.text;
+        if (!v.text.empty()) {
+            if (v.type == RESTAGE_TABLE)
+                path_in(j["file"], v.text);
+            else
+                j["text"] = v.text;
+        }
         if (v.texture) j["texture"] = ref(v.texture);
         if (v.material) j["material"] = ref(v.material);
         return j;

@@ -128,6 +128,8 @@ Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value 
         const auto* line = std::find_if(begin, end, [&](const RestageParam& p) { return p.id == param; });
         if (line == end) return fail(who + " is not one of a " + material->type);
         if (static_cast<RestageType>(line->type) != value.type) return fail(who + " has another type");
+        if (value.type == RESTAGE_TABLE && !value.text.empty())
+            value.text = std::filesystem::absolute(value.text).lexically_normal().string();
         if (value.texture && !(line->flags & RESTAGE_PARAM_TEXTURABLE) && line->type != RESTAGE_TEXTURE)
             return fail(who + " takes no texture");
         if (line->type == RESTAGE_ENUM && !choice_index(line->choices, value.text))

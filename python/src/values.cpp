@@ -22,6 +22,7 @@ nb::object to_python(const std::shared_ptr<Workspace>& in, const Value& value) {
             return nb::bool_(value.v[0] != 0);
         case RESTAGE_ENUM:
         case RESTAGE_TEXT:
+        case RESTAGE_TABLE:
             return nb::str(value.text.c_str());
         case RESTAGE_MATERIAL:
             if (value.material) return nb::cast(Handle<Material>{in, value.material});
@@ -76,6 +77,12 @@ Value to_value(const Workspace* in, RestageType type, nb::handle h, const std::s
         case RESTAGE_TEXT:
             if (!nb::try_cast(h, value.text)) throw wrong("a word");
             return value;
+        case RESTAGE_TABLE: {
+            const auto path = to_path(h);
+            if (!path) throw wrong("the path of a file");
+            value.text = *path;
+            return value;
+        }
         case RESTAGE_MATERIAL: {
             Handle<Material> material;
             if (!nb::try_cast(h, material, false)) throw wrong("a material");

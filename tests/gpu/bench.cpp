@@ -42,7 +42,8 @@ plugin::MaterialEntry Bench::material(const char* type) const {
 }
 
 BsdfLab::BsdfLab(Bench& bench, const plugin::MaterialEntry& material)
-    : lab_(value(check::BsdfLab::create(bench.device(), bench.compiler(), {material.table, material.plugin->folder}),
+    : lab_(value(check::BsdfLab::create(bench.device(), bench.compiler(),
+                                        {material.table, material.plugin->folder, material.source}),
                  material.table->type)) {}
 
 std::vector<BsdfAnswer> BsdfLab::run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,

@@ -89,7 +89,7 @@ def test_the_tutorial(installed, tmp_path):
     restage = installed / "bin" / "restage"
     text = (SOURCE / "docs" / "plugins.md").read_text()
     blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.S)
-    row, ui = (b for language, b in blocks if language == "c")
+    row, ui, file_row, reader = (b for language, b in blocks if language == "c")
     (glsl,) = (b for language, b in blocks if language == "glsl")
     run(restage, "new-plugin", "minnaert", "--language", "c", "--label", "Minnaert", cwd=tmp_path)
     folder = tmp_path / "minnaert"
@@ -109,6 +109,16 @@ def test_the_tutorial(installed, tmp_path):
     plugin = build(folder, installed)
     run(restage, "check", plugin, "--quick")
     assert picture(restage, plugin.parent, folder / "scene.pbrt", tmp_path / "ball.png")
+    # A table from a file.
+    (folder / "silk.dat").write_bytes(bytes(4 * 7))
+    source.write_text(before.replace(row, row + file_row) + reader)
+    cmake.write_text(cmake.read_text().replace(" LINK m)", " FILES silk.dat)"))
+    plugin = build(folder, installed)
+    assert "parameters 3" in run(restage, "check", plugin, "--quick", "--only", "params").stdout
+    (plugin / "silk.dat").unlink()
+    (plugin / "silk.dat").write_bytes(bytes(3))
+    failed = run(restage, "check", plugin, "--quick", "--only", "params", ok=False)
+    assert failed.returncode == 1 and "silk.dat: is no list of floats" in failed.stdout
 
 
 @pytest.fixture

@@ -7,6 +7,7 @@
 #include <restage/denoiser.h>
 #include <restage/inspector.h>
 #include <restage/scene_io.h>
+#include <restage/table.h>
 #include <cstddef>
 
 namespace fs = std::filesystem;
@@ -63,6 +64,14 @@ const Frozen layout[] = {
         FIELD(RestageUi1, set, 120)
     SIZE(RestageInspector1, 24)
         FIELD(RestageInspector1, size, 0) FIELD(RestageInspector1, type, 8) FIELD(RestageInspector1, draw, 16)
+    SIZE(RestageTableFile1, 64)
+        FIELD(RestageTableFile1, size, 0) FIELD(RestageTableFile1, reserved, 4) FIELD(RestageTableFile1, ctx, 8)
+        FIELD(RestageTableFile1, path, 16) FIELD(RestageTableFile1, length, 24)
+        FIELD(RestageTableFile1, bytes, 32) FIELD(RestageTableFile1, append, 40)
+        FIELD(RestageTableFile1, note, 48) FIELD(RestageTableFile1, error, 56)
+    SIZE(RestageTable1, 32)
+        FIELD(RestageTable1, size, 0) FIELD(RestageTable1, type, 8) FIELD(RestageTable1, extensions, 16)
+        FIELD(RestageTable1, read, 24)
     SIZE(RestageText, 24)
         FIELD(RestageText, name, 0) FIELD(RestageText, verbatim, 8) FIELD(RestageText, verbatim_format, 16)
     SIZE(RestageMesh, 80)
@@ -168,9 +177,10 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
     CHECK(std::string(RESTAGE_EXPORTER1) == "restage.exporter/1");
     CHECK(std::string(RESTAGE_DENOISER1) == "restage.denoiser/1");
     CHECK(std::string(RESTAGE_INSPECTOR1) == "restage.inspector/1");
-    const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR, RESTAGE_INT,      RESTAGE_BOOL,
-                         RESTAGE_ENUM,  RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE};
-    for (int i = 0; i < 8; ++i)
+    CHECK(std::string(RESTAGE_TABLE1) == "restage.table/1");
+    const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR,    RESTAGE_INT,     RESTAGE_BOOL, RESTAGE_ENUM,
+                         RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE, RESTAGE_TABLE};
+    for (int i = 0; i < 9; ++i)
         CHECK(types[i] == i + 1);
     const unsigned flags[] = {RESTAGE_MATERIAL_STOCHASTIC,    RESTAGE_MATERIAL_LOSSLESS, RESTAGE_MATERIAL_TRANSMISSIVE,
                               RESTAGE_MATERIAL_NONRECIPROCAL, RESTAGE_MATERIAL_NULL,     RESTAGE_MATERIAL_MIX,

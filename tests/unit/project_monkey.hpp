@@ -119,7 +119,7 @@ class Monkey {
         return all.empty() ? Id<T>{} : all[pick(unsigned(all.size()))];
     }
     Value value(const Scene& s) {
-        switch (pick(9)) {
+        switch (pick(10)) {
             case 0:
                 return Value::number(x());
             case 1:
@@ -136,6 +136,8 @@ class Monkey {
                 return {.type = RESTAGE_MATERIAL, .material = {}};
             case 7:
                 return {.type = RESTAGE_TEXTURE, .texture = any<Texture>(s)};
+            case 8:
+                return Value::table(std::filesystem::absolute("tables/" + name()).lexically_normal().string());
             default:
                 return {.type = RESTAGE_COLOR, .v = {x(), x(), x(), 0}, .texture = any<Texture>(s)};
         }

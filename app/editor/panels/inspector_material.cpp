@@ -174,8 +174,10 @@ void ask_image(Editor& e, MaterialId id, const RestageParam& line, const std::st
 void param_row(Editor& e, MaterialId id, const scene::Material& material, const RestageParam& line) {
     const scene::Value* set = material.params.find(line.id);
     const bool fits = set && set->type == static_cast<RestageType>(line.type);
-    const ParamAsk ask = param_widget(e, line, fits ? *set : scene::default_value(line), set != nullptr,
-                                      std::string("material.") + line.id);
+    const auto plugin = line.type == RESTAGE_TABLE ? e.registry().find_material(material.type) : std::nullopt;
+    const ParamAsk ask =
+        param_widget(e, line, fits ? *set : scene::default_value(line), set != nullptr,
+                     std::string("material.") + line.id, plugin ? plugin->source->table_reader().get() : nullptr);
     if (!ask.image_file.empty()) ask_image(e, id, line, ask.image_file);
     if (ask.reset || (ask.value && line.type == RESTAGE_TEXTURE && !ask.value->texture))
         e.edit([id, param = std::string(line.id)](const scene::Scene& s) { return scene::reset_param(s, id, param); });

@@ -253,7 +253,8 @@ int get(void* ctx, const char* id, RestageValue* out) {
             .type = p->type,
             .ref = v.texture ? v.texture.value : v.material.value,
             .v = {v.v[0], v.v[1], v.v[2], v.v[3]},
-            .text = p->type == RESTAGE_ENUM || p->type == RESTAGE_TEXT ? c.text.c_str() : nullptr};
+            .text = p->type == RESTAGE_ENUM || p->type == RESTAGE_TEXT || p->type == RESTAGE_TABLE ? c.text.c_str()
+                                                                                                   : nullptr};
     return 1;
 }
 
@@ -264,7 +265,8 @@ void set(void* ctx, const char* label, const RestageValue* values, std::uint32_t
         const RestageParam* p = c.line(values[i].id);
         const std::uint32_t type = values[i].type;
         const bool plain = type == RESTAGE_FLOAT || type == RESTAGE_COLOR || type == RESTAGE_INT ||
-                           type == RESTAGE_BOOL || type == RESTAGE_ENUM || type == RESTAGE_TEXT;
+                           type == RESTAGE_BOOL || type == RESTAGE_ENUM || type == RESTAGE_TEXT ||
+                           type == RESTAGE_TABLE;
         scene::Value v{.type = static_cast<RestageType>(type)};
         bool fits = p && p->type == type && plain;
         for (int k = 0; fits && k < (type == RESTAGE_COLOR ? 3 : 1); ++k) {
@@ -272,10 +274,10 @@ void set(void* ctx, const char* label, const RestageValue* values, std::uint32_t
             const bool ranged = type == RESTAGE_FLOAT || type == RESTAGE_COLOR || type == RESTAGE_INT;
             fits = std::isfinite(values[i].v[k]) && (!ranged || (values[i].v[k] >= p->min && values[i].v[k] <= p->max));
         }
-        if (fits && (type == RESTAGE_ENUM || type == RESTAGE_TEXT)) {
+        if (fits && (type == RESTAGE_ENUM || type == RESTAGE_TEXT || type == RESTAGE_TABLE)) {
             v.text = or_empty(values[i].text);
             v.v = {};
-            fits = type == RESTAGE_TEXT || scene::choice_index(p->choices, v.text).has_value();
+            fits = type != RESTAGE_ENUM || scene::choice_index(p->choices, v.text).has_value();
         }
         if (fits)
             wanted.emplace_back(values[i].id, std::move(v));

@@ -3,12 +3,15 @@
  *     RESTAGE_MATERIAL_PLUGIN("org.example.velvet", "1.0.0", velvet)
  * where `velvet` is a static const RestageMaterial1; or, with a RestageInspector1 that draws its part of the inspector:
  *     RESTAGE_MATERIAL_PLUGIN_UI("org.example.velvet", "1.0.0", velvet, velvet_inspector)
+ * or, with a RestageTable1 that reads the files of its RESTAGE_TABLE parameters:
+ *     RESTAGE_MATERIAL_PLUGIN_TABLE("org.example.velvet", "1.0.0", velvet, velvet_reader)
  * Sugar: nothing in it that a plugin could not write itself. */
 #ifndef RESTAGE_MATERIAL_PLUGIN_H
 #define RESTAGE_MATERIAL_PLUGIN_H
 
 #include <restage/inspector.h>
 #include <restage/material.h>
+#include <restage/table.h>
 #include <string.h>
 
 #if !defined(RESTAGE_C_LINKAGE)
@@ -23,6 +26,14 @@
     static const void* restage_query(const char* id, uint32_t index) {             \
         return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? &(table) : NULL; \
     }                                                                              \
+    RESTAGE_PLUGIN_ENTRY(plugin_id, plugin_version)
+
+/* With a RestageTable1 that reads its files. */
+#define RESTAGE_MATERIAL_PLUGIN_TABLE(plugin_id, plugin_version, table, reader)                 \
+    static const void* restage_query(const char* id, uint32_t index) {                          \
+        if (index == 0 && strcmp(id, RESTAGE_TABLE1) == 0) return (const void*)&(reader);       \
+        return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? (const void*)&(table) : NULL; \
+    }                                                                                           \
     RESTAGE_PLUGIN_ENTRY(plugin_id, plugin_version)
 
 #define RESTAGE_MATERIAL_PLUGIN_UI(plugin_id, plugin_version, table, inspector)                  \

@@ -20,7 +20,8 @@ typedef enum RestageType {
     RESTAGE_ENUM = 5,     /* text = one of the table line's choices     GLSL int, the index of the choice */
     RESTAGE_TEXT = 6,     /* text; not seen by shaders */
     RESTAGE_MATERIAL = 7, /* ref = material handle; not seen by shaders (only the engine's `mix` uses it) */
-    RESTAGE_TEXTURE = 8   /* ref = texture handle; a slot with no constant (normal map); not seen by BSDFs */
+    RESTAGE_TEXTURE = 8,  /* ref = texture handle; a slot with no constant (normal map); not seen by BSDFs */
+    RESTAGE_TABLE = 9     /* text = absolute path of a file; GLSL Table, see restage/table.h */
 } RestageType;
 
 enum {
@@ -37,7 +38,7 @@ typedef struct RestageParam {
     float min, max;      /* of each component; also the fuzz range; INT and FLOAT and COLOR */
     float def[4];        /* default; ENUM: def[0] = index of the choice */
     const char* unit;    /* "", "deg", "m", "1/m" */
-    const char* choices; /* ENUM only: "ggx|beckmann" */
+    const char* choices; /* ENUM: "ggx|beckmann". TABLE: the default, a file of the plugin's folder; NULL = none */
     const char* tooltip; /* one sentence */
 } RestageParam;
 
@@ -47,7 +48,7 @@ typedef struct RestageValue {
     uint32_t type; /* RestageType */
     uint32_t ref;  /* handle of a texture (any texturable type, TEXTURE) or of a material (MATERIAL); 0 = none */
     float v[4];
-    const char* text; /* ENUM, TEXT; else NULL */
+    const char* text; /* ENUM, TEXT, TABLE; else NULL */
 } RestageValue;
 
 #ifdef __cplusplus

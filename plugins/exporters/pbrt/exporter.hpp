@@ -95,6 +95,7 @@ class Exporter {
     void put_roughness(Params&, const Values&, const std::string& what, const char* u_id, const char* v_id,
                        const char* u_name, const char* v_name, bool zero_is_smooth, float otherwise = 0);
     void put_common(Params&, const Values&, const std::string& what);
+    std::string measured(Params&, const Values&, const std::string& what);
     std::string material_v4(Params&, const RestageMaterialDesc&, const Values&, const std::string& what); // pbrt's type
     std::string material_v3(Params&, const RestageMaterialDesc&, const Values&, const std::string& what);
 

@@ -65,6 +65,18 @@ void Exporter::put_roughness(Params& params, const Values& values, const std::st
         flag(params, "remaproughness", false);
 }
 
+// Its file goes where textures' files go. pbrt-v4 has another format of this name; v3 does not know it at all.
+std::string Exporter::measured(Params& params, const Values& values, const std::string& what) {
+    const RestageValue* file = values.find("filename");
+    if (file && file->text && *file->text) params.add_string("filename", file->text); // placed by finished()
+    put_color(params, values, "tint", "tint", {1, 1, 1});
+    approximated(what + " (measured)",
+                 v3() ? "written for Restage, which reads it back; pbrt-v3 does not know it and shows a grey matte one"
+                      : "written for Restage, which reads it back; pbrt-v4 stops at it: its own measured materials are "
+                        "RGL's .bsdf, not MERL's .binary");
+    return "measured";
+}
+
 void Exporter::put_common(Params& params, const Values& values, const std::string& what) {
     if (const RestageHandle bump = values.ref("bump")) {
         RestageTexture t{};

@@ -257,13 +257,16 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
             "coat are other formulas, light under the surface is not simulated";
         plugin = "principled";
         disney(d, values);
-    } else if (type == "fourier" || type == "measured") {
+    } else if (type == "fourier") {
         note = "measured data is not read; a grey diffuse one stands for it";
+    } else if (type == "measured") {
+        note = is_rgl(d) ? "data of RGL (.bsdf) is not read, only MERL's (.binary); a grey diffuse one stands for it"
+                         : "no plugin provides measured; a grey diffuse one stands for it";
     } else if (const RestageHandle texture = find_texture(d, "Kd", false)) {
         values.texture("reflectance", RESTAGE_COLOR, texture);
     }
     if (plugin == "diffuse" && values.size() == 0) values.color("reflectance", color);
-    const bool dropped = type == "fourier" || type == "measured";
+    const bool dropped = type == "fourier";
     import_.report(dropped ? RESTAGE_DROPPED : RESTAGE_APPROXIMATED, d.at, what + " (" + type + ")", note);
 }
 

@@ -7,10 +7,17 @@
 
 namespace restage::pbrt {
 
+bool Builder::is_rgl(const Directive& d) const {
+    const std::string path = import_.resolve(d.params.string("filename", ""), d.at).string();
+    std::string reason;
+    const auto bytes = FileBytes::open(path, reason);
+    return bytes ? bytes->view().starts_with("tensor_file") : path.ends_with(".bsdf");
+}
+
 bool Builder::material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin) {
     std::uint32_t count = 0;
     const RestageParam* lines = import_.out.material_table(import_.out.ctx, type.c_str(), &count);
-    if (!lines) return false;
+    if (!lines || (type == "measured" && is_rgl(d))) return false;
     plugin = type;
     const auto least = [](const RestageParam& line, double v) {
         return std::clamp(v, static_cast<double>(line.min), static_cast<double>(line.max));
@@ -41,6 +48,10 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
                                              quote(line->id) + " cannot be " + quote(word->strings[0]) + "; " +
                                                  line->choices + " are possible; the default stands for it");
                 }
+                break;
+            case RESTAGE_TABLE: // the host reads it, and says what is wrong with it
+                if (const std::string file = d.params.string(line->id, ""); !file.empty())
+                    values.table(line->id, import_.resolve(file, d.at).string());
                 break;
             default:
                 break;

@@ -86,6 +86,7 @@ class Builder {
     bool material_v4(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    bool is_rgl(const Directive& d) const; // pbrt-v4's own measured data: another format than MERL's
     Rgb hair_color(const Directive& d);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     void disney(const Directive& d, Values& values);

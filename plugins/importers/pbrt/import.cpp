@@ -24,6 +24,9 @@ void Values::color(const char* id, Rgb c) {
 void Values::choice(const char* id, const char* value) {
     values_.push_back({.id = id, .type = RESTAGE_ENUM, .text = value});
 }
+void Values::table(const char* id, std::string path) {
+    values_.push_back({.id = id, .type = RESTAGE_TABLE, .text = paths_.emplace_back(std::move(path)).c_str()});
+}
 void Values::texture(const char* id, RestageType type, RestageHandle handle) {
     values_.push_back({.id = id, .type = static_cast<std::uint32_t>(type), .ref = handle});
 }

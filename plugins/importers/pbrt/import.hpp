@@ -21,6 +21,7 @@ class Values {
     void boolean(const char* id, bool value);
     void color(const char* id, Rgb value);
     void choice(const char* id, const char* value);
+    void table(const char* id, std::string path);
     void texture(const char* id, RestageType type, RestageHandle handle);
     void material(const char* id, RestageHandle handle);
     const RestageValue* data() const { return values_.data(); }
@@ -28,6 +29,7 @@ class Values {
 
   private:
     std::vector<RestageValue> values_;
+    std::deque<std::string> paths_; // that values point to
 };
 
 enum class Role { albedo, unbounded, light };

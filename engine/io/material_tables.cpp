@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/material_tables.hpp"
+
+#include "plugin/table_reader.hpp"
+
+#include <span>
+
+namespace restage::io {
+
+void report_tables(const scene::Scene& scene, const plugin::Registry& registry, Report& report,
+                   const scene::Scene* already) {
+    scene.materials.each([&](scene::Id<scene::Material> id, const scene::Material& m) {
+        const scene::Material* before = already ? already->materials.find(id) : nullptr;
+        const auto plugin = before && *before == m ? std::nullopt : registry.find_material(m.type);
+        const auto reader = plugin && plugin->source ? plugin->source->table_reader() : nullptr;
+        if (!reader) return;
+        for (const RestageParam& line : std::span(plugin->table->params, plugin->table->param_count)) {
+            const scene::Value* set = m.params.find(line.id);
+            if (line.type != RESTAGE_TABLE || !set || set->type != RESTAGE_TABLE || set->text.empty()) continue;
+            const std::string who = "material \"" + m.name + "\"";
+            if (const auto table = reader->read(line.id, set->text); !table) {
+                report.add(RESTAGE_DROPPED, who, table.error().message + "; a grey one stands for it");
+            } else {
+                std::string notes;
+                for (const std::string& note : (*table)->notes)
+                    notes += (notes.empty() ? ": " : "; ") + note;
+                report.add(RESTAGE_KEPT, who, "looks up " + set->text + notes);
+            }
+        }
+    });
+}
+
+} // namespace restage::io

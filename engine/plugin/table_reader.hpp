@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// TableReader: files of a material's RESTAGE_TABLE parameters, read through its plugin. What was read is remembered by
+// parameter, path, time and size of the file, so that all who ask share the words. [any] thread; one file at a time.
+#pragma once
+
+#include "base/crash_note.hpp"
+#include "base/log.hpp"
+#include "base/result.hpp"
+
+#include <restage/table.h>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace restage::plugin {
+
+struct Table { // immutable once shared
+    std::vector<std::uint32_t> words;
+    std::vector<std::string> notes; // what its reader said of it
+};
+
+class TableReader {
+  public:
+    TableReader(const RestageTable1& table, std::string plugin_id, Log& log);
+
+    const std::string& material_type() const { return type_; }
+    const std::vector<std::string>& extensions() const { return extensions_; }
+
+    // The file's words. An empty path is an empty table. Errors: '<path>: it is cut short: ...'.
+    Result<std::shared_ptr<const Table>> read(const std::string& param, const std::string& path);
+    // What `read` found wrong with it the last time, without looking at the file or waiting; "" = nothing, as far as
+    // is known.
+    std::string problem(const std::string& param, const std::string& path) const;
+
+    void set_blame(Blame blame); // of a crash while it reads
+    void close(); // before the plugin is unloaded: what is not remembered cannot be read any more
+
+  private:
+    struct Seen {
+        std::uint64_t stamp = 0; // of the file
+        std::weak_ptr<const Table> table;
+        std::string error;
+    };
+    Result<std::shared_ptr<const Table>> read_file(const std::string& param, const std::string& path);
+
+    std::string type_, plugin_id_;
+    std::vector<std::string> extensions_;
+    Log& log_;
+    mutable std::mutex mutex_;
+    const RestageTable1* table_; // null: closed
+    Blame blame_;
+    std::map<std::pair<std::string, std::string>, Seen> seen_; // by parameter and path
+    // The last few, so that who checks a scene and who renders it do not both read.
+    std::array<std::shared_ptr<const Table>, 4> recent_;
+    std::size_t next_recent_ = 0;
+};
+
+} // namespace restage::plugin
