@@ -4,18 +4,27 @@
 
     build/venv/bin/python tools/material_balls.py [--restage build/bin/restage] [--thumbnails] [--sheet FILE.jpg] [TYPE...]
 
+On the ball of another scene, beside what pbrt-v4 made of it (two halves), with the material NAME of that file replaced:
+    ... --scene $RESTAGE_SCENES/material-testball/scene.pbrt --material Material --sheet OUT.png \\
+        --reference $RESTAGE_REFERENCES/material-testball.1.exr $RESTAGE_REFERENCES/material-testball.2.exr
+Mind the licence of such a scene: its sheet is for looking at.
+
 Materials are those of `restage plugins`; one that is new needs no line here, but may have one in LOOKS."""
 
 import argparse
 import json
+import re
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
 from PIL import Image, ImageDraw
 
 ROOT = Path(__file__).resolve().parents[1]
 ROUGHNESSES = (0, 0.1, 0.3, 0.6, 1)
+LABELS = 110  # pixels left of the balls
 
 # What shows a material best, by the names pbrt has for it (else those of its table); the rest is its default.
 LOOKS = {
@@ -70,21 +79,97 @@ def materials(restage):
     return dict(sorted(found.items()))
 
 
-def ball(restage, material, parameters, spp, folder):
-    scene, picture = Path(folder) / "ball.pbrt", Path(folder) / "ball.png"
-    scene.write_text(SCENE % f'Material "{material}" {parameters}')
-    subprocess.run([restage, "-q", "render", scene, "-o", picture, "--spp", str(spp), "--denoise"], check=True)
-    return Image.open(picture).convert("RGB")
+class Stage:
+    """A scene with a ball, of which `render` makes a picture with any material. Its files are seen through links."""
+
+    def __init__(self, options, folder):
+        self.options, self.folder = options, Path(folder)
+        if options.scene:
+            for entry in options.scene.resolve().parent.iterdir():
+                (self.folder / entry.name).symlink_to(entry)
+            self.text = options.scene.read_text()
+            self.place = re.compile(r'MakeNamedMaterial\s+"%s"(\s+"\w+ [^"]+"\s+(\[[^\]]*\]|"[^"]*"|\S+))*' % re.escape(options.material))
+            if not self.place.search(self.text):
+                sys.exit(f'{options.scene}: no MakeNamedMaterial "{options.material}" in it')
+
+    def filled(self, material, parameters):
+        if not self.options.scene:
+            return SCENE % f'Material "{material}" {parameters}'
+        named = f'MakeNamedMaterial "{self.options.material}" "string type" "{material}" {parameters}'
+        return self.place.sub(lambda _: named, self.text, count=1)
+
+    def render(self, material, parameters):
+        return self.picture(self.filled(material, parameters))
+
+    def picture(self, text):
+        scene, picture = self.folder / "ball of all.pbrt", self.folder / "ball of all.png"
+        scene.write_text(text)
+        subprocess.run([self.options.restage, "-q", "render", scene, "-o", picture, "--spp", str(self.options.spp), "--size",
+                        f"{self.options.size}x{self.options.size}", "--denoise"], check=True)
+        return Image.open(picture).convert("RGB")
+
+
+def reference(halves, size):
+    """The mean of the pictures, its middle square: a narrower film shows as much of the height."""
+    sys.path.insert(0, str(ROOT / "tests/scripts"))
+    import exr_file
+
+    color = np.mean([np.stack([exr_file.read(half)[c] for c in "RGB"], -1) for half in halves], axis=0, dtype=np.float32)
+    height, width, _ = color.shape
+    left = (width - height) // 2
+    channels = [Image.fromarray(np.ascontiguousarray(color[:, left:left + height, c])).resize((size, size), Image.BOX) for c in range(3)]
+    linear = np.clip(np.stack([np.asarray(c) for c in channels], -1), 0, 1)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return Image.fromarray(np.uint8(encoded * 255 + 0.5))
 
 
 def roughness_ids(folder):
     """Ids of the parameters that are roughnesses, as its table says; of the plugin's own GLSL struct there is no other list."""
     text = "".join(f.read_text() for f in folder.glob("*.glsl"))
     ids = []
-    for name in ("roughness", "uroughness", "vroughness", "conductor_uroughness", "conductor_vroughness", "sigma"):
-        if f"m.{name}" in text:
+    for name in ("roughness", "uroughness", "vroughness", "conductor_uroughness", "conductor_vroughness", "clearcoat_roughness", "sigma", "beta_m", "beta_n"):
+        if re.search(rf"\bm\.{name}\b", text):
             ids.append(name.replace("conductor_", "conductor."))  # as pbrt writes it
     return ids
+
+
+def sheet_rows(chosen):
+    """(label, type, roughnesses, other parameters): a material, and once more where it may scatter more than once."""
+    for material, folder in chosen.items():
+        yield material, material, roughness_ids(folder), ""
+        if any("m.multiscatter" in f.read_text() for f in folder.glob("*.glsl")):
+            yield f"{material},\nmultiscatter", material, roughness_ids(folder), '"bool multiscatter" true'
+
+
+def look_without(look, ids):
+    """What the look says of roughness gives way."""
+    for i in ids:
+        look = re.sub(rf'"float {re.escape(i)}" \S+', "", look)
+    return look
+
+
+def draw_sheet(stage, chosen, halves):
+    """A row a material; above them what pbrt made of the scene, and what Restage makes of the same file."""
+    size = stage.options.size
+    rows = list(sheet_rows(chosen))
+    top = size + 20 if stage.options.scene else 0
+    sheet = Image.new("RGB", (LABELS + size * len(ROUGHNESSES), top + 20 + size * len(rows)), "white")
+    draw = ImageDraw.Draw(sheet)
+    if stage.options.scene:
+        pair = ([("pbrt-v4", reference(halves, size))] if halves else []) + [("the same file", stage.picture(stage.text))]
+        for x, (name, picture) in enumerate(pair):
+            draw.text((LABELS + size * x + 4, 4), name, fill="black")
+            sheet.paste(picture, (LABELS + size * x, 20))
+    for x, roughness in enumerate(ROUGHNESSES):
+        draw.text((LABELS + size * x + 50, top + 4), f"{roughness:g}", fill="black")
+    for y, (label, material, ids, more) in enumerate(rows):
+        draw.text((4, top + 20 + size * y + size // 2 - 6), label, fill="black")
+        for x, roughness in enumerate(ROUGHNESSES if ids else ROUGHNESSES[:1]):  # without one: a single ball
+            values = " ".join(f'"float {i}" {roughness * (90 if i == "sigma" else 1):g}' for i in ids)
+            picture = stage.render(material, f"{look_without(LOOKS.get(material, ''), ids)} {values} {more}")
+            sheet.paste(picture, (LABELS + size * x, top + 20 + size * y))
+        print(label.replace("\n", " "), flush=True)
+    return sheet
 
 
 def main():
@@ -93,36 +178,23 @@ def main():
     parser.add_argument("--thumbnails", action="store_true", help="into plugins/materials/TYPE/thumbnail.jpg")
     parser.add_argument("--sheet", help="JPEG of all materials at five roughnesses")
     parser.add_argument("--spp", type=int, default=128)
+    parser.add_argument("--size", type=int, default=128, help="of a ball [pixel]")
+    parser.add_argument("--scene", type=Path, help="a pbrt-v4 file with a ball")
+    parser.add_argument("--material", default="Material", help="the name its material has there")
+    parser.add_argument("--reference", type=Path, nargs="+", default=[], help="EXR files that pbrt-v4 made of it")
     parser.add_argument("types", nargs="*")
     o = parser.parse_args()
     chosen = {m: f for m, f in materials(o.restage).items() if not o.types or m in o.types}
     with tempfile.TemporaryDirectory() as folder:
+        stage = Stage(o, folder)
         if o.thumbnails:
             for material in chosen:
                 place = ROOT / "plugins/materials" / material
                 if place.is_dir():
-                    ball(o.restage, material, LOOKS.get(material, ""), o.spp, folder).save(place / "thumbnail.jpg", quality=88)
+                    stage.render(material, LOOKS.get(material, "")).save(place / "thumbnail.jpg", quality=88)
                     print(place / "thumbnail.jpg", flush=True)
         if o.sheet:
-            rows = [(m, ids) for m, f in chosen.items() if (ids := roughness_ids(f))]
-            sheet = Image.new("RGB", (110 + 128 * len(ROUGHNESSES), 20 + 128 * len(rows)), "white")
-            draw = ImageDraw.Draw(sheet)
-            for x, roughness in enumerate(ROUGHNESSES):
-                draw.text((110 + 128 * x + 50, 4), f"{roughness:g}", fill="black")
-            for y, (material, ids) in enumerate(rows):
-                draw.text((4, 20 + 128 * y + 58), material, fill="black")
-                for x, roughness in enumerate(ROUGHNESSES):
-                    values = " ".join(f'"float {i}" {roughness * (90 if i == "sigma" else 1):g}' for i in ids)
-                    look = LOOKS.get(material, "")
-                    for i in ids:  # what the look says of it gives way
-                        start = look.find(f'"float {i}"')
-                        if start >= 0:
-                            end = look.find('"', start + len(f'"float {i}"'))
-                            look = look[:start] + (look[end:] if end >= 0 else "")
-                    picture = ball(o.restage, material, f"{look} {values}", o.spp, folder)
-                    sheet.paste(picture, (110 + 128 * x, 20 + 128 * y))
-                print(material, flush=True)
-            sheet.save(o.sheet, quality=85)
+            draw_sheet(stage, chosen, o.reference).save(o.sheet, quality=85)
 
 
 if __name__ == "__main__":
