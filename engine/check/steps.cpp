@@ -21,8 +21,9 @@ const std::vector<Step>& material_steps() {
         {"names", "every name starts with the prefix; no bindings, no buffers", check_names,
          "two materials share one shader where they are mixed, so names must not meet"},
         {"cost", "first dispatch and time of a call", check_cost, "a loop without a bound"},
-        {"params", "values arrive in the GLSL and come back from a project file unchanged", check_params,
-         "two lines of the table with one id, or choices that are not those of the GLSL"},
+        {"params", "values arrive in the GLSL and come back from a project and a pbrt file", check_params,
+         "two lines of the table with one id, one that means something to a format (plugin), or choices that are not "
+         "those of the GLSL"},
         {"sound", "finite and not negative, whatever the parameters and directions", check_sound,
          "a division by a cosine, by alpha or by 1 - eta, the root or logarithm of something just below 0, or "
          "normalize(0)"},

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values keep what they are on their way: from a ParamSet through the packed words into the struct that the GLSL sees,
-// and through a project file and back.
+// and through a project file and a pbrt file and back.
 #include "check/steps.hpp"
 
 #include "base/file.hpp"
+#include "io/export.hpp"
+#include "io/import.hpp"
 #include "render/material_composer.hpp"
 #include "scene/edits.hpp"
 #include "session/project.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <random>
 
 namespace restage::check {
@@ -128,37 +132,142 @@ Result<StepResult> through_glsl(Subject& s, const std::vector<ParamSet>& sets) {
     return StepResult::passed({});
 }
 
-Result<StepResult> through_project(Subject& s, const std::vector<ParamSet>& sets) {
+// One material a set, each on a triangle: pbrt keeps no material that nothing has.
+scene::Scene scene_of(const RestageMaterial1& table, const std::vector<ParamSet>& sets) {
     scene::Scene scene;
+    scene::apply(scene, scene::insert(scene, scene::Camera{}, "check"));
+    scene.active_camera.value = {1};
+    auto data = std::make_shared<scene::MeshData>();
+    data->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    data->triangles = {{0, 1, 2}};
+    data->upper = {1, 1, 0};
+    const auto mesh = scene.meshes.next();
+    scene::apply(scene, scene::insert(scene, scene::Mesh{.name = "triangle", .data = data}, "check"));
     for (const ParamSet& set : sets) {
+        const auto id = scene.materials.next();
         scene::Material m;
         m.name = fmt::format("material {}", scene.materials.size());
-        m.type = s.table().type, m.params = set;
+        m.type = table.type, m.params = set;
         scene::apply(scene, scene::insert(scene, std::move(m), "check"));
+        scene::apply(scene, scene::insert(scene, scene::Instance{.mesh = mesh, .material = id}, "check"));
     }
+    return scene;
+}
+
+struct TemporaryFolder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("restage-check-{}", std::random_device{}());
+    std::error_code ignored;
+    TemporaryFolder() { std::filesystem::create_directories(path, ignored); }
+    ~TemporaryFolder() { std::filesystem::remove_all(path, ignored); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+Result<StepResult> through_project(Subject& s, const scene::Scene& scene) {
     const session::Base base;
     const session::DataSources sources;
-    std::error_code code;
-    const auto file =
-        std::filesystem::temp_directory_path(code) / fmt::format("restage-check-{}.restage", std::random_device{}());
+    const TemporaryFolder folder;
+    const auto file = folder.path / "check.restage";
     RESTAGE_CHECK(write_file_atomic(
         file, session::project_text({.base = base, .scene = scene, .sources = sources}, file.parent_path())));
     auto document = session::read_project(file.string(), s.registry());
-    std::filesystem::remove(file, code);
     if (!document) return fail("a project with this material is not read back", document.error());
     scene::Scene back = document->base.scene;
     scene::apply(back, document->changes);
-    std::size_t compared = 0;
     std::string text;
     scene.materials.each([&](auto id, const scene::Material& m) {
         const scene::Material* other = back.materials.find(id);
-        if (other && other->params == m.params && other->type == m.type)
-            ++compared;
-        else if (text.empty())
+        if ((!other || other->params != m.params || other->type != m.type) && text.empty())
             text = fmt::format("a project file gives back {}\n  for {}", other ? describe(other->params) : "nothing",
                                describe(m.params));
     });
     return text.empty() ? StepResult::passed({}) : StepResult::failed(text);
+}
+
+// Do both say the same, defaults filled in? What the file says in decimal may differ in the last bit.
+bool same_values(const RestageMaterial1& table, const ParamSet& a, const ParamSet& b) {
+    for (std::uint32_t i = 0; i < table.param_count; ++i) {
+        const RestageParam& p = table.params[i];
+        if (p.type > RESTAGE_ENUM) continue; // neither texts nor references
+        const scene::Value *x = a.find(p.id), *y = b.find(p.id);
+        if (p.type == RESTAGE_ENUM) {
+            const std::string otherwise = choice(p, static_cast<std::size_t>(p.def[0]));
+            if ((x ? x->text : otherwise) != (y ? y->text : otherwise)) return false;
+            continue;
+        }
+        for (std::size_t c = 0; c < (p.type == RESTAGE_COLOR ? 3u : 1u); ++c) {
+            const float u = x ? x->v[c] : p.def[c], v = y ? y->v[c] : p.def[c];
+            if (std::abs(u - v) > 1e-6f * std::max(std::abs(u), std::abs(v))) return false;
+        }
+    }
+    return true;
+}
+
+// The largest relative difference of f; of stochastic materials, whose walks may part at a rounding, the median.
+Result<double> difference(Subject& s, const ParamSet& a, const ParamSet& b, Engine& e) {
+    RESTAGE_TRY(BsdfLab* const lab, s.lab());
+    std::vector<BsdfJob> jobs;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const Vec3 wo = random_direction(e, 0.05f);
+        const Vec3 wi = i % 2 ? random_direction(e, 0.05f) : random_direction(e, -1);
+        for (std::uint32_t which = 0; which < 2; ++which)
+            jobs.push_back({.wo = wo, .wi = wi, .config = which, .seed = i});
+    }
+    const std::vector<ParamSet> both{a, b};
+    RESTAGE_TRY(const auto answers, lab->run(both, jobs));
+    std::vector<double> off;
+    for (std::size_t i = 0; i < answers.size(); i += 2) {
+        double worst = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double x = answers[i].eval[c], y = answers[i + 1].eval[c];
+            worst = std::max(worst, std::abs(x - y) / std::max({std::abs(x), std::abs(y), 1e-3}));
+        }
+        if (answers[i].pdf > 0 || worst > 0) off.push_back(worst);
+    }
+    if (off.empty()) return 0;
+    std::sort(off.begin(), off.end());
+    return s.is(RESTAGE_MATERIAL_STOCHASTIC) ? off[off.size() / 2] : off.back();
+}
+
+// pbrt says some values otherwise (roughnesses as microfacets' alpha, metals by one of two ways), so it is the BSDF
+// that must be the same where the values are not. Needs the importer and the exporter that come with Restage.
+Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size_t& otherwise) {
+    RESTAGE_TRY(const std::filesystem::path bin, executable_dir());
+    const auto plugins = bin.parent_path() / "lib/restage/plugins";
+    Log silent([](LogLevel, std::string_view) {});
+    plugin::Registry registry(silent);
+    const plugin::SearchPath paths[] = {
+        {s.folder, true}, {plugins / "importer-pbrt", true}, {plugins / "exporter-pbrt", true}};
+    registry.scan(paths);
+    if (!registry.find_importer("pbrt") || !registry.find_exporter("pbrt"))
+        return StepResult::passed({}, "not through a pbrt file: the plugins for it are not there");
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "check.pbrt").string();
+    if (const auto done = io::export_scene(scene, file, registry); !done)
+        return fail("a scene with this material is not written as pbrt", done.error());
+    const auto back = io::import_scene(file, registry, {.format = "pbrt"});
+    if (!back) return fail("a pbrt file with this material is not read back", back.error());
+    std::map<std::string, const scene::Material*> by_name;
+    back->scene.materials.each([&](auto, const scene::Material& m) { by_name[m.name] = &m; });
+    Engine e = s.random("params through pbrt");
+    for (std::uint32_t i = 1; i <= scene.materials.size(); ++i) {
+        const scene::Material& m = scene.materials[scene::Id<scene::Material>{i}];
+        const auto found = by_name.find(m.name);
+        if (found == by_name.end() || found->second->type != m.type)
+            return StepResult::failed(fmt::format("a pbrt file gives back {}\n  for {}",
+                                                  found == by_name.end() ? "nothing" : found->second->type,
+                                                  describe(m.params)));
+        const ParamSet& other = found->second->params;
+        if (same_values(s.table(), m.params, other)) continue;
+        ++otherwise;
+        RESTAGE_TRY(const double off, difference(s, m.params, other, e));
+        if (!(off <= (s.is(RESTAGE_MATERIAL_STOCHASTIC) ? 0.1 : 1e-2)))
+            return StepResult::failed(
+                fmt::format("a pbrt file gives back another material, whose f differs by {:.2g} %:\n  {}\n  for {}",
+                            100 * off, describe(other), describe(m.params)));
+    }
+    return StepResult::passed({});
 }
 
 } // namespace
@@ -174,9 +283,18 @@ Result<StepResult> check_params(Subject& s) {
         RESTAGE_TRY(StepResult seen, through_glsl(s, sets));
         if (seen.verdict != Verdict::pass) return seen;
     }
-    RESTAGE_TRY(StepResult kept, through_project(s, sets));
+    const scene::Scene scene = scene_of(s.table(), sets);
+    RESTAGE_TRY(StepResult kept, through_project(s, scene));
     if (kept.verdict != Verdict::pass) return kept;
-    return StepResult::passed({{"parameters", double(s.table().param_count)}, {"sets", double(sets.size())}});
+    std::size_t otherwise = 0;
+    if (glsl) {
+        RESTAGE_TRY(kept, through_pbrt(s, scene, otherwise));
+        if (kept.verdict != Verdict::pass) return kept;
+    }
+    return StepResult::passed({{"parameters", double(s.table().param_count)},
+                               {"sets", double(sets.size())},
+                               {"said otherwise by pbrt", double(otherwise)}},
+                              kept.text);
 }
 
 } // namespace restage::check

@@ -20,7 +20,8 @@ const int DISTRIBUTION_BECKMANN = 1;
 
 bool alpha_is_smooth(vec2 alpha) { return min(alpha.x, alpha.y) < ALPHA_SMOOTH; }
 
-// pbrt-v4: sqrt; pbrt-v3: its polynomial in ln(roughness), not less than 0.001 there.
+// pbrt-v4: sqrt; pbrt-v3: its polynomial in ln(roughness), not less than 0.001 there; else alpha itself, up to what v3's
+// polynomial reaches.
 vec2 alpha_from_roughness(float u, float v, int remap) {
     vec2 r = clamp(vec2(u, v), 0.0, 1.0);
     if (remap == REMAP_V4)
@@ -29,7 +30,7 @@ vec2 alpha_from_roughness(float u, float v, int remap) {
         vec2 x = log(max(r, 1e-3));
         return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
     }
-    return r;
+    return clamp(vec2(u, v), 0.0, 1.62142);
 }
 
 // Trowbridge and Reitz 1975; Walter et al. 2007, Eq. 33; anisotropic: Heitz 2014, Eq. 85.

@@ -104,6 +104,25 @@ def test_a_fault_in_native_code_is_found(tmp_path, library, step, says):
         assert words in failed[step]
 
 
+@pytest.mark.parametrize("taken", [False, True])
+def test_a_parameter_that_a_pbrt_file_cannot_give_back_is_found(tmp_path, taken):
+    """One whose id is the word that names the plugin there; any other is the control."""
+    (tmp_path / "grey.glsl").write_text("""#include "lib/sampling.glsl"
+vec3 grey_eval(grey_Params m, vec3 wo, vec3 wi) { return vec3(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.%s : 0.0); }
+float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
+BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }
+vec3 grey_albedo(grey_Params m, vec3 wo) { return vec3(0.5); }
+""" % ("plugin" if taken else "share"))
+    (tmp_path / "plugin.json").write_text(json.dumps({
+        "id": "org.example.grey", "kind": "material", "version": "1.0.0", "abi": 1, "licence": "MIT", "files": ["grey.glsl"],
+        "materials": [{"type": "grey", "label": "Grey", "prefix": "grey", "glsl": "grey.glsl", "tooltip": "Grey.", "params": [
+            {"id": "plugin" if taken else "share", "label": "Share", "type": "float", "default": 0.5, "min": 0, "max": 1,
+             "tooltip": "Of light."}]}]}))
+    code, failed = failures(tmp_path, "--only", "params")
+    assert (code, list(failed)) == ((1, ["params"]) if taken else (0, [])), failed
+    assert not taken or "a pbrt file" in failed["params"]
+
+
 def test_an_endless_loop_in_glsl_is_ended(tmp_path):
     code, failed = failures(broken(tmp_path / "plugin", fault="endless"), "--time-limit", 4)
     assert code == 1 and list(failed) == ["cost"]

@@ -37,6 +37,7 @@ RestageHandle Values::ref(std::string_view id) const {
 }
 
 void Exporter::report(RestageFate fate, const std::string& what, const std::string& note) {
+    lossy_ = lossy_ || fate != RESTAGE_KEPT;
     if (reported_.insert(std::to_string(fate) + what + '\n' + note).second)
         in_.report(in_.ctx, fate, what.c_str(), note.c_str());
 }

@@ -96,6 +96,7 @@ class Exporter {
                        const char* u_name, const char* v_name, bool zero_is_smooth, float otherwise = 0);
     void put_common(Params&, const Values&, const std::string& what);
     std::string measured(Params&, const Values&, const std::string& what);
+    void put_for_plugin(const std::string& name, const RestageMaterialDesc&);
     std::string material_v4(Params&, const RestageMaterialDesc&, const Values&, const std::string& what); // pbrt's type
     std::string material_v3(Params&, const RestageMaterialDesc&, const Values&, const std::string& what);
 
@@ -130,6 +131,7 @@ class Exporter {
     Output& out_;
     std::string text_;
     std::set<std::string> reported_;
+    bool lossy_ = false; // something was approximated or dropped since it was set to false
     std::map<std::string, std::set<std::string>> names_; // by kind
     std::map<std::string, std::string> files_; // by path
     std::map<RestageHandle, std::string> textures_, materials_, media_, meshes_, images_;

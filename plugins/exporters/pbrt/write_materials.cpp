@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace restage::pbrt_out {
 
@@ -44,6 +45,8 @@ void Exporter::put_roughness(Params& params, const Values& values, const std::st
                              float otherwise) {
     const std::string remap = values.choice("remap", v3() ? "v3" : "v4"), own = v3() ? "v3" : "v4";
     const bool convert = remap != "none" && remap != own;
+    const bool smooth = zero_is_smooth && !values.ref(u_id) && values.number(u_id, otherwise) == 0 &&
+                        (!v_id || (!values.ref(v_id) && values.number(v_id, otherwise) == 0)); // in both directions
     const auto put = [&](const char* id, const char* name) {
         if (!convert || values.ref(id)) {
             put_float(params, values, id, name, otherwise);
@@ -53,9 +56,7 @@ void Exporter::put_roughness(Params& params, const Values& values, const std::st
             return;
         }
         const double roughness = values.number(id, otherwise);
-        const double alpha = zero_is_smooth && roughness == 0 ? 0
-                             : remap == "v3"                  ? alpha_v3(roughness)
-                                                              : alpha_v4(roughness);
+        const double alpha = smooth ? 0 : remap == "v3" ? alpha_v3(roughness) : alpha_v4(roughness);
         params.add_float(name, static_cast<float>(alpha));
     };
     put(u_id, u_name);
@@ -97,6 +98,31 @@ void Exporter::put_common(Params& params, const Values& values, const std::strin
     }
 }
 
+// All of its values under the ids of its plugin's table, for our importer, where that plugin is.
+void Exporter::put_for_plugin(const std::string& name, const RestageMaterialDesc& m) {
+    const Values values(m.values, m.value_count);
+    Params params;
+    params.add_string("plugin", m.type);
+    std::vector<const RestageValue*> sorted;
+    for (const RestageValue* v = m.values; v != m.values + m.value_count; ++v)
+        sorted.push_back(v);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto* a, const auto* b) { return std::string_view(a->id) < b->id; });
+    for (const RestageValue* v : sorted) {
+        if (v->type == RESTAGE_FLOAT) put_float(params, values, v->id, v->id, 0);
+        if (v->type == RESTAGE_COLOR) put_color(params, values, v->id, v->id, {0, 0, 0}, false);
+        if (v->type == RESTAGE_INT) params.add_int(v->id, static_cast<long long>(v->v[0]));
+        if (v->type == RESTAGE_BOOL) flag(params, v->id, v->v[0] != 0);
+        if ((v->type == RESTAGE_ENUM || v->type == RESTAGE_TABLE) && v->text && *v->text)
+            params.add_string(v->id, v->text);
+    }
+    put_common(params, values, std::string("material \"") + m.text.name + "\"");
+    const std::string text = "MakeNamedMaterial " + quote(name) + " " + finished(params) + "\n";
+    const std::size_t start = text_.size();
+    text_ += text;
+    only_for_us(start);
+}
+
 std::string Exporter::material(RestageHandle handle) {
     if (const auto it = materials_.find(handle); it != materials_.end()) return it->second;
     RestageMaterialDesc m{};
@@ -106,12 +132,15 @@ std::string Exporter::material(RestageHandle handle) {
     const Kept k = kept(m.text, what);
     const Values values(m.values, m.value_count);
     Params params;
+    const bool outside = std::exchange(lossy_, false);
+    bool stands_in = false; // pbrt has the nearest only
     if (!k.whole.empty()) { // a material of pbrt's that is only approximated here, and was not edited
         for (const std::string& line : k.whole)
             params.add_raw(line);
     } else {
         Params own;
         const std::string type = v3() ? material_v3(own, m, values, what) : material_v4(own, m, values, what);
+        stands_in = lossy_ && type != "mix" && type != "interface" && type != "none" && type != "measured";
         params.add_string("type", type);
         for (const auto& [id, line] : k.for_values) { // what a value was before it became RGB, and was not edited
             Params original;
@@ -131,6 +160,8 @@ std::string Exporter::material(RestageHandle handle) {
         params.add_raw(line);
     comment(k.foreign);
     const std::string name = unique_name("material", m.text.name);
+    if (stands_in) put_for_plugin(name, m);
+    lossy_ = lossy_ || outside;
     text_ += "MakeNamedMaterial " + quote(name) + " " + finished(params) + "\n";
     return materials_[handle] = name;
 }

@@ -17,6 +17,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
     const auto rough = [&](const char* u, const char* w, bool zero_is_smooth, float otherwise = 0) {
         put_roughness(p, v, what, u, w, "uroughness", "vroughness", zero_is_smooth, otherwise);
     };
+    if (v.boolean("multiscatter", false)) unlike("pbrt knows single scattering between microfacets only");
     if (type == "diffuse") {
         color("reflectance", "Kd", 0.5f);
         put_float(p, v, "sigma", "sigma", 0);

@@ -27,6 +27,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         p.add_int("maxdepth", static_cast<long long>(v.number("max_depth", 10)));
         p.add_int("nsamples", static_cast<long long>(v.number("n_samples", 1)));
     };
+    if (v.boolean("multiscatter", false)) unlike("pbrt knows single scattering between microfacets only");
     if (type == "diffuse") {
         put_color(p, v, "reflectance", "reflectance", {0.5f, 0.5f, 0.5f});
         if (v.ref("sigma") || v.number("sigma", 0) != 0)
@@ -61,7 +62,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         put_float(p, v, "interface_eta", "interface.eta", 1.5f);
         metal("conductor_eta", "conductor_k", "conductor.eta", "conductor.k");
         put_roughness(p, v, what, "conductor_uroughness", "conductor_vroughness", "conductor.uroughness",
-                      "conductor.vroughness", true);
+                      "conductor.vroughness", false);
         layer();
         return "coatedconductor";
     }

@@ -172,7 +172,9 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     std::string plugin, verbatim;
     exact_.clear();
     d.params.find("type");
-    if (type.empty() || type == "none" || type == "interface") {
+    if (is_for_plugin(d)) {
+        material_of_plugin(d, d.params.string("plugin", ""), values, plugin);
+    } else if (type.empty() || type == "none" || type == "interface") {
         plugin = "interface";
         if (!anonymous && type.empty() && !import_.v3() && !d.params.has("type"))
             import_.approximated(d.at, what, "it has no \"string type\"; taken as interface");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials pbrt does not know but a plugin of the host does: Material "velvet" "float fuzz" 0.5. Parameters go by the
-// ids of the plugin's table; what is not in it is reported, as ever.
+// ids of the plugin's table; what is not in it is reported, as ever. So does `"string plugin" "velvet"`, which our
+// exporter writes into a line `#restage MakeNamedMaterial` before the nearest thing that pbrt has.
 #include "builder.hpp"
 
 #include <algorithm>
@@ -14,7 +15,14 @@ bool Builder::is_rgl(const Directive& d) const {
     return bytes ? bytes->view().starts_with("tensor_file") : path.ends_with(".bsdf");
 }
 
+bool Builder::is_for_plugin(const Directive& d) const {
+    const std::string type = d.params.string("plugin", "");
+    std::uint32_t count = 0;
+    return !type.empty() && import_.out.material_table(import_.out.ctx, type.c_str(), &count);
+}
+
 bool Builder::material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin) {
+    const bool ours = d.params.has("plugin");
     std::uint32_t count = 0;
     const RestageParam* lines = import_.out.material_table(import_.out.ctx, type.c_str(), &count);
     if (!lines || (type == "measured" && is_rgl(d))) return false;
@@ -57,6 +65,7 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
                 break;
         }
     }
+    if (ours) return true;
     if (type == "hair") { // pbrt's own, which may say its colour otherwise
         if (d.params.has("reflectance")) {
             put_color(values, "color", d, "reflectance", Role::albedo, {0.5, 0.5, 0.5});

@@ -30,7 +30,9 @@ bool Builder::run(SceneFile& scene) {
                         file.reason + "; what it holds is missing from the scene");
     if (!import_.v3()) // v4 looks names up when the file has been read
         for (const Directive& directive : scene.directives)
-            if (directive.verb == Verb::make_named_material) later_materials_.emplace(directive.name, &directive);
+            if (directive.verb == Verb::make_named_material &&
+                (!directive.params.has("plugin") || is_for_plugin(directive)))
+                later_materials_.emplace(directive.name, &directive);
     for (const Directive& directive : scene.directives)
         if (directive.verb == Verb::film) film_ = &directive; // a camera before it may ask for its size
     std::size_t done = 0;
@@ -322,6 +324,12 @@ void Builder::step(Directive& d) {
             break;
         case Verb::make_named_material: {
             add_attributes(d, "material");
+            if (d.params.has("plugin")) {
+                if (!is_for_plugin(d)) break; // pbrt's own of that name follows
+                materials_of_plugins_.insert(d.name);
+            } else if (materials_of_plugins_.erase(d.name) > 0) {
+                break;
+            }
             if (later_materials_.erase(d.name) == 0 && !import_.v3() && state_.names->materials.count(d.name))
                 break; // made ahead
             const RestageHandle handle = material(d, d.name, d.params.string("type", import_.v3() ? "matte" : ""));

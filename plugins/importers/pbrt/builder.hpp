@@ -87,6 +87,7 @@ class Builder {
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool is_rgl(const Directive& d) const; // pbrt-v4's own measured data: another format than MERL's
+    bool is_for_plugin(const Directive& d) const; // names one, and it is there
     Rgb hair_color(const Directive& d);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     void disney(const Directive& d, Values& values);
@@ -143,6 +144,7 @@ class Builder {
     std::string camera_exterior_;
     std::string option_lines_; // verbatim, of directives that only pbrt understands
     std::map<std::string, const Directive*> later_materials_; // v4: NamedMaterial may come first
+    std::set<std::string> materials_of_plugins_; // by such a line; pbrt's own of that name is skipped
     int material_depth_ = 0;                                  // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
     std::set<RestageHandle> interfaces_; // materials without a surface
