@@ -3,6 +3,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "io/image_file.hpp"
+#include "plugin/table_reader.hpp"
 #include "saving.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
@@ -56,6 +57,22 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
     return edit;
 }
 
+// A file that the material there looks up.
+bool drop_table(Editor& e, const fs::path& path, const std::string& extension, InstanceId on) {
+    const scene::Instance* instance = e.scene().instances.find(on);
+    const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
+    const auto plugin = material ? e.registry().find_material(material->type) : std::nullopt;
+    const auto reader = plugin ? plugin->source->table_reader() : nullptr;
+    if (!reader || std::ranges::find(reader->extensions(), extension) == reader->extensions().end()) return false;
+    const RestageParam* begin = plugin->table->params;
+    const RestageParam* line = std::find_if(begin, begin + plugin->table->param_count,
+                                            [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
+    e.edit([id = instance->material, param = std::string(line->id), file = path.string()](const scene::Scene& s) {
+        return scene::set_param(s, id, param, scene::Value::table(file));
+    });
+    return true;
+}
+
 void drop_image(Editor& e, const fs::path& path, InstanceId on) {
     const std::string extension = extension_of(path);
     const bool sky = !on || is_one_of(extension, {"hdr", "exr", "pfm"});
@@ -95,6 +112,8 @@ void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
         if (is_one_of(extension, {"png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr", "pfm"}))
             drop_image(*this, path, on);
         // Files of objects join what is there; scenes, and anything when there is nothing yet, are opened.
+        else if (drop_table(*this, path, extension, on))
+            continue;
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
         else {

@@ -148,7 +148,7 @@ bool table_field(Editor& e, const RestageParam& line, scene::Value& v, const plu
         if (reader) filters.push_back({"Tables", reader->extensions()});
         filters.push_back({"All files", {}});
         const std::filesystem::path document(e.session().path());
-        browse(e, {.title = std::string("Choose a file: ") + line.label,
+        browse(e, {.title = "Choose a file",
                    .filters = std::move(filters),
                    .start = path.empty() ? document.parent_path() : path.parent_path(),
                    .done = [mark](Editor& editor, const std::filesystem::path& file) {

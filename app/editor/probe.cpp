@@ -57,7 +57,8 @@ std::string Editor::probe() const {
         if (const scene::Material* material = scene().materials.find(active->material))
             for (const auto& [name, value] : material->params.entries()) {
                 const scene::Texture* texture = scene().textures.find(value.texture);
-                j["material"][name] = {{"value", value.v}, {"texture", texture ? texture->name : ""}};
+                j["material"][name] = {
+                    {"value", value.v}, {"text", value.text}, {"texture", texture ? texture->name : ""}};
             }
     const auto& sky = scene().environment.value;
     j["sky"] = sky ? sky->name : "";

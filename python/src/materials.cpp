@@ -78,8 +78,8 @@ struct Parameter { // of a table; strings live as long as the plugin
 };
 
 std::string type_name(const RestageParam& line) {
-    static constexpr const char* names[] = {"?",    "float", "color",    "int",    "bool",
-                                            "enum", "text",  "material", "texture"};
+    static constexpr const char* names[] = {"?",    "float", "color",    "int",     "bool",
+                                            "enum", "text",  "material", "texture", "table"};
     return line.type < std::size(names) ? names[line.type] : "?";
 }
 
@@ -92,7 +92,7 @@ void bind_parameter(nb::module_& m) {
             "label", [text](const Parameter& p) { return text(p.line->label); }, "Its name in the editor.")
         .def_prop_ro(
             "type", [](const Parameter& p) { return type_name(*p.line); },
-            "float, color, int, bool, enum, text, material or texture.")
+            "float, color, int, bool, enum, text, material, texture or table (a file).")
         .def_prop_ro(
             "unit", [text](const Parameter& p) { return text(p.line->unit); }, "Unit, or \"\".")
         .def_prop_ro(
@@ -105,7 +105,7 @@ void bind_parameter(nb::module_& m) {
             "choices",
             [text](const Parameter& p) {
                 std::vector<std::string> out;
-                std::string rest = text(p.line->choices);
+                std::string rest = p.line->type == RESTAGE_ENUM ? text(p.line->choices) : "";
                 for (std::size_t bar; (bar = rest.find('|')) != std::string::npos; rest.erase(0, bar + 1))
                     out.push_back(rest.substr(0, bar));
                 if (!rest.empty()) out.push_back(rest);
@@ -134,7 +134,7 @@ void bind_material(nb::module_& m) {
         m, "Material",
         "A material: a type and values by parameter id. m[\"roughness\"] reads, m[\"roughness\"] = 0.2 edits; a value "
         "may\n"
-        "be a number, a colour (three numbers, linear sRGB), a word, a Texture, or the path of an image.");
+        "be a number, a colour (three numbers, linear sRGB), a word, a Texture, or the path of an image or a table.");
     bind_handle(c, "Material");
     c.def("__getitem__", &get_param, "id"_a, "The value, or the default where nothing is set.")
         .def("__setitem__", &set_param, "id"_a, "value"_a.none(),

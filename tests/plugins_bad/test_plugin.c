@@ -2,6 +2,7 @@
 /* One plugin, and the ways to get it wrong: built once for each TEST_* macro. */
 #include <restage/material.h>
 #include <restage/scene_io.h>
+#include <restage/table.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,10 +50,28 @@
 #if !defined(TEST_IMPORTER) && !defined(TEST_NO_TABLES)
 static const RestageParam params[] = {
     {PARAM_ID, "Fuzz", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0.0f, 1.0f, {PARAM_DEFAULT}, "", NULL, "How fuzzy."},
+#if defined(TEST_TABLE_UNREAD) || defined(TEST_TABLE_GREEDY)
+    {"weave", "Weave", RESTAGE_TABLE, 0, 0.0f, 0.0f, {0}, "", NULL, "A file."},
+#elif defined(TEST_TABLE_DEFAULT_GONE)
+    {"weave", "Weave", RESTAGE_TABLE, 0, 0.0f, 0.0f, {0}, "", "gone.dat", "A file."},
+#else
     {"weave", "Weave", RESTAGE_ENUM, 0, 0.0f, 0.0f, {ENUM_DEFAULT}, "", "plain|twill", "Which weave."},
+#endif
 };
 static const RestageMaterial1 material = {TABLE_SIZE,    0,      "velvet", "Velvet", TABLE_PREFIX,
                                           "velvet.glsl", params, 2,        "Cloth."};
+#endif
+
+#if defined(TEST_TABLE_OF_NONE) || defined(TEST_TABLE_GREEDY)
+/* Asks for more than there is, reads past the end, and says nothing about it. */
+static int read_table(const char* param_id, const RestageTableFile1* file) {
+    char byte;
+    (void)param_id;
+    while (file->append(file->ctx, (uint64_t)1 << 40)) {
+    }
+    return file->bytes(file->ctx, file->length, 1, &byte);
+}
+static const RestageTable1 reader = {sizeof(RestageTable1), "velvet", "dat", read_table};
 #endif
 
 #if defined(TEST_IMPORTER)
@@ -148,6 +167,9 @@ static const void* query(const char* id, uint32_t index) {
     names[index][2] = (char)('a' + index / 26 % 26);
     many[index].type = many[index].prefix = names[index];
     return strcmp(id, RESTAGE_MATERIAL1) == 0 ? &many[index] : NULL;
+#elif defined(TEST_TABLE_OF_NONE) || defined(TEST_TABLE_GREEDY)
+    if (strcmp(id, RESTAGE_TABLE1) == 0 && index == 0) return &reader;
+    return strcmp(id, RESTAGE_MATERIAL1) == 0 && index == 0 ? &material : NULL;
 #elif defined(TEST_TWICE)
     return strcmp(id, RESTAGE_MATERIAL1) == 0 && index < 2 ? &material : NULL;
 #else

@@ -3,6 +3,7 @@
 edited on disk while its picture is on the screen."""
 
 import json
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -129,3 +130,39 @@ def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
     editor.click("tab.Inspector")
     editor.reveal("material.gloss")
     assert editor.state()["material"]["tint"]["value"][1] == pytest.approx(0.8)
+
+
+def test_a_table_is_chosen_and_refused_in_red(launch, tmp_path):
+    values = struct.pack("<3i", 4, 3, 2) + struct.pack("<72d", *[0.7 / np.pi / k for k in (1 / 1500, 1.15 / 1500, 1.66 / 1500) for _ in range(24)])
+    (tmp_path / "grey.binary").write_bytes(values)
+    (tmp_path / "short.binary").write_bytes(values[:-8])
+    editor = launch(scene(tmp_path, '"measured"'))
+    editor.settled(samples=1)
+    editor.wait(lambda _: np.ptp(ball(editor)) > 0.1, "the default, which is red", 60)
+    editor.click(BALL)
+    editor.wait(lambda s: len(s["selection"]) == 1, "the ball")
+    editor.click("tab.Inspector")
+
+    def choose(name):
+        editor.reveal("material.filename")
+        editor.click("material.filename")
+        editor.wait(lambda s: s["modal"] == "Choose a file", "the browser")
+        editor.point("browser.name")
+        editor.key("ctrl+a")
+        editor.type(str(tmp_path / name))
+        editor.key("Return")
+
+    choose("grey.binary")
+    editor.wait(lambda s: s.get("material", {}).get("filename", {}).get("text") == str(tmp_path / "grey.binary"), "the file")
+    editor.wait(lambda _: np.ptp(ball(editor)) < 0.05, "grey", 60)
+    grey = ball(editor).mean()
+    choose("short.binary")
+    state = editor.wait(lambda s: "material.filename.problem" in s["marks"], "what is wrong with it", 60)
+    assert state["history"]["position"] == 2
+    x0, y0, x1, y1 = (int(v) for v in state["marks"]["material.filename.problem"])
+    note = editor.desk.screenshot()[y0:y1, x0:x1].astype(int)
+    assert (note[..., 0] - note[..., 2] > 80).sum() > 100, "it is in red"
+    editor.settled(samples=1)
+    assert ball(editor).mean() < grey - 0.03, "a darker grey: 0.5, not 0.7"
+    editor.key("ctrl+z")
+    editor.wait(lambda s: "material.filename.problem" not in s["marks"] and s["history"]["position"] == 1, "undo")

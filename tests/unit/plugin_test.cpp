@@ -79,6 +79,9 @@ TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") 
     CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is no GLSL identifier"));
     CHECK_THAT(refused("bad_default"), ContainsSubstring("parameter \"fuzz\": its default is out of its range"));
     CHECK_THAT(refused("bad_enum"), ContainsSubstring("parameter \"weave\": its default is not the index of a choice"));
+    CHECK_THAT(refused("table_unread"), ContainsSubstring("has a table as a parameter, and nothing reads it"));
+    CHECK_THAT(refused("table_of_none"), ContainsSubstring("reads tables for \"velvet\", which is no material of it"));
+    CHECK_THAT(refused("table_default_gone"), ContainsSubstring("gone.dat, is missing"));
     CHECK_THAT(refused("twice"), ContainsSubstring("provides \"velvet\" twice"));
     CHECK_THAT(refused("endless"), ContainsSubstring("without end"));
     CHECK_THAT(refused("unresolved"), ContainsSubstring("a_function_nobody_has"));

@@ -67,7 +67,7 @@ consteval RestageParam choice(const char* id, const char* label, const char* cho
 }
 
 // `file`: the default, in the plugin's folder; nullptr = none.
-consteval RestageParam table(const char* id, const char* label, const char* file, ParamText text = {}) {
+consteval RestageParam table_file(const char* id, const char* label, const char* file, ParamText text = {}) {
     RestageParam p = detail::line(id, label, RESTAGE_TABLE, 0, 0, text);
     p.choices = file;
     return p;

@@ -47,14 +47,17 @@ vec3 measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
     lower.z = (lower.z + around) % around;
     upper.z = (lower.z + 1) % around;
     uint first = measured_head + table_word(m.filename, 3u) * measured_row_words(m);
-    vec3 sum = vec3(0);
+    vec3 sum = vec3(0), measured = vec3(0); // what was not measured has no weight
     for (int k = 0; k < 8; ++k) {
         bvec3 up = bvec3((k & 1) != 0, (k & 2) != 0, (k & 4) != 0);
         vec3 w = mix(1.0 - f, f, up);
-        sum += w.x * w.y * w.z * measured_entry(m, first, n, ivec3(up.x ? upper.x : lower.x, up.y ? upper.y : lower.y,
-                                                                   up.z ? upper.z : lower.z));
+        vec3 value = measured_entry(m, first, n, ivec3(up.x ? upper.x : lower.x, up.y ? upper.y : lower.y,
+                                                       up.z ? upper.z : lower.z));
+        vec3 weight = w.x * w.y * w.z * step(vec3(0), value);
+        sum += weight * value;
+        measured += weight;
     }
-    return sum;
+    return sum / max(measured, vec3(1e-30));
 }
 
 vec3 measured_up(vec3 w) { return vec3(w.xy, abs(w.z)); }

@@ -81,15 +81,15 @@ static int read_entries(const RestageTableFile1* file, const int n[3], float* ou
                 const int finite = v <= 1e30 && v >= -1e30; /* NaN is neither */
                 if (!finite) broken += 1;
                 if (finite && v < 0) missing += 1;
-                out[3 * ((size_t)h * slab + i) + (size_t)c] = finite && v > 0 ? (float)v : 0;
+                out[3 * ((size_t)h * slab + i) + (size_t)c] = finite && v >= 0 ? (float)v : -1;
             }
         }
     free(values);
-    snprintf(text, sizeof text, "%d x %d x %d entries, %.3g %% of them not measured (taken as 0)", n[0], n[1], n[2],
+    snprintf(text, sizeof text, "%d x %d x %d entries, %.3g %% of them not measured", n[0], n[1], n[2],
              100 * missing / total);
     file->note(file->ctx, text);
     if (broken > 0) {
-        snprintf(text, sizeof text, "%.0f values are not finite numbers (taken as 0)", broken);
+        snprintf(text, sizeof text, "%.0f values are not finite numbers (taken as not measured)", broken);
         file->note(file->ctx, text);
     }
     return 1;
@@ -99,8 +99,8 @@ static int read_entries(const RestageTableFile1* file, const int n[3], float* ou
 static void look_up(const Merl* m, double theta_h, double theta_d, double phi_d, double rgb[3]) {
     const double x[3] = {m->n[0] * sqrt(theta_h * 2 / pi) - 0.5, m->n[1] * (theta_d * 2 / pi) - 0.5,
                          m->n[2] * (phi_d / pi) - 0.5};
+    double f[3], weight[3] = {0, 0, 0};
     int base[3], i, k, c;
-    double f[3];
     rgb[0] = rgb[1] = rgb[2] = 0;
     for (i = 0; i < 3; ++i) {
         base[i] = (int)floor(x[i]);
@@ -109,17 +109,22 @@ static void look_up(const Merl* m, double theta_h, double theta_d, double phi_d,
     for (k = 0; k < 8; ++k) {
         double w = 1;
         int at[3];
+        const float* entry;
         for (i = 0; i < 3; ++i) {
             const int bit = k >> i & 1;
             w *= bit ? f[i] : 1 - f[i];
             at[i] = base[i] + bit;
             at[i] = i == 2 ? (at[i] + m->n[2]) % m->n[2] : at[i] < 0 ? 0 : at[i] >= m->n[i] ? m->n[i] - 1 : at[i];
         }
+        entry = m->rgb + 3 * (((size_t)at[0] * (size_t)m->n[1] + (size_t)at[1]) * (size_t)m->n[2] + (size_t)at[2]);
         for (c = 0; c < 3; ++c)
-            rgb[c] +=
-                w * m->rgb[3 * (((size_t)at[0] * (size_t)m->n[1] + (size_t)at[1]) * (size_t)m->n[2] + (size_t)at[2]) +
-                           (size_t)c];
+            if (entry[c] >= 0) {
+                rgb[c] += w * entry[c];
+                weight[c] += w;
+            }
     }
+    for (c = 0; c < 3; ++c)
+        rgb[c] = weight[c] > 0 ? rgb[c] / weight[c] : 0;
 }
 
 typedef struct Cell { /* of directions wi about one wo */

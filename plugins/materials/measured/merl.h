@@ -6,7 +6,8 @@
  *                albedo (red, green, blue), share of samples drawn from the half vector,
  *                for each bin of theta_h the probability that it is in this or an earlier one,
  *                at each edge of a bin the density of half vectors [1/sr], linear in 1 - cos(theta_h) between
- *   then       BRDF [1/sr]: red, green, blue of each entry; phi_d fastest, theta_h slowest */
+ *   then       BRDF [1/sr]: red, green, blue of each entry, -1 where it was not measured; phi_d fastest, theta_h
+ * slowest */
 #ifndef RESTAGE_MERL_H
 #define RESTAGE_MERL_H
 
