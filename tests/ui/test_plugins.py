@@ -156,7 +156,10 @@ def test_a_table_is_chosen_and_refused_in_red(launch, tmp_path):
     editor.wait(lambda s: s.get("material", {}).get("filename", {}).get("text") == str(tmp_path / "grey.binary"), "the file")
     editor.wait(lambda _: np.ptp(ball(editor)) < 0.05, "grey", 60)
     grey = ball(editor).mean()
-    choose("short.binary")
+    x, y = editor.point(BALL)  # the other one is dropped on it
+    commands = Path(str(editor.probe) + ".in")
+    commands.with_suffix(".partial").write_text(f"drop {tmp_path / 'short.binary'} {x} {y}\n")
+    commands.with_suffix(".partial").rename(commands)
     state = editor.wait(lambda s: "material.filename.problem" in s["marks"], "what is wrong with it", 60)
     assert state["history"]["position"] == 2
     x0, y0, x1, y1 = (int(v) for v in state["marks"]["material.filename.problem"])
