@@ -82,21 +82,23 @@ void write(const std::string& file, const MerlCounts& n, double alpha) { // alph
 
 } // namespace
 
-TEST_CASE("measured: Lambert and Cook-Torrance tabulated as MERL does, against the closed forms", "[materials][measured]") {
+TEST_CASE("measured: Lambert and Cook-Torrance tabulated as MERL does, against the closed forms",
+          "[materials][measured]") {
     const TemporaryFolder folder;
     const std::string file = (folder.path() / "t.binary").string();
     write(file, {90, 90, 180}, 0);
     const Errors lambert = compare(file, [](V, V) { return 0.7 / ref::pi; }, 0, 1e-3);
-    std::printf("measured, Lambert: relative error median %.2g, 99 %% %.2g, worst %.2g\n", lambert.median, lambert.most_of,
-                lambert.worst);
+    std::printf("measured, Lambert: relative error median %.2g, 99 %% %.2g, worst %.2g\n", lambert.median,
+                lambert.most_of, lambert.worst);
     CHECK(lambert.worst < 5e-7); // weights of eight equal entries, in single precision: 2.2e-7 was measured
     const auto f = [](V wo, V wi) { return cook_torrance(wo, wi, 0.1); };
     write(file, {45, 45, 90}, 0.1);
     const Errors coarse = compare(file, f, 0.1, 0.2);
     write(file, {90, 90, 180}, 0.1);
     const Errors middle = compare(file, f, 0.1, 0.2), low = compare(file, f, 0.1, 0.05);
-    std::printf("measured, Cook-Torrance alpha 0.1: median %.2g, 99 %% %.2g, worst %.2g; down to cos 0.05: %.2g, %.2g, %.2g\n",
-                middle.median, middle.most_of, middle.worst, low.median, low.most_of, low.worst);
+    std::printf(
+        "measured, Cook-Torrance alpha 0.1: median %.2g, 99 %% %.2g, worst %.2g; down to cos 0.05: %.2g, %.2g, %.2g\n",
+        middle.median, middle.most_of, middle.worst, low.median, low.most_of, low.worst);
     std::printf("measured, Cook-Torrance at half the resolution: median %.2g, 99 %% %.2g, worst %.2g\n", coarse.median,
                 coarse.most_of, coarse.worst);
     CHECK(middle.median < 0.002); // 0.0015, 0.0053 and 0.011 were measured; 0.002, 0.015 and 0.081 down to 0.05
@@ -123,20 +125,24 @@ TEST_CASE("measured: samples of a glossy table against those of the cosine", "[m
         std::vector<BsdfJob> jobs;
         for (int i = 0; i < 1 << 18; ++i) {
             const float u = unit(e); // a cosine-weighted wi in the same job
-            jobs.push_back({.wo = direction(z, 0.3f), .wi = direction(std::sqrt(u), 6.2831853f * unit(e)), .u = unit3(e)});
+            jobs.push_back(
+                {.wo = direction(z, 0.3f), .wi = direction(std::sqrt(u), 6.2831853f * unit(e)), .u = unit3(e)});
         }
         double sum[2] = {}, squares[2] = {};
         const auto answers = lab.run({&set, 1}, jobs);
         for (std::size_t i = 0; i < jobs.size(); ++i) {
-            const double ours = answers[i].flags ? answers[i].weight[1] : 0, cosine = answers[i].eval[1] * ref::pi / jobs[i].wi[2];
+            const double ours = answers[i].flags ? answers[i].weight[1] : 0,
+                         cosine = answers[i].eval[1] * ref::pi / jobs[i].wi[2];
             sum[0] += ours, squares[0] += ours * ours, sum[1] += cosine, squares[1] += cosine * cosine;
         }
         const double n = static_cast<double>(jobs.size());
         double mean[2], variance[2];
         for (int k = 0; k < 2; ++k)
             mean[k] = sum[k] / n, variance[k] = squares[k] / n - mean[k] * mean[k];
-        std::printf("measured, glossy table seen at %.0f degrees: albedo %.4f (by the cosine %.4f), variance %.4g against %.4g: %.0f times less\n",
-                    degrees, mean[0], mean[1], variance[0], variance[1], variance[1] / variance[0]);
+        std::printf(
+            "measured, glossy table seen at %.0f degrees: albedo %.4f (by the cosine %.4f), variance %.4g against "
+            "%.4g: %.0f times less\n",
+            degrees, mean[0], mean[1], variance[0], variance[1], variance[1] / variance[0]);
         CHECK(std::abs(mean[0] - mean[1]) < 4 * std::sqrt((variance[0] + variance[1]) / n));
         CHECK(variance[1] > 20 * variance[0]);
     }

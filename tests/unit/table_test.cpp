@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables that plugins read (restage/table.h), by the example of MERL's files: what is sound becomes words, what is not a
-// sentence, and pbrt files, exports and projects keep the path.
+// Tables that plugins read (restage/table.h), by the example of MERL's files: what is sound becomes words, what is not
+// a sentence, and pbrt files, exports and projects keep the path.
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "merl_file.hpp"
@@ -8,8 +8,8 @@
 #include "plugin_folder.hpp"
 #include "session/session.hpp"
 
-#include <catch2/matchers/catch_matchers_string.hpp>
 #include <bit>
+#include <catch2/matchers/catch_matchers_string.hpp>
 #include <limits>
 
 using namespace restage;
@@ -58,7 +58,8 @@ void put(std::string& bytes, std::size_t plane, std::size_t index, double value)
 
 TEST_CASE("a MERL file becomes words, each where it belongs", "[table]") {
     Reading r;
-    const auto table = r.read(merl_bytes(small, [](double h, double d, double p, int c) { return h + 10 * d + 100 * p + c; }));
+    const auto table =
+        r.read(merl_bytes(small, [](double h, double d, double p, int c) { return h + 10 * d + 100 * p + c; }));
     REQUIRE(table);
     const plugin::Table& t = **table;
     REQUIRE(t.words.size() == head + 3 * 24);
@@ -103,7 +104,8 @@ TEST_CASE("what is no MERL file is refused with a sentence", "[table]") {
     CHECK_THAT(r.refusal("abc"), ContainsSubstring("too short"));
     CHECK_THAT(r.refusal("# irregular isotropic BRDF\n0.1 0.2 0.3\n"), ContainsSubstring("is text"));
     CHECK_THAT(r.refusal(std::string("tensor_file\0\1\0", 14)), ContainsSubstring("RGL's material database"));
-    for (const test::MerlCounts n : {test::MerlCounts{0, 90, 180}, {-1, 90, 180}, {2147483647, 2147483647, 2147483647}, {5000, 1, 1}}) {
+    for (const test::MerlCounts n :
+         {test::MerlCounts{0, 90, 180}, {-1, 90, 180}, {2147483647, 2147483647, 2147483647}, {5000, 1, 1}}) {
         std::string bytes = lambert();
         std::memcpy(bytes.data(), n.data(), 12);
         CHECK_THAT(r.refusal(bytes), ContainsSubstring("it is no MERL file"));
@@ -150,7 +152,8 @@ TEST_CASE("a table is read once, and anew when its file changes; not after its p
     }
     CHECK(reader->read("filename", file)); // what is remembered stays
     REQUIRE(write_file_atomic(folder.file("b.binary"), lambert()));
-    CHECK_THAT(reader->read("filename", folder.file("b.binary")).error().message, ContainsSubstring("has been replaced"));
+    CHECK_THAT(reader->read("filename", folder.file("b.binary")).error().message,
+               ContainsSubstring("has been replaced"));
 }
 
 TEST_CASE("a reload of the plugin takes the files of its folder anew", "[table][plugin]") {
@@ -200,10 +203,11 @@ TEST_CASE("a plugin without native code has no tables, and says so", "[table][pl
     const fs::path where = folder.path / "p";
     fs::create_directories(where);
     REQUIRE(write_file_atomic(where / "velvet.glsl", "// empty"));
-    REQUIRE(write_file_atomic(where / "plugin.json",
-                              R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)"
-                              R"("materials":[{"type":"velvet","glsl":"velvet.glsl",)"
-                              R"("params":[{"id":"filename","type":"table"}]}]})"));
+    REQUIRE(
+        write_file_atomic(where / "plugin.json",
+                          R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)"
+                          R"("materials":[{"type":"velvet","glsl":"velvet.glsl",)"
+                          R"("params":[{"id":"filename","type":"table"}]}]})"));
     CHECK_THAT(folder.refusal(), ContainsSubstring("\"params\"[0]: a table is read by native code"));
 }
 
@@ -214,10 +218,11 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
     const std::string table = (r.folder.path / "in/brdfs/a.binary").string();
     REQUIRE(write_file_atomic(table, lambert()));
     REQUIRE(write_file_atomic(r.folder.path / "in/x.bsdf", "tensor_file"));
-    REQUIRE(write_file_atomic(r.folder.path / "in/s.pbrt",
-                              "WorldBegin\nMaterial \"measured\" \"string filename\" \"brdfs/a.binary\" \"rgb tint\" [ 1 .5 .25 ]\n"
-                              "Shape \"sphere\"\nMaterial \"measured\" \"string filename\" \"gone.binary\"\nShape \"sphere\"\n"
-                              "Material \"measured\" \"string filename\" \"x.bsdf\"\nShape \"sphere\"\n"));
+    REQUIRE(write_file_atomic(
+        r.folder.path / "in/s.pbrt",
+        "WorldBegin\nMaterial \"measured\" \"string filename\" \"brdfs/a.binary\" \"rgb tint\" [ 1 .5 .25 ]\n"
+        "Shape \"sphere\"\nMaterial \"measured\" \"string filename\" \"gone.binary\"\nShape \"sphere\"\n"
+        "Material \"measured\" \"string filename\" \"x.bsdf\"\nShape \"sphere\"\n"));
     session::Session session(r.plugins.registry);
     REQUIRE(session.open((r.folder.path / "in/s.pbrt").string()));
     const auto material = [](const session::Session& s, std::uint32_t instance) -> const Material& {
@@ -228,15 +233,22 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
     std::string report;
     for (const io::ReportEntry& e : session.report().entries)
         report += io::to_string(e) + "\n";
-    CHECK_THAT(report, ContainsSubstring("kept: material \"" + material(session, 1).name + "\": looks up " + table + ": 4 x 3 x 2"));
-    CHECK_THAT(report, ContainsSubstring("dropped: material \"" + material(session, 2).name + "\": " +
-                                         (r.folder.path / "in/gone.binary").string() + ": cannot be opened"));
+    CHECK_THAT(report, ContainsSubstring("kept: material \"" + material(session, 1).name + "\": looks up " + table +
+                                         ": 4 x 3 x 2"));
+    CHECK_THAT(report, ContainsSubstring("dropped: material \"" + material(session, 2).name +
+                                         "\": " + (r.folder.path / "in/gone.binary").string() + ": cannot be opened"));
     CHECK_THAT(report, ContainsSubstring("data of RGL (.bsdf) is not read"));
     for (const bool edited : {false, true}) { // as it came, and from its values
-        if (edited) REQUIRE(session.set_param({session.scene().instances[{1}].material}, "tint", Value::color(1, 1, 0.5f)));
+        if (edited)
+            REQUIRE(session.set_param({session.scene().instances[{1}].material}, "tint", Value::color(1, 1, 0.5f)));
         for (const char* v : {"v4", "v3"}) {
             const std::string out = (r.folder.path / "out" / (std::string(v) + (edited ? "e" : "") + ".pbrt")).string();
             REQUIRE(session.export_to(out, version(v)));
+            if (edited) // pbrt gets what it knows: its own measured materials are of another format
+                CHECK_THAT(
+                    read_file(out).value(),
+                    ContainsSubstring("#restage MakeNamedMaterial \"measured\" \"string plugin\" [ \"measured\" ]") &&
+                        ContainsSubstring("\"string filename\" [ \"textures/a"));
             session::Session again(r.plugins.registry);
             REQUIRE(again.open(out));
             const Material& m = material(again, 1);

@@ -95,7 +95,6 @@ class Exporter {
     void put_roughness(Params&, const Values&, const std::string& what, const char* u_id, const char* v_id,
                        const char* u_name, const char* v_name, bool zero_is_smooth, float otherwise = 0);
     void put_common(Params&, const Values&, const std::string& what);
-    std::string measured(Params&, const Values&, const std::string& what);
     void put_for_plugin(const std::string& name, const RestageMaterialDesc&);
     std::string material_v4(Params&, const RestageMaterialDesc&, const Values&, const std::string& what); // pbrt's type
     std::string material_v3(Params&, const RestageMaterialDesc&, const Values&, const std::string& what);

@@ -66,18 +66,6 @@ void Exporter::put_roughness(Params& params, const Values& values, const std::st
         flag(params, "remaproughness", false);
 }
 
-// Its file goes where textures' files go. pbrt-v4 has another format of this name; v3 does not know it at all.
-std::string Exporter::measured(Params& params, const Values& values, const std::string& what) {
-    const RestageValue* file = values.find("filename");
-    if (file && file->text && *file->text) params.add_string("filename", file->text); // placed by finished()
-    put_color(params, values, "tint", "tint", {1, 1, 1});
-    approximated(what + " (measured)",
-                 v3() ? "written for Restage, which reads it back; pbrt-v3 does not know it and shows a grey matte one"
-                      : "written for Restage, which reads it back; pbrt-v4 stops at it: its own measured materials are "
-                        "RGL's .bsdf, not MERL's .binary");
-    return "measured";
-}
-
 void Exporter::put_common(Params& params, const Values& values, const std::string& what) {
     if (const RestageHandle bump = values.ref("bump")) {
         RestageTexture t{};
@@ -140,7 +128,7 @@ std::string Exporter::material(RestageHandle handle) {
     } else {
         Params own;
         const std::string type = v3() ? material_v3(own, m, values, what) : material_v4(own, m, values, what);
-        stands_in = lossy_ && type != "mix" && type != "interface" && type != "none" && type != "measured";
+        stands_in = lossy_ && type != "mix" && type != "interface" && type != "none";
         params.add_string("type", type);
         for (const auto& [id, line] : k.for_values) { // what a value was before it became RGB, and was not edited
             Params original;

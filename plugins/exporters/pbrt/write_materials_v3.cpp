@@ -155,7 +155,6 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         put_color(p, v, "reflectance", "Kd", {0.1f, 0.02f, 0.03f});
         return "matte";
     }
-    if (type == "measured") return measured(p, v, what);
     dropped(what + " (" + type + ")", "pbrt-v3 has no such material; a grey matte one stands for it");
     p.add_rgb("Kd", {0.5f, 0.5f, 0.5f});
     return "matte";

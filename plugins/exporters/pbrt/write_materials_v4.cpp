@@ -140,7 +140,6 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         put_color(p, v, "reflectance", "reflectance", {0.1f, 0.02f, 0.03f});
         return "diffuse";
     }
-    if (type == "measured") return measured(p, v, what);
     dropped(what + " (" + type + ")", "pbrt-v4 has no such material; a grey diffuse one stands for it");
     p.add_rgb("reflectance", {0.5f, 0.5f, 0.5f});
     return "diffuse";
