@@ -56,15 +56,16 @@ int bytes(void* ctx, std::uint64_t offset, std::uint64_t count, void* out) {
 std::uint32_t* append(void* ctx, std::uint64_t count) {
     Reading& r = of(ctx);
     auto& words = r.table.words;
-    if (count <= most_words - words.size()) {
-        try {
+    try {
+        if (count <= most_words - words.size()) {
             words.resize(words.size() + count);
             return words.data() + words.size() - count;
-        } catch (const std::bad_alloc&) { // said below
         }
+    } catch (const std::bad_alloc&) {
+        r.refuse(0, "there is not enough memory for it");
+        return nullptr;
     }
-    r.refuse(0,
-             "it would be a table of more than " + std::to_string(most_words >> 18) + " MiB, or than there is memory");
+    r.refuse(0, "it would be a table of more than " + std::to_string(most_words >> 18) + " MiB");
     return nullptr;
 }
 
