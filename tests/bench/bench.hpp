@@ -74,6 +74,7 @@ struct Options { // of all measurements
 Json measure_rays(const Options&);
 Json measure_edits(const Options&);
 Json measure_features(const Options&, const std::string& variant);
+Json measure_multiscatter(const Options&);
 Json measure_first_image(const std::string& scene);
 // References of `reference_spp` samples in all are kept in `folder`.
 Json measure_standard(const Options&, const std::string& scene, const std::string& folder, std::uint32_t reference_spp);

@@ -23,6 +23,9 @@ int main(int argc, char** argv) {
     auto* features = program.add_subcommand("features", "The Cornell box and what else its scene uses");
     features->add_option("VARIANT", variant, "alone, types, features or all")->required();
     features->callback([&] { result = measure_features(o, variant); });
+    program.add_subcommand("multiscatter", "What light scattered more than once costs, by material")->callback([&] {
+        result = measure_multiscatter(o);
+    });
     auto* first = program.add_subcommand("first-image", "Where the time to a file's first picture goes");
     first->add_option("SCENE", scene)->required();
     first->callback([&] { result = measure_first_image(scene); });

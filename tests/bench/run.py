@@ -75,6 +75,10 @@ def features(bench):
     return rows
 
 
+def multiscatter(bench):
+    return bench.measure("multiscatter")
+
+
 def first_image(bench):
     """The program itself, from process start; then where the time goes."""
     scenes = folder_of("RESTAGE_SCENES")
@@ -114,7 +118,7 @@ def editor_latency(bench):
     return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
 
 
-ROWS = {"rays": rays, "edits": edits, "features": features, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
+ROWS = {"rays": rays, "edits": edits, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
 
 
 def main():

@@ -5,6 +5,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -77,12 +78,23 @@ TEST_CASE("multiple scattering: the white furnace is white at every roughness", 
          {{"remap", off}, {"eta", full}, {"k", Value::color(20, 20, 20)}, {"distribution", beckmann}},
          0.06},
         {"principled", {{"base_color", Value::color(1, 1, 1)}, {"metallic", Value::number(1)}}, 0.02},
+        {"principled", {{"base_color", Value::color(1, 1, 1)}, {"transmission", Value::number(1)}}, 0.03},
+        {"principled",
+         {{"base_color", Value::color(1, 1, 1)}, {"transmission", Value::number(1)}, {"thin", Value::boolean(true)}},
+         0.03},
         {"dielectric", {{"remap", off}, {"eta", Value::number(1.5f)}}, 0.03},
         {"dielectric", {{"remap", off}, {"eta", Value::number(2.2f)}, {"distribution", beckmann}}, 0.06},
     };
+    for (const auto& m : Bench::get().materials())
+        for (std::uint32_t i = 0; i < m.table->param_count; ++i)
+            if (std::string_view(m.table->params[i].id) == "multiscatter") {
+                INFO(m.table->type << " has multiscatter, and no furnace here");
+                CHECK(std::ranges::any_of(cases,
+                                          [&](const Case& c) { return std::string_view(c.type) == m.table->type; }));
+            }
     const float above[] = {1.f, 0.7f, 0.4f, 0.15f}, both[] = {0.9f, 0.15f, -0.15f, -0.5f};
     for (const Case& c : cases) {
-        const bool glass = std::string_view(c.type) == "dielectric";
+        const bool glass = std::string_view(c.type) == "dielectric" || c.values.contains("transmission");
         std::vector<scene::ParamSet> on, without;
         const float roughness[] = {0.1f, 0.5f, 1.f};
         for (const float r : roughness) {

@@ -30,8 +30,12 @@ struct principled_State {
     float film_thickness; // nm
     float mean_loss;      // of the layer, to multiple scattering; 0 when that is left out
     vec3 multiple;        // colour of light reflected more than once
+    vec3 multiple_through; // of a pane: colour of what goes through then
+    float clear_multiple; // share of the surface that is glass and scatters more than once
+    MultiscatterDielectric glass;
+    float sink;           // share of the cosine lobe's samples that go below
     vec2 turn;            // cosine and sine of the anisotropy's rotation
-    vec4 choice;          // probabilities: cosine lobe (diffuse and multiple), layer, coat, sheen
+    vec4 choice;          // probabilities: cosine lobes (diffuse and multiple), layer, coat, sheen
 };
 
 float principled_schlick(float c) {
@@ -140,10 +144,22 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     s.film_thickness = max(m.iridescence_thickness, 0.0);
     s.mean_loss = 0.0;
     s.multiple = vec3(0);
+    s.multiple_through = vec3(0);
+    s.clear_multiple = 0.0;
+    s.glass = MultiscatterDielectric(s.eta, vec2(1), 0.0);
     if (m.multiscatter && !alpha_is_smooth(s.alpha)) {
         s.mean_loss = microfacet_mean_loss(s.alpha, DISTRIBUTION_GGX);
         s.multiple = mix((1.0 - s.transmission) * multiscatter_color(fresnel_schlick_average(s.f0, s.f90), s.mean_loss),
                          multiscatter_color(fresnel_schlick_average(s.base, 1.0), s.mean_loss), s.metallic);
+        float clear = (1.0 - s.metallic) * s.transmission;
+        if (s.thin) { // both sides lose alike; light comes out as the mean surface would part it
+            float mean = max_component(fresnel_schlick_average(s.f0, s.f90));
+            s.multiple += clear * mean;
+            s.multiple_through = clear * (1.0 - mean) * s.base;
+        } else if (clear > 0.0) {
+            s.clear_multiple = clear;
+            s.glass = multiscatter_dielectric(s.alpha, s.eta, DISTRIBUTION_GGX);
+        }
     }
     s.coat_alpha = vec2(sqr(clamp(m.clearcoat_roughness, 0.0, 1.0)));
     s.coat = clamp(m.clearcoat, 0.0, 1.0);
@@ -152,7 +168,12 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     vec3 reflected = principled_reflected(s, c, 0.0, through);
     float coat = principled_coat_fresnel(s, c);
     float below = (1.0 - coat) * principled_under_sheen(s, c, c);
-    s.choice = vec4(below * (max_component(principled_diffuse(s, c, 0.7, principled_bare_mean(s), 0.0)) + max_component(s.multiple) * s.mean_loss),
+    float upward = max_component(principled_diffuse(s, c, 0.7, principled_bare_mean(s), 0.0)) +
+                   max_component(s.multiple) * s.mean_loss + s.clear_multiple * s.glass.mean_loss.x * s.glass.reflected;
+    float downward = max_component(s.multiple_through) * s.mean_loss +
+                     s.clear_multiple * s.glass.mean_loss.x * (1.0 - s.glass.reflected) * max_component(s.base);
+    s.sink = downward / max(upward + downward, 1e-20);
+    s.choice = vec4(below * (upward + downward),
                     below * (max_component(reflected) + max_component(through)), coat,
                     (1.0 - coat) * max_component(s.sheen) * sheen_albedo(c, s.sheen_alpha));
     s.choice /= max(dot(s.choice, vec4(1)), 1e-20);
@@ -164,6 +185,32 @@ float principled_under_coat(principled_State s, float cos_o, float cos_i) {
     return (1.0 - principled_coat_fresnel(s, cos_o)) * (1.0 - principled_coat_fresnel(s, cos_i));
 }
 
+// f |cos wi| of light that the layer scatters more than once: Kulla and Conty's lobes, of what reflects all and of glass
+// (lib/multiscatter.glsl). The losses are taken in a loop: compiled once.
+vec3 principled_multiple(principled_State s, vec3 wo, vec3 wi) {
+    bool reflects = wi.z > 0.0;
+    float ci = abs(wi.z);
+    vec3 color = reflects ? s.multiple : s.multiple_through;
+    vec3 f = vec3(0);
+    for (int k = 0; k < 2; ++k) {
+        if (k == 0 ? max_component(color) <= 0.0 : s.clear_multiple <= 0.0)
+            continue;
+        float lost = 1.0;
+        for (int side = 0; side < 2; ++side) {
+            float eta = k == 0 ? 0.0 : side == 0 || reflects ? s.eta : 1.0 / s.eta;
+            lost *= microfacet_loss(side == 0 ? wo : vec3(wi.xy, ci), s.alpha, eta, DISTRIBUTION_GGX);
+        }
+        lost *= ci * INV_PI;
+        if (k == 0)
+            f += color * (lost / s.mean_loss);
+        else if (reflects)
+            f += s.clear_multiple * (lost * s.glass.reflected / s.glass.mean_loss.x);
+        else
+            f += s.base * (s.clear_multiple * lost * (1.0 - s.glass.reflected) / (s.glass.mean_loss.y * sqr(s.eta)));
+    }
+    return f;
+}
+
 // f |cos wi| and the density of all lobes that are not delta; wo.z > 0.
 vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     pdf = 0.0;
@@ -171,13 +218,10 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
         return vec3(0);
     bool reflects = wi.z > 0.0;
     float ci = abs(wi.z);
-    vec3 f = vec3(0);
-    if (reflects) {
-        f = principled_diffuse(s, wo.z, ci, principled_mean_fresnel(s), s.film) * (INV_PI * ci);
-        pdf = s.choice.x * cosine_hemisphere_pdf(ci);
-        if (max_component(s.multiple) > 0.0)
-            f += s.multiple * multiscatter_reflection(wo, wi, s.alpha, s.mean_loss, DISTRIBUTION_GGX);
-    }
+    vec3 f = principled_multiple(s, wo, wi);
+    pdf = s.choice.x * (reflects ? 1.0 - s.sink : s.sink) * cosine_hemisphere_pdf(ci);
+    if (reflects)
+        f += principled_diffuse(s, wo.z, ci, principled_mean_fresnel(s), s.film) * (INV_PI * ci);
     if (!alpha_is_smooth(s.alpha) && (reflects || s.transmission > 0.0)) {
         // A pane is seen through as a mirror turned inside out.
         bool mirrored = !reflects && s.thin;
@@ -229,6 +273,10 @@ BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
     float layers = u.z - s.choice.x - s.choice.w;
     if (u.z < s.choice.x) {
         wi = sample_cosine_hemisphere(u.xy);
+        if (u.z < s.choice.x * s.sink) {
+            wi.z = -wi.z;
+            bent = s.thin ? 1.0 : s.eta;
+        }
     } else if (layers < 0.0) {
         wi = sheen_sample(u.xy);
         if (wi.z <= 0.0)
