@@ -60,3 +60,13 @@ def test_boxes():
     a = np.array([[0, 0, 0], [1, 1, 1.0]])
     assert example.overlaps(a, a + 0.5) and not example.overlaps(a, a + (1.5, 0, 0))
     assert example.overlaps(a, a + (1.005, 0, 0)) and not example.overlaps(a, a + (1.005, 0, 0), gap=0)
+
+
+def test_what_readme_shows_runs(tmp_path, monkeypatch):
+    readme = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text()
+    code = readme.split("```python\n")[1].split("```")[0]
+    assert "restage.open" in code and "size=(640, 360), samples=64" in code
+    monkeypatch.chdir(tmp_path)
+    shown = {}
+    exec(code.replace("size=(640, 360), samples=64", "size=(64, 36), samples=1"), shown)
+    assert shown["picture"].color.shape == (36, 64, 3) and (tmp_path / "room.png").exists()
