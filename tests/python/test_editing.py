@@ -143,7 +143,7 @@ def test_every_parameter_of_every_material_type_goes_in_and_out(demo):
         for p in table:
             low, high = p.range
             value = {"float": high, "color": (low, high, low), "int": int(high), "bool": True, "text": "word",
-                     "enum": p.choices[-1] if p.choices else "", "material": other, "texture": None}[p.type]
+                     "enum": p.choices[-1] if p.choices else "", "material": other, "texture": None, "table": "/nowhere/a.binary"}[p.type]
             material[p.id] = value
             assert material[p.id] == value, (name, p.id)
             del material[p.id]
