@@ -16,7 +16,7 @@ Result<std::vector<DeviceTable>> TableStore::find(const MaterialPlugin& plugin, 
         held.used = true;
         if (!held.buffer && !table->words.empty()) {
             const std::span<const std::uint32_t> words(table->words);
-            RESTAGE_TRY(held.buffer, device_->create_buffer(words.size_bytes(), gpu::BufferKind::host, "table"));
+            RESTAGE_TRY(held.buffer, device_->create_buffer(words.size_bytes(), gpu::BufferKind::device, "table"));
             RESTAGE_CHECK(device_->upload(held.buffer, 0, std::as_bytes(words)));
             uploaded_bytes_ += words.size_bytes();
         }
