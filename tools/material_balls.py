@@ -138,7 +138,7 @@ def sheet_rows(chosen):
     for material, folder in chosen.items():
         yield material, material, roughness_ids(folder), ""
         if any("m.multiscatter" in f.read_text() for f in folder.glob("*.glsl")):
-            yield f"{material},\nmultiscatter", material, roughness_ids(folder), '"bool multiscatter" true'
+            yield f"{material},\nmultiscatter", material, roughness_ids(folder), f'"string plugin" "{material}" "bool multiscatter" true'
 
 
 def look_without(look, ids):
