@@ -75,7 +75,7 @@ Result<StepResult> check_sound(Subject& s) {
     if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("sound");
-    const std::size_t sets = s.size(4000, 1000), count = s.size(1'000'000, 60'000);
+    const std::size_t sets = s.size(4000, 1000), count = s.size(600'000, 60'000);
     std::vector<ParamSet> configs;
     for (std::size_t i = 0; i < sets; ++i)
         configs.push_back(i == 0 ? ParamSet{} : i % 2 ? random_config(s.table(), e) : extreme_config(s.table(), e));

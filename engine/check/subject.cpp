@@ -94,7 +94,7 @@ const std::vector<DensityCase>& Subject::density_cases() {
     if (!density_cases_.empty()) return density_cases_;
     Engine e = random("density");
     const auto grid = config_grid(*table_, e, size(12, 4));
-    std::vector<double> angles = {0, 45, 75, 89.9, 20, 60, 85, 150, 110, 90.1};
+    std::vector<double> angles = {0, 45, 75, 89.9, 60, 85, 130, 90.1};
     if (options.quick) angles = {30, 80, 89.9, 130};
     for (const scene::ParamSet& set : grid)
         for (const double theta : angles)

@@ -65,6 +65,32 @@ TEST_CASE("pbrt's hair, by its colour, its absorption or its pigments", "[pbrt]"
     CHECK_THAT(r.written("v3"), ContainsSubstring("color\" [ 0.2 0.1 0.05 ]"));
 }
 
+TEST_CASE("pbrt's hair without its plugin keeps its colour, and the report says why", "[pbrt]") {
+    const std::filesystem::path all = std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins";
+    Log log{[](LogLevel, std::string_view) {}};
+    plugin::Registry registry{log};
+    registry.scan(std::vector<plugin::SearchPath>{
+        {all / "importer-pbrt", true}, {all / "exporter-pbrt", true}, {all / "material-diffuse", true}});
+    REQUIRE(registry.find_importer("pbrt"));
+    REQUIRE_FALSE(registry.find_material("hair"));
+    session::Session session{registry};
+    Folder folder;
+    const std::string file = folder.file("in.pbrt");
+    const std::string fur = R"(Material "hair" "rgb reflectance" [ 0.5 0.3 0.1 ] "float beta_n" 0.4)";
+    REQUIRE(write_file_atomic(file, "WorldBegin\n" + fur + "\nShape \"sphere\"\n"));
+    REQUIRE(session.open(file));
+    const Material& m = session.scene().materials[session.scene().instances.find(Id<Instance>{1})->material];
+    CHECK(m.type == "diffuse");
+    CHECK(near(m.params.color("reflectance", {}), {0.5f, 0.3f, 0.1f}));
+    bool said = false;
+    for (const io::ReportEntry& entry : session.report().entries)
+        said = said || io::to_string(entry).find("no plugin provides hair") != std::string::npos;
+    CHECK(said);
+    REQUIRE(session.export_to(folder.file("out.pbrt"), version("v4"))); // and nothing is lost
+    const std::string out = read_file(folder.file("out.pbrt")).value();
+    CHECK_THAT(out, ContainsSubstring("\"hair\"") && ContainsSubstring("\"float beta_n\" [ 0.4 ]"));
+}
+
 TEST_CASE("a plugin's material that pbrt does not know goes back as it came", "[pbrt]") {
     Reading r;
     const Material& m =

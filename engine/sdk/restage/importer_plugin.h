@@ -8,14 +8,6 @@
 #include <restage/scene_io.h>
 #include <string.h>
 
-#if !defined(RESTAGE_C_LINKAGE)
-#ifdef __cplusplus
-#define RESTAGE_C_LINKAGE extern "C"
-#else
-#define RESTAGE_C_LINKAGE extern
-#endif
-#endif
-
 #define RESTAGE_IMPORTER_PLUGIN(plugin_id, plugin_version, table)                                              \
     static const void* restage_query(const char* id, uint32_t index) {                                         \
         return index == 0 && strcmp(id, RESTAGE_IMPORTER1) == 0 ? &(table) : NULL;                             \

@@ -14,14 +14,6 @@
 #include <restage/table.h>
 #include <string.h>
 
-#if !defined(RESTAGE_C_LINKAGE)
-#ifdef __cplusplus
-#define RESTAGE_C_LINKAGE extern "C"
-#else
-#define RESTAGE_C_LINKAGE extern
-#endif
-#endif
-
 #define RESTAGE_MATERIAL_PLUGIN(plugin_id, plugin_version, table)                  \
     static const void* restage_query(const char* id, uint32_t index) {             \
         return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? &(table) : NULL; \

@@ -25,6 +25,13 @@ extern "C" {
 #define RESTAGE_EXPORT __attribute__((visibility("default")))
 #endif
 
+/* Before the declaration of the exported symbol, in C as in C++. */
+#ifdef __cplusplus
+#define RESTAGE_C_LINKAGE extern "C"
+#else
+#define RESTAGE_C_LINKAGE extern
+#endif
+
 /* What the host offers. Services are found by id, for example "restage.log/1". */
 typedef struct RestageHost {
     uint32_t abi;  /* RESTAGE_ABI of the host */
@@ -49,7 +56,7 @@ typedef struct RestagePlugin {
 } RestagePlugin;
 
 #define RESTAGE_PLUGIN_SYMBOL "restage_plugin"
-/* In exactly one source file of the plugin:  RESTAGE_EXPORT extern const RestagePlugin restage_plugin; */
+/* In exactly one source file of the plugin:  RESTAGE_C_LINKAGE RESTAGE_EXPORT const RestagePlugin restage_plugin; */
 
 #define RESTAGE_LOG "restage.log/1"
 typedef enum RestageLogLevel { RESTAGE_LOG_INFO = 0, RESTAGE_LOG_WARNING = 1, RESTAGE_LOG_ERROR = 2 } RestageLogLevel;
