@@ -59,6 +59,7 @@ class EmbreeTracer final : public Tracer {
     }
     bool adopt() override { return kernels_.adopt(); }
     std::optional<CompileProgress> compiling() const override { return kernels_.compiling(); }
+    void film_emptied() override { kernels_.film_emptied(); }
 
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();

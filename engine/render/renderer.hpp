@@ -46,6 +46,7 @@ class Renderer {
     void reset() {
         samples_ = 0;
         if (film_) film_->clear();
+        tracer_->film_emptied();
     }
     // The film starts again with other random numbers: of this seed, from this sample of a pixel on. Ranges of samples
     // of one seed, rendered apart, are together what rendering them in one go gives.

@@ -58,7 +58,9 @@ class Tracer {
     // Uses from now on what has been compiled in the meantime. True: it looks different, the film must start again.
     // What the last trace() did not need is no longer compiled: an edit that is undone cancels what it asked for.
     virtual bool adopt() = 0;
+    // nullopt: the film holds nothing but what was asked for.
     virtual std::optional<CompileProgress> compiling() const = 0;
+    virtual void film_emptied() = 0; // what it showed is no longer seen
     // Adds samples to the film; waits. Shaders are compiled when a path first needs them.
     virtual Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) = 0;
     const TraceStats& stats() const { return stats_; }

@@ -82,7 +82,12 @@ class VulkanTracer final : public Tracer {
         if (shown_) wanted_ = nullptr;
         return false;
     }
-    std::optional<CompileProgress> compiling() const override { return store_.compiling(); }
+    std::optional<CompileProgress> compiling() const override {
+        auto progress = store_.compiling();
+        if (!progress && wanted_ && shown_) progress = {.what = wanted_->what, .left = 1}; // built since adopt()
+        return progress;
+    }
+    void film_emptied() override { shown_ = false; }
 
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();

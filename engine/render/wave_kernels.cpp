@@ -116,6 +116,8 @@ const gpu::ComputePipeline& WaveKernels::shade(std::size_t type) const {
 }
 
 bool WaveKernels::adopt() {
+    for (const Slot& slot : slots_) // while its stand-in is seen it is wanted, though the last sample missed it
+        if (slot.shown && slot.wanted && !slot.wanted->cancelled()) store_.keep(slot.wanted);
     store_.settle();
     bool different = false;
     for (Slot& slot : slots_) {
@@ -134,6 +136,18 @@ bool WaveKernels::adopt() {
         }
     }
     return different;
+}
+
+std::optional<CompileProgress> WaveKernels::compiling() const {
+    if (auto progress = store_.compiling()) return progress;
+    for (const Slot& slot : slots_) // built since adopt()
+        if (slot.shown && slot.wanted) return CompileProgress{.what = slot.what, .left = 1};
+    return std::nullopt;
+}
+
+void WaveKernels::film_emptied() {
+    for (Slot& slot : slots_)
+        slot.shown = false;
 }
 
 std::size_t WaveKernels::shader_bytes() const {

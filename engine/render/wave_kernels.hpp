@@ -29,7 +29,8 @@ class WaveKernels {
     const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); `escape` too
 
     bool adopt(); // see Tracer
-    std::optional<CompileProgress> compiling() const { return store_.compiling(); }
+    std::optional<CompileProgress> compiling() const;
+    void film_emptied();
     std::size_t shader_bytes() const; // SPIR-V of the kernels in use
 
   private:

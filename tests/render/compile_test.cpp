@@ -123,6 +123,63 @@ TEST_CASE("samples of a stand-in do not stay in the film") {
     check_equal(renderer->image(), render_image(*make_renderer(tracer), b.scene, 4));
 }
 
+// The code arrives within a sample, after the sample has begun with the stand-in.
+TEST_CASE("a film that holds a stand-in's samples waits for what it stands for") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const auto cache = empty_cache("late_" + tracer);
+    Ball b(red);
+    const auto was = b.scene.instances[b.ball].material, coat = b.material("coateddiffuse");
+    b.give(coat);
+    for (const bool stand_ins : {true, false}) { // both kinds of compiler leave their code in the cache
+        const auto first = make_renderer(tracer, {.stand_ins = stand_ins, .cache_dir = cache});
+        sync(*first, b.scene);
+        settle(*first);
+    }
+    const auto renderer = make_renderer(tracer, {.stand_ins = true, .cache_dir = cache});
+    b.give(was);
+    sync(*renderer, b.scene);
+    settle(*renderer);
+    b.give(coat);
+    sync(*renderer, b.scene);
+    trace(*renderer, 1);
+    REQUIRE(renderer->compiling());
+    bool slept = false;
+    REQUIRE(renderer->trace(1, [&] {
+        if (!std::exchange(slept, true)) std::this_thread::sleep_for(std::chrono::seconds(3));
+        return true;
+    }));
+    CHECK(slept);
+    while (renderer->compiling())
+        trace(*renderer, 1);
+    const auto image = renderer->image();
+    check_equal(image, render_image(*make_renderer(tracer), b.scene, image.samples));
+}
+
+TEST_CASE("a material that one path in many samples meets is compiled all the same") {
+    const auto renderer = editor("embree", "rare");
+    Ball b([](SceneBuilder& s) { return s.material("coateddiffuse"); });
+    auto i = b.scene.instances[b.ball];
+    i.object_to_world = glm::scale(i.object_to_world, glm::dvec3(0.01)); // a fiftieth of a pixel
+    b.scene.instances.set(b.ball, i, ++b.scene.clock);
+    sync(*renderer, b.scene);
+    std::uint32_t last = 0;
+    bool met = false;
+    for (int k = 0; k < 20000 && !met; ++k) {
+        trace(*renderer, 1);
+        const auto compiling = renderer->compiling();
+        met = compiling && compiling->what == "coateddiffuse";
+        last = renderer->samples();
+    }
+    REQUIRE(met);
+    const auto start = std::chrono::steady_clock::now();
+    while (renderer->compiling() && renderer->samples() >= last) {
+        last = renderer->samples();
+        trace(*renderer, 1);
+        REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::minutes(3));
+    }
+    CHECK(renderer->samples() == 1); // begun again, without the stand-in
+}
+
 TEST_CASE("an edit that is undone cancels what it wanted compiled") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = editor(tracer, "cancel_" + tracer);
