@@ -40,14 +40,6 @@ struct StepPayload {
     uint shadow_medium;
 };
 
-// What the shading of a hit takes as uv: the mesh's, or barycentrics where it has none.
-vec2 hit_uv(InstanceData inst, uint prim, vec2 bary) {
-    if ((inst.flags & INSTANCE_HAS_UVS) == 0u) return bary;
-    uvec3 tri = Uvec3Array(inst.indices).at[prim];
-    Vec2Array uvs = Vec2Array(inst.uvs);
-    return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
-}
-
 // The geometric normal by the rule of path/surface.glsl, not unit.
 vec3 outward_normal(InstanceData inst, uint prim, vec2 bary) {
     uvec3 tri = Uvec3Array(inst.indices).at[prim];

@@ -33,6 +33,7 @@ LOOKS = {
     "conductor": '"float uroughness" 0.1 "float vroughness" 0.1',
     "diffuse": '"rgb reflectance" [0.7 0.5 0.3]',
     "diffusetransmission": '"rgb reflectance" [0.3 0.45 0.2] "rgb transmittance" [0.4 0.5 0.15]',
+    "emissive": '"rgb radiance" [1 0.62 0.25] "float scale" 0.75 "rgb reflectance" [0.2 0.2 0.2]',
     "plastic": '"rgb Kd" [0.1 0.25 0.5] "rgb Ks" [0.3 0.3 0.3]',
     "principled": '"rgb base_color" [0.1 0.35 0.6] "float roughness" 0.25 "float clearcoat" 1',
     "substrate": '"rgb Kd" [0.35 0.1 0.3] "rgb Ks" [0.05 0.05 0.05]',

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage info SCENE: what is in a scene file, and what its import kept, approximated and dropped.
 #include "commands.hpp"
+#include "io/material_emission.hpp"
 #include "rendering.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@ namespace {
 nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registry& registry) {
     const scene::Scene& s = imported.scene;
     std::size_t geometry = 0, pixels = 0, triangles = 0, instanced = 0, emitters = 0;
+    const io::MaterialEmissions emissions(registry, s);
     std::set<const void*> seen;
     s.meshes.each([&](auto, const scene::Mesh& m) {
         if (!m.data || !seen.insert(m.data.get()).second) return;
@@ -27,7 +29,7 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     s.instances.each([&](auto, const scene::Instance& i) {
         const auto* mesh = s.meshes.find(i.mesh);
         instanced += mesh && mesh->data ? mesh->data->triangles.size() : 0;
-        emitters += i.emission.has_value();
+        emitters += emissions.shines(i);
     });
     std::map<std::string, int> types;
     nlohmann::json missing = nlohmann::json::array();

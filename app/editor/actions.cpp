@@ -3,6 +3,7 @@
 
 #include "editor.hpp"
 #include "final_render.hpp"
+#include "io/material_emission.hpp"
 #include "panels/outliner.hpp"
 #include "saving.hpp"
 #include "session/navigation.hpp"
@@ -122,8 +123,9 @@ void set_hidden(Editor& e, bool hidden) {
 
 void isolate(Editor& e) {
     std::vector<InstanceId> others;
+    const io::MaterialEmissions emissions(e.registry(), e.scene());
     e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
-        if (!e.selection.contains(id) && !instance.hidden && !instance.emission) others.push_back(id);
+        if (!e.selection.contains(id) && !instance.hidden && !emissions.shines(instance)) others.push_back(id);
     });
     e.edit([others](const scene::Scene& s) {
         auto edit = scene::set_hidden(s, others, true);

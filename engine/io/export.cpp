@@ -116,7 +116,7 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
         std::memcpy(out.v, value.v.data(), sizeof out.v);
         values.push_back(out);
     }
-    SceneReader reader(scene, options.progress);
+    SceneReader reader(scene, registry, options.progress);
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it wrote " + path));
     const bool saved =
         exporter->save(path.c_str(), &reader.table(), values.data(), static_cast<std::uint32_t>(values.size())) != 0;

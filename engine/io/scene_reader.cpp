@@ -162,6 +162,10 @@ struct SceneReader::Calls {
             out->flags |= RESTAGE_INSTANCE_EMITS;
             if (i->emission->two_sided) out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
             copy(i->emission->radiance, out->emission);
+        } else if (const auto by_material = self(ctx).shine_.of(i->material)) {
+            out->flags |= RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_EMITS_BY_MATERIAL;
+            if (by_material->two_sided) out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
+            copy(by_material->radiance * mean_of(scene(ctx), by_material->texture), out->emission);
         }
         copy(i->object_to_world, out->object_to_world);
         return 1;
@@ -253,7 +257,8 @@ struct SceneReader::Calls {
     }
 };
 
-SceneReader::SceneReader(const Scene& scene, Progress progress) : Exchange(std::move(progress)), scene_(scene) {
+SceneReader::SceneReader(const Scene& scene, const plugin::Registry& registry, Progress progress)
+    : Exchange(std::move(progress)), scene_(scene), shine_(registry, scene) {
     table_ = {.size = sizeof(RestageSceneReader1),
               .ctx = this,
               .count = Calls::count,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "io/exchange.hpp"
+#include "io/material_emission.hpp"
 #include "scene/scene.hpp"
 
 #include <restage/scene_io.h>
@@ -15,7 +16,8 @@ namespace restage::io {
 
 class SceneReader : public Exchange {
   public:
-    SceneReader(const scene::Scene&, Progress);
+    // `registry`: says which materials shine.
+    SceneReader(const scene::Scene&, const plugin::Registry& registry, Progress);
 
     const RestageSceneReader1& table() const { return table_; } // its ctx is this
 
@@ -25,6 +27,7 @@ class SceneReader : public Exchange {
     int give_values(const scene::ParamSet&, Description& out);
 
     const scene::Scene& scene_;
+    MaterialEmissions shine_;
     RestageSceneReader1 table_{};
     std::deque<std::vector<RestageValue>> values_; // handed out
 };

@@ -74,7 +74,10 @@ Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manif
                 return fail(file + ": " + problem);
             tables.push_back(&table);
         }
-        RESTAGE_CHECK(loaded->take_materials(tables, folder, file));
+        std::vector<const RestageEmission1*> emissions;
+        for (const RestageEmission1& emission : described->emissions())
+            emissions.push_back(&emission);
+        RESTAGE_CHECK(loaded->take_materials(tables, emissions, folder, file));
         return loaded;
     }
     RESTAGE_CHECK(loaded->open_library(folder, manifest, log));
@@ -124,7 +127,8 @@ Result<> Loaded::take_tables(const fs::path& folder, const Manifest& manifest, L
             if (found.empty()) return missing(RESTAGE_MATERIAL1);
             RESTAGE_TRY(const auto readers, query_all<RestageTable1>(*table_, RESTAGE_TABLE1, folder, library));
             RESTAGE_CHECK(take_table_readers(found, readers, manifest, log, library));
-            RESTAGE_CHECK(take_materials(found, folder, library));
+            RESTAGE_TRY(const auto emissions, query_all<RestageEmission1>(*table_, RESTAGE_EMISSION1, folder, library));
+            RESTAGE_CHECK(take_materials(found, emissions, folder, library));
             RESTAGE_TRY(inspectors, query_all<RestageInspector1>(*table_, RESTAGE_INSPECTOR1, folder, library));
             for (const RestageInspector1* i : inspectors)
                 if (std::none_of(materials.begin(), materials.end(),
@@ -151,9 +155,18 @@ Result<> Loaded::take_tables(const fs::path& folder, const Manifest& manifest, L
     return {};
 }
 
-Result<> Loaded::take_materials(std::span<const RestageMaterial1* const> tables, const fs::path& folder,
+Result<> Loaded::take_materials(std::span<const RestageMaterial1* const> tables,
+                                std::span<const RestageEmission1* const> emissions, const fs::path& folder,
                                 const std::string& who) {
     RESTAGE_TRY(const auto glsl, read_glsl(folder));
+    for (const RestageEmission1* emission : emissions) {
+        const auto its = std::find_if(tables.begin(), tables.end(),
+                                      [&](const RestageMaterial1* m) { return key(*m) == key(*emission); });
+        if (its == tables.end())
+            return fail(who + ": has an emission of \"" + emission->type + "\", which it does not provide");
+        if (const std::string problem = check_emission(*emission, **its); !problem.empty())
+            return fail(who + ": " + problem);
+    }
     for (const RestageMaterial1* table : tables) {
         for (const auto& other : materials) {
             if (key(other->table()) == key(*table))
@@ -164,8 +177,11 @@ Result<> Loaded::take_materials(std::span<const RestageMaterial1* const> tables,
         }
         const auto reader = std::find_if(table_readers.begin(), table_readers.end(),
                                          [&](const auto& r) { return r->material_type() == key(*table); });
+        const auto emission = std::find_if(emissions.begin(), emissions.end(),
+                                           [&](const RestageEmission1* e) { return key(*e) == key(*table); });
         materials.push_back(std::make_shared<const MaterialSource>(*table, folder, glsl,
-                                                                   reader == table_readers.end() ? nullptr : *reader));
+                                                                   reader == table_readers.end() ? nullptr : *reader,
+                                                                   emission == emissions.end() ? nullptr : *emission));
     }
     return {};
 }

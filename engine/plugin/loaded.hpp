@@ -10,6 +10,7 @@
 #include "plugin/material_source.hpp"
 
 #include <restage/denoiser.h>
+#include <restage/emission.h>
 #include <restage/inspector.h>
 #include <restage/plugin.h>
 #include <restage/scene_io.h>
@@ -48,7 +49,8 @@ class Loaded {
     Loaded() = default;
     Result<> open_library(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
     Result<> take_tables(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
-    Result<> take_materials(std::span<const RestageMaterial1* const> tables, const std::filesystem::path& folder,
+    Result<> take_materials(std::span<const RestageMaterial1* const> tables,
+                            std::span<const RestageEmission1* const> emissions, const std::filesystem::path& folder,
                             const std::string& who);
     Result<> take_table_readers(std::span<const RestageMaterial1* const> materials,
                                 std::span<const RestageTable1* const> readers, const Manifest& manifest, Log& log,
@@ -64,6 +66,7 @@ class Loaded {
 inline std::string_view key(const RestageMaterial1& t) { return t.type; }
 inline std::string_view key(const RestageInspector1& t) { return t.type; }
 inline std::string_view key(const RestageTable1& t) { return t.type; }
+inline std::string_view key(const RestageEmission1& t) { return t.type; }
 inline std::string_view key(const RestageImporter1& t) { return t.format; }
 inline std::string_view key(const RestageExporter1& t) { return t.format; }
 inline std::string_view key(const RestageDenoiser1& t) { return t.type; }

@@ -127,8 +127,25 @@ struct JsonReader {
         return p;
     }
 
+    Result<> emission(const json& object, const char* type, const std::string& where) {
+        RESTAGE_CHECK(know(object, {"radiance", "scale", "two_sided"}, where));
+        RestageEmission1 e{};
+        e.size = sizeof e;
+        e.type = type;
+        RESTAGE_TRY(e.radiance, text(object, "radiance", nullptr, where));
+        if (object.contains("scale")) {
+            RESTAGE_TRY(e.scale, text(object, "scale", nullptr, where));
+        }
+        if (object.contains("two_sided")) {
+            RESTAGE_TRY(e.two_sided, text(object, "two_sided", nullptr, where));
+        }
+        out.emissions_.push_back(e);
+        return {};
+    }
+
     Result<RestageMaterial1> material(const json& object, const std::string& where) {
-        RESTAGE_CHECK(know(object, {"type", "label", "prefix", "glsl", "flags", "tooltip", "params"}, where));
+        RESTAGE_CHECK(
+            know(object, {"type", "label", "prefix", "glsl", "flags", "tooltip", "params", "emission"}, where));
         RestageMaterial1 m{};
         m.size = sizeof m;
         RESTAGE_TRY(m.type, text(object, "type", nullptr, where));
@@ -148,6 +165,8 @@ struct JsonReader {
         }
         m.params = params.data();
         m.param_count = static_cast<std::uint32_t>(params.size());
+        if (const auto it = object.find("emission"); it != object.end())
+            RESTAGE_CHECK(emission(*it, m.type, where + ".\"emission\""));
         return m;
     }
 };

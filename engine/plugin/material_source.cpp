@@ -50,7 +50,7 @@ Result<std::shared_ptr<const FileTexts>> read_glsl(const fs::path& folder) {
 const char* MaterialSource::keep(const char* text) { return text ? strings_.emplace_back(text).c_str() : nullptr; }
 
 MaterialSource::MaterialSource(const RestageMaterial1& table, fs::path folder, std::shared_ptr<const FileTexts> glsl,
-                               std::shared_ptr<TableReader> table_reader)
+                               std::shared_ptr<TableReader> table_reader, const RestageEmission1* emission)
     : folder_(std::move(folder)),
       glsl_(std::move(glsl)),
       table_reader_(std::move(table_reader)),
@@ -80,6 +80,16 @@ MaterialSource::MaterialSource(const RestageMaterial1& table, fs::path folder, s
             digest.number(v);
         if (p.type == RESTAGE_TABLE && p.choices && *p.choices)
             p.choices = keep((folder_ / p.choices).lexically_normal().string().c_str());
+    }
+    if (emission) {
+        emission_ = RestageEmission1{.size = sizeof *emission,
+                                     .reserved = 0,
+                                     .type = table_.type,
+                                     .radiance = keep(emission->radiance),
+                                     .scale = keep(emission->scale),
+                                     .two_sided = keep(emission->two_sided)};
+        for (const char* text : {emission_->radiance, emission_->scale, emission_->two_sided})
+            digest.text(text);
     }
     table_.params = params_.data();
     table_.param_count = static_cast<std::uint32_t>(params_.size());

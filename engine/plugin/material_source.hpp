@@ -7,12 +7,14 @@
 
 #include "base/result.hpp"
 
+#include <restage/emission.h>
 #include <restage/material.h>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,9 +31,9 @@ Result<std::shared_ptr<const FileTexts>> read_glsl(const std::filesystem::path& 
 
 class MaterialSource {
   public:
-    // `table` must have passed check_table.
+    // `table` must have passed check_table, and `emission` check_emission; null = it does not shine.
     MaterialSource(const RestageMaterial1& table, std::filesystem::path folder, std::shared_ptr<const FileTexts> glsl,
-                   std::shared_ptr<TableReader> table_reader = nullptr);
+                   std::shared_ptr<TableReader> table_reader = nullptr, const RestageEmission1* emission = nullptr);
     MaterialSource(const MaterialSource&) = delete;
 
     const RestageMaterial1& table() const { return table_; } // lives as long as this
@@ -39,7 +41,8 @@ class MaterialSource {
     const std::shared_ptr<const FileTexts>& glsl() const { return glsl_; }
     // Of its RESTAGE_TABLE parameters, whose defaults are absolute paths here; null = it has none.
     const std::shared_ptr<TableReader>& table_reader() const { return table_reader_; }
-    // Equal numbers: equal table and equal GLSL.
+    const RestageEmission1* emission() const { return emission_ ? &*emission_ : nullptr; } // lives as long as this
+    // Equal numbers: equal table, equal emission and equal GLSL.
     std::uint64_t revision() const { return revision_; }
 
   private:
@@ -51,6 +54,7 @@ class MaterialSource {
     std::deque<std::string> strings_; // does not move what it holds
     std::vector<RestageParam> params_;
     RestageMaterial1 table_{};
+    std::optional<RestageEmission1> emission_;
     std::uint64_t revision_ = 0;
 };
 
@@ -62,12 +66,14 @@ class JsonMaterials {
     // 'plugin.json: "materials"[0]."params"[2]: "min" must be a number'.
     static Result<std::unique_ptr<JsonMaterials>> parse(const std::string& text, const std::string& file);
     std::span<const RestageMaterial1> tables() const { return tables_; }
+    std::span<const RestageEmission1> emissions() const { return emissions_; } // of those that shine
 
   private:
     friend struct JsonReader;
     std::deque<std::string> strings_;
     std::deque<std::vector<RestageParam>> params_;
     std::vector<RestageMaterial1> tables_;
+    std::vector<RestageEmission1> emissions_;
 };
 
 } // namespace restage::plugin

@@ -216,6 +216,30 @@ std::string check_table(const RestageTable1& t) {
     return t.read ? "" : "the reader of tables of " + quoted(t.type) + " lacks read";
 }
 
+std::string check_table(const RestageEmission1& t) {
+    if (const std::string problem = check_size(t, RESTAGE_EMISSION1); !problem.empty()) return problem;
+    if (!t.type || !is_type_name(t.type)) return "an emission that does not say of which material it is";
+    return t.radiance ? "" : "the emission of " + quoted(t.type) + " names no parameter as its radiance";
+}
+
+std::string check_emission(const RestageEmission1& e, const RestageMaterial1& m) {
+    const std::string who = "the emission of " + quoted(e.type) + ": ";
+    if (m.flags & (RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL))
+        return who + "a mix, or what is no surface, cannot shine";
+    const auto lacks = [&](const char* role, const char* id, RestageType type, const char* kind) {
+        return id && !has_param(m, id, type)
+                   ? who + "its " + role + " " + quoted(id) + " is no parameter of type " + kind + " of that material"
+                   : std::string();
+    };
+    std::string problem = lacks("radiance", e.radiance, RESTAGE_COLOR, "COLOR");
+    if (problem.empty()) problem = lacks("scale", e.scale, RESTAGE_FLOAT, "FLOAT");
+    if (problem.empty()) problem = lacks("two_sided", e.two_sided, RESTAGE_BOOL, "BOOL");
+    for (std::uint32_t i = 0; problem.empty() && e.scale && i < m.param_count; ++i)
+        if (std::string_view(m.params[i].id) == e.scale && (m.params[i].flags & RESTAGE_PARAM_TEXTURABLE))
+            problem = who + "its scale " + quoted(e.scale) + " may be a texture; only the radiance may";
+    return problem;
+}
+
 bool has_table(const RestageMaterial1& m) {
     return std::any_of(m.params, m.params + m.param_count,
                        [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <restage/denoiser.h>
+#include <restage/emission.h>
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
@@ -22,6 +23,9 @@ std::string check_table(const RestageExporter1&);
 std::string check_table(const RestageDenoiser1&);
 std::string check_table(const RestageInspector1&);
 std::string check_table(const RestageTable1&);
+std::string check_table(const RestageEmission1&);
+// Does what `emission` names exist in the table of its material?
+std::string check_emission(const RestageEmission1& emission, const RestageMaterial1& material);
 bool has_table(const RestageMaterial1&); // a parameter of type RESTAGE_TABLE
 
 } // namespace restage::plugin

@@ -18,7 +18,7 @@ using scene::Scene;
 static_assert(sizeof(shared::InstanceData) == 168);
 static_assert(sizeof(shared::MaterialData) == 32);
 static_assert(sizeof(shared::TextureOp) == 48);
-static_assert(sizeof(shared::LightData) == 64);
+static_assert(sizeof(shared::LightData) == 68);
 static_assert(sizeof(shared::ImageData) == 24);
 
 GpuScene::GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup)
@@ -52,7 +52,8 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     if (materials || instances) // an instance may bring in a type
         RESTAGE_CHECK(sync_materials(scene, changes));
     if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
-    if (lights || !changes.instances.empty()) RESTAGE_CHECK(sync_lights(scene, changes));
+    if (lights || !changes.instances.empty() || (textures && features_.emission_textures))
+        RESTAGE_CHECK(sync_lights(scene, changes));
     RESTAGE_CHECK(sync_root(scene, changes));
     changes.shaders |= plugins;
     changes.film = first_ || scene.film.version != seen_.film;

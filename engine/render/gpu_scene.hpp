@@ -12,6 +12,7 @@
 #include "render/material_composer.hpp"
 #include "render/table_store.hpp"
 #include "render/texture_program.hpp"
+#include "scene/emission.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>
@@ -91,6 +92,9 @@ class GpuScene {
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
     bool refresh_types();
+    // What an instance shines by: its own emission, else its material's.
+    std::optional<scene::MaterialEmission> emission_of(const scene::Scene&, const scene::Instance&) const;
+    double mean_emission(std::uint32_t instance, std::uint32_t triangle, int points) const; // luminance
     shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
     glm::vec2 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
 
@@ -111,6 +115,8 @@ class GpuScene {
     std::vector<MaterialType> types_;
     std::vector<float> mix_amount_; // constants by MaterialData index
     std::vector<std::uint32_t> mix_texture_;
+    std::vector<std::optional<scene::MaterialEmission>> emission_; // by MaterialData index
+    std::vector<char> emission_changed_;                           // the same, since the last sync
     std::vector<char> has_gaps_; // by MaterialData index: a mix with a share of no surface
     std::vector<char> traced_, border_;
     std::vector<scene::Id<scene::Mesh>> mesh_of_;

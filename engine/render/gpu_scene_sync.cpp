@@ -67,15 +67,19 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     std::vector<std::uint32_t> words;
     mix_amount_.assign(records.size(), 0.5f);
     mix_texture_.assign(records.size(), 0);
+    std::vector<std::optional<scene::MaterialEmission>> emission(records.size());
     tables_.begin();
     const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type,
                           std::span<const DeviceTable> tables = {}) {
         record.type = type;
-        const auto color = stand_in_color(*types_[type].plugin.table, params);
+        const auto color = stand_in_color(*types_[type].plugin.table, params, types_[type].plugin.emission());
         words.insert(words.end(), color.begin(), color.end());
         record.params = std::uint32_t(words.size());
         const auto packed = pack_material(*types_[type].plugin.table, params, tables);
         words.insert(words.end(), packed.begin(), packed.end());
+    };
+    const auto warn = [&](std::string text) {
+        if (said_.insert(text).second) changes.warnings.push_back(std::move(text));
     };
     scene::ParamSet pink;
     pink.set("reflectance", scene::Value::color(0.8f, 0.1f, 0.5f));
@@ -96,6 +100,8 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             const auto child = [&](const char* param) {
                 const auto* v = m.params.find(param);
                 const auto* m2 = v ? scene.materials.find(v->material) : nullptr;
+                if (m2 && types_[type_index(m2->type)].plugin.emission())
+                    warn("material \"" + m.name + "\": its share \"" + m2->name + "\" does not shine within a mix");
                 if (m2 && types_[type_index(m2->type)].null_surface()) return MATERIAL_NOTHING;
                 return m2 ? v->material.value : 0u;
             };
@@ -116,13 +122,12 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         const auto tables = tables_.find(type.plugin, m.params);
         if (!tables) { // its file is missing or broken: grey, until it is mended
             pack(record, {}, fallback);
-            if (std::string text =
-                    "material \"" + m.name + "\": " + tables.error().message + "; a grey one stands for it";
-                said_.insert(text).second)
-                changes.warnings.push_back(std::move(text));
+            warn("material \"" + m.name + "\": " + tables.error().message + "; a grey one stands for it");
             return;
         }
         pack(record, m.params, index, *tables);
+        if (const auto* names = type.plugin.emission())
+            emission[id.value] = scene::emission_of(*type.plugin.table, *names, m.params);
         record.bump = m.params.texture("bump").value;
         record.normal_map = m.params.texture("normalmap").value;
         type.bump |= record.bump || record.normal_map;
@@ -132,6 +137,11 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
                 type.textured |= std::uint64_t(1) << i;
     });
     tables_.sweep();
+    emission_.resize(records.size());
+    emission_changed_.resize(records.size());
+    for (std::size_t i = 0; i < records.size(); ++i)
+        emission_changed_[i] = emission_[i] != emission[i];
+    emission_ = std::move(emission);
     has_gaps_.assign(records.size(), 0);
     for (int depth = 0; depth < 8; ++depth) // as deep as mixes are resolved
         for (std::size_t i = 0; i < records.size(); ++i)
@@ -146,6 +156,28 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     params_.assign(std::move(words));
     RESTAGE_CHECK(materials_.flush(*device_));
     return params_.flush(*device_);
+}
+
+std::optional<scene::MaterialEmission> GpuScene::emission_of(const Scene& scene, const scene::Instance& in) const {
+    if (in.emission)
+        return scene::MaterialEmission{.radiance = in.emission->radiance, .two_sided = in.emission->two_sided};
+    return scene.materials.find(in.material) ? emission_[in.material.value] : std::nullopt;
+}
+
+// At points that are spread over the triangle: a lattice of Kronecker's by the plastic number (Roberts 2018).
+double GpuScene::mean_emission(std::uint32_t id, std::uint32_t triangle, int points) const {
+    const auto& instance = instances_[id];
+    const auto& mesh = *mesh_data_[mesh_of_[id].value];
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+        glm::vec2 b = glm::fract(glm::vec2(0.5) + float(i) * glm::vec2(0.7548777f, 0.5698403f));
+        if (b.x + b.y > 1) b = 1.f - b;
+        const glm::vec3 texture =
+            evaluate_texture(textures_, cpu_images_, instance.emission_texture, uv_at(instance, mesh, triangle, b));
+        const glm::vec3 c = instance.emission * glm::max(texture, glm::vec3(0));
+        sum += 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+    }
+    return sum / points;
 }
 
 shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t id, const scene::Instance& in) const {
@@ -163,9 +195,10 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     out.alpha = in.alpha;
     if (in.reverse_orientation) out.flags |= INSTANCE_FLIP_NORMAL;
     if (out.alpha_texture || in.alpha < 1) out.flags |= INSTANCE_HAS_ALPHA;
-    if (in.emission) {
-        out.flags |= INSTANCE_EMITS | (in.emission->two_sided ? INSTANCE_TWO_SIDED : 0);
-        out.emission = in.emission->radiance;
+    if (const auto emission = emission_of(scene, in)) {
+        out.flags |= INSTANCE_EMITS | (emission->two_sided ? INSTANCE_TWO_SIDED : 0);
+        out.emission = emission->radiance;
+        out.emission_texture = scene.textures.find(emission->texture) ? emission->texture.value : 0;
     }
     if (in.media) {
         out.flags |= INSTANCE_HAS_MEDIA;
@@ -207,7 +240,8 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         const bool moved_in_or_out =
             i >= old || traced != (traced_[i] != 0) || border != (border_[i] != 0) || (in && replaced[in->mesh.value]);
         if (!moved_in_or_out && scene.instances.version(id) <= seen_.instances &&
-            instances_[i].material == (nothing ? 0 : m) && gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
+            instances_[i].material == (nothing ? 0 : m) && !emission_changed_[m] &&
+            gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
             continue; // the usual case, cheaply
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
@@ -253,11 +287,20 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
     });
     radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
 
-    const auto whole = [&](Id<scene::Instance> id) {
-        return traced_[id.value] && !(instances_[id.value].flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS));
+    const auto emitter = [&](Id<scene::Instance> id) -> std::optional<Emitter> {
+        const auto& instance = instances_[id.value];
+        const bool whole = !(instance.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS));
+        if (!traced_[id.value] || !whole || !(instance.flags & INSTANCE_EMITS)) return std::nullopt;
+        Emitter out{.radiance = instance.emission, .two_sided = (instance.flags & INSTANCE_TWO_SIDED) != 0, .mean = {}};
+        if (instance.emission_texture) { // some 65,000 lookups at most, unless there are more triangles
+            const auto triangles = mesh_data_[mesh_of_[id.value].value]->triangles.size();
+            const int points = int(std::clamp<std::size_t>(65536 / triangles, 1, 32));
+            out.mean = [this, id, points](std::uint32_t t) { return mean_emission(id.value, t, points); };
+        }
+        return out;
     };
     light_table_ =
-        make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), radius_, whole);
+        make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), radius_, emitter);
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
         if (instances_[i].light_base != light_table_.light_base[i]) {
             auto record = instances_[i];
@@ -362,6 +405,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     f.lens = d.camera.lens_radius > 0;
     f.media = scene.media.live() > 0;
     f.filter_table = d.filter_.kind == FILTER_TABLE;
+    f.emission_textures = std::ranges::any_of(emission_, [](const auto& e) { return e && e->texture; });
     f.borders = std::ranges::find(border_, 1) != border_.end();
     changes.shaders |= f != features_ || first_;
     features_ = f;

@@ -63,38 +63,43 @@ Rounding light_rounding(const glm::dmat4& object_to_render, const scene::MeshDat
 } // namespace
 
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            double radius, const std::function<bool(Id<scene::Instance>)>& whole) {
+                            double radius, const std::function<std::optional<Emitter>(Id<scene::Instance>)>& emitter) {
     LightTable table;
     table.light_base.assign(scene.instances.size() + 1, NONE);
     std::vector<double> power;
 
     scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& instance) {
-        if (!instance.emission || luminance(instance.emission->radiance) <= 0 || !whole(id)) return;
+        const auto emits = emitter(id);
+        if (!emits || luminance(emits->radiance) <= 0) return;
         const auto& mesh = *scene.meshes[instance.mesh].data;
         table.light_base[id.value] = std::uint32_t(table.lights.size());
-        const double exitance = pi * luminance(instance.emission->radiance) * (instance.emission->two_sided ? 2 : 1);
+        const double exitance = pi * luminance(emits->radiance) * (emits->two_sided ? 2 : 1);
         glm::dmat4 place = instance.object_to_world;
         place[3] -= glm::dvec4(origin, 0);
-        for (const auto& t : mesh.triangles) {
+        for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+            const auto& t = mesh.triangles[k];
             const auto world = [&](std::uint32_t i) { return glm::dvec3(place * glm::dvec4(mesh.positions[i], 1)); };
             const glm::dvec3 p0 = world(t.x);
             glm::dvec3 b = world(t.y) - p0, c = world(t.z) - p0;
-            if (glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0) std::swap(b, c);
+            const bool swapped = glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0;
+            if (swapped) std::swap(b, c);
             const double area = 0.5 * glm::length(glm::cross(b, c));
             LightData light{};
             const Rounding rounding = light_rounding(place, mesh, t);
             const auto condition =
                 std::isfinite(rounding.condition) ? std::min(rounding.condition * 16, 65535.0) : 16.0;
-            light.kind = LIGHT_TRIANGLE | (instance.emission->two_sided ? LIGHT_TWO_SIDED : 0) |
+            light.kind = LIGHT_TRIANGLE | (emits->two_sided ? LIGHT_TWO_SIDED : 0) | (swapped ? LIGHT_SWAPPED : 0) |
                          std::uint32_t(std::ceil(condition)) << 16;
             light.offset = std::isfinite(rounding.offset) ? float(rounding.offset) : 0.f;
             light.a = p0;
             light.b = b;
             light.c = c;
             light.area = float(area);
-            light.value = instance.emission->radiance;
+            light.value = emits->radiance;
+            light.instance = emits->mean ? id.value : NONE;
             table.lights.push_back(light);
-            power.push_back(std::isfinite(area) ? exitance * area : 0);
+            const double mean = emits->mean ? emits->mean(k) / luminance(emits->radiance) : 1;
+            power.push_back(std::isfinite(area * mean) ? exitance * mean * area : 0);
         }
     });
     scene.lights.each([&](Id<scene::Light>, const scene::Light& item) {

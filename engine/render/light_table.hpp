@@ -7,6 +7,7 @@
 #include "shared/scene_data.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace restage::render {
@@ -18,12 +19,23 @@ struct LightTable {
     std::uint32_t environment = NONE;      // its index in `lights`
 };
 
+// A surface that shines.
+struct Emitter {
+    glm::vec3 radiance{0}; // [W/(m^2 sr)]
+    bool two_sided = false;
+    // Of a texture that multiplies the radiance: the mean of the product's luminance over a triangle, approximate: it
+    // only chooses among lights. null: there is none
+    std::function<double(std::uint32_t triangle)> mean;
+};
+
 // environment_mean: mean radiance of the environment over the sphere, scale applied (0 = none).
 // radius: of the scene's bounds, for what shines from infinitely far.
-// whole: of an emissive instance: every point of its surface is there. Others (cut-outs, mixes with a share of nothing)
-// are no entries: paths find them by BSDF sampling alone, since a point chosen on them may be a hole.
+// emitter: asked of each instance once; nullopt = it is no entry. So are those of whose surface parts are missing
+// (cut-outs, mixes with a share of nothing): paths find them by BSDF sampling alone, since a point chosen on them may
+// be a hole.
 LightTable make_light_table(const scene::Scene&, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            double radius, const std::function<bool(scene::Id<scene::Instance>)>& whole);
+                            double radius,
+                            const std::function<std::optional<Emitter>(scene::Id<scene::Instance>)>& emitter);
 
 // Which side of a triangle is out: its normal in world space, by the rule of shaders/path/surface.glsl.
 glm::dvec3 outward_normal(const scene::Instance&, const scene::MeshData&, const glm::uvec3& triangle);

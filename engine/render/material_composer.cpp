@@ -150,8 +150,17 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
     const bool bump = type && type->bump;
     const bool textures = type && (type->textured != 0 || bump);
     const bool tangents = type && (bump || (type->plugin.table->flags & RESTAGE_MATERIAL_TANGENT));
-    return {{0, f.environment},           {1, textures}, {2, bump},           {3, f.lens},    {4, f.media}, {5, guides},
-            {6, std::uint32_t(strategy)}, {7, tangents}, {8, f.filter_table}, {10, f.borders}};
+    return {{0, f.environment},
+            {1, textures},
+            {2, bump},
+            {3, f.lens},
+            {4, f.media},
+            {5, guides},
+            {6, std::uint32_t(strategy)},
+            {7, tangents},
+            {8, f.filter_table},
+            {10, f.borders},
+            {11, f.emission_textures}};
 }
 
 } // namespace restage::render

@@ -18,6 +18,7 @@ struct SceneFeatures {
     bool media = false;
     bool filter_table = false;
     bool borders = false; // of media, at surfaces that rays pass
+    bool emission_textures = false;
     bool operator==(const SceneFeatures&) const = default;
 };
 enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };

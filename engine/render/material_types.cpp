@@ -83,11 +83,13 @@ std::string word_layout(const RestageMaterial1* table) {
     return layout;
 }
 
-std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1& table, const scene::ParamSet& params) {
+std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1& table, const scene::ParamSet& params,
+                                            const RestageEmission1* emission) {
     scene::Value color = scene::Value::color(.5f, .5f, .5f);
     for (std::uint32_t i = 0; i < table.param_count; ++i) {
         const RestageParam& line = table.params[i];
         if (line.type != RESTAGE_COLOR || line.max != 1) continue;
+        if (emission && std::string_view(emission->radiance) == line.id) continue;
         const scene::Value* set = params.find(line.id);
         color = set ? *set : scene::default_value(line);
         break;

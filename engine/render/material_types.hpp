@@ -23,6 +23,7 @@ struct MaterialPlugin {
     // Holds the table and the text of the GLSL; nullptr: the table outlives the renderer, and the folder is read.
     std::shared_ptr<const plugin::MaterialSource> source = nullptr;
     Blame blame = {}; // of a crash while it is compiled
+    const RestageEmission1* emission() const { return source ? source->emission() : nullptr; }
     std::uint64_t revision() const { return source ? source->revision() : 0; }
 };
 // Finds the plugin of a material type; nullopt = there is none. Asked at each Renderer::sync: an answer of another
@@ -64,7 +65,9 @@ std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::P
 std::string word_layout(const RestageMaterial1*);
 
 // What the material looks like while its shader is being compiled: its first colour that is a reflectance, or grey.
-// Lies in the three words before its own, for compose_stand_in.
-std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1&, const scene::ParamSet&);
+// `emission`: of which parameter it is no reflectance; may be null. Lies in the three words before its own, for
+// compose_stand_in.
+std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1&, const scene::ParamSet&,
+                                            const RestageEmission1* emission = nullptr);
 
 } // namespace restage::render

@@ -7,6 +7,7 @@
 #include "lib/sampler.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
+#include "lib/texture.glsl"
 
 struct LightSample {
     vec3 wi;       // unit, towards the light
@@ -163,6 +164,12 @@ float light_offset(LightData light, vec3 p, float dist) {
     return light.offset + EPS * condition * (6.0 * (abs(p.x) + abs(p.y) + abs(p.z)) + 15.0 * dist);
 }
 
+// Radiance that leaves a point of an emitter, from the side that shines.
+vec3 emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
+    if (!HAS_EMISSION_TEXTURES || inst.emission_texture == 0u) return inst.emission;
+    return inst.emission * max(vec3(0), texture_eval(scene, inst.emission_texture, hit_uv(inst, prim, bary)));
+}
+
 LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2 bits) {
     LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false);
     uint index = alias_pick(scene.light_alias, scene.light_count, pick, u_keep);
@@ -175,6 +182,7 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
     }
     if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, vec3(0), light.value, light.pmf, true);
     vec3 q = light.a;
+    vec2 bary = vec2(0);
     if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
         float x = to_unit(bits.x), y = to_unit(bits.y);
         if (y > x) {
@@ -185,6 +193,7 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
             x -= y;
         }
         q += x * light.b + y * light.c;
+        bary = (light.kind & LIGHT_SWAPPED) != 0u ? vec2(y, x) : vec2(x, y);
     }
     vec3 d = q - p;
     float d2 = dot(d, d);
@@ -199,6 +208,10 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
         if (c <= 0.0) return s;
         s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
         s.radiance = light.value;
+        if (HAS_EMISSION_TEXTURES && light.instance != NONE) {
+            InstanceData inst = InstanceArray(scene.instances).at[light.instance];
+            s.radiance = emitted(scene, inst, index - inst.light_base, bary);
+        }
         s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
     } else {
         s.delta = true;

@@ -35,5 +35,14 @@ layout(constant_id = 6) const int STRATEGY = 0;        // 0 MIS, 1 light samplin
 layout(constant_id = 7) const bool HAS_TANGENTS = true; // anisotropic materials or bump: dp/du is needed
 layout(constant_id = 8) const bool HAS_FILTER_TABLE = true;
 layout(constant_id = 10) const bool HAS_BORDERS = false; // media end at surfaces that rays pass; the tracer absorbs
+layout(constant_id = 11) const bool HAS_EMISSION_TEXTURES = false;
+
+// What the shading of a hit takes as uv: the mesh's, or barycentrics where it has none.
+vec2 hit_uv(InstanceData inst, uint prim, vec2 bary) {
+    if ((inst.flags & INSTANCE_HAS_UVS) == 0u) return bary;
+    uvec3 tri = Uvec3Array(inst.indices).at[prim];
+    Vec2Array uvs = Vec2Array(inst.uvs);
+    return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
+}
 
 #endif

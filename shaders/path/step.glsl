@@ -49,7 +49,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                 float pdf_light = light.pmf * triangle_density(light.area, t, c);
                 w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
             }
-            path.radiance += clamp_contribution(scene, path.throughput * inst.emission * w, depth);
+            path.radiance += clamp_contribution(scene, path.throughput * emitted(scene, inst, prim, bary) * w, depth);
         }
     }
 

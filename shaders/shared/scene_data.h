@@ -34,6 +34,7 @@ RESTAGE_UINT(LIGHT_SPOT, 2u); // a = position, b = axis, c = (cos total, cos fal
 RESTAGE_UINT(LIGHT_DISTANT, 3u); // b = direction towards the light
 RESTAGE_UINT(LIGHT_ENVIRONMENT, 4u);
 RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
+RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the side that shines
 RESTAGE_UINT(ENV_CONSTANT, 0u);
 RESTAGE_UINT(ENV_EQUIRECT, 1u);
 RESTAGE_UINT(ENV_OCTAHEDRAL, 2u);
@@ -47,7 +48,7 @@ RESTAGE_SHARED_BEGIN
 struct InstanceData { // 168 bytes
     mat4x3 object_to_world;
     mat3 normal_to_world; // inverse transpose of the linear part, no sign changes
-    vec3 emission;        // radiance
+    vec3 emission;        // radiance; times emission_texture
     address positions;    // vec3[]
     address normals;      // vec3[] or 0
     address uvs;          // vec2[] or 0
@@ -59,7 +60,8 @@ struct InstanceData { // 168 bytes
     float alpha;
     uint interior, exterior; // media, 0 = vacuum
     uint object_id;          // Id<Instance>
-    uint pad0, pad1;
+    uint emission_texture;   // 0 = none
+    uint pad0;
 };
 
 struct MaterialData { // 32 bytes
@@ -93,15 +95,17 @@ struct ImageData { // 24 bytes
     uint pad0;
 };
 
-struct LightData { // 64 bytes
+struct LightData { // 68 bytes
     vec3 a;
-    uint kind; // LIGHT_* | two-sided << 8 | condition << 16 (of a triangle's place, in sixteenths; see light_offset)
+    uint kind; // LIGHT_* | LIGHT_TWO_SIDED | LIGHT_SWAPPED | condition << 16 (of a triangle's place, in sixteenths; see
+               // light_offset)
     vec3 b;
     float pmf; // of being chosen
     vec3 c;
     float area;
     vec3 value; // radiance, intensity or irradiance
     float offset; // of a triangle: that part of light_offset which does not depend on the ray
+    uint instance; // of a triangle with a texture of emission, else NONE
 };
 
 struct AliasEntry { // Vose 1991

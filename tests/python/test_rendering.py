@@ -141,6 +141,15 @@ def test_progress_is_told_and_false_stops(cornell):
     assert cornell.render(size=(16, 16), samples=1).finished, "and it goes on to work"
 
 
+@pytest.fixture
+def interruptible():
+    """What is started in the background of a script ignores Ctrl-C, and its children do."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_is_a_keyboard_interrupt_at_once(cornell):
     cornell.render(size=(128, 128), samples=1)
     asked = []

@@ -205,7 +205,11 @@ TEST_CASE("light table: chosen by power, and the densities sum to one") {
     b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(1)}); // pi r^2
     b.environment(glm::vec3(1)); // 4 pi^2 r^2
     const double r = 2;
-    const auto table = render::make_light_table(b.scene, glm::dvec3(0), glm::vec3(1), r, [](auto) { return true; });
+    const auto table =
+        render::make_light_table(b.scene, glm::dvec3(0), glm::vec3(1), r, [&](scene::Id<scene::Instance> id) {
+            const auto& e = *b.scene.instances[id].emission;
+            return std::optional(render::Emitter{.radiance = e.radiance, .two_sided = e.two_sided, .mean = {}});
+        });
     REQUIRE(table.lights.size() == 10);
     const std::vector<double> power{0.5, 0.5, 1, 1, 4.5, 4.5, 4, 1, r * r, 4 * pi * r * r}; // over pi
     double all = 0, sum = 0;

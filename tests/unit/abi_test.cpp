@@ -5,6 +5,7 @@
 #include "plugin_folder.hpp"
 
 #include <restage/denoiser.h>
+#include <restage/emission.h>
 #include <restage/inspector.h>
 #include <restage/scene_io.h>
 #include <restage/table.h>
@@ -72,6 +73,10 @@ const Frozen layout[] = {
     SIZE(RestageTable1, 32)
         FIELD(RestageTable1, size, 0) FIELD(RestageTable1, type, 8) FIELD(RestageTable1, extensions, 16)
         FIELD(RestageTable1, read, 24)
+    SIZE(RestageEmission1, 40)
+        FIELD(RestageEmission1, size, 0) FIELD(RestageEmission1, reserved, 4) FIELD(RestageEmission1, type, 8)
+        FIELD(RestageEmission1, radiance, 16) FIELD(RestageEmission1, scale, 24)
+        FIELD(RestageEmission1, two_sided, 32)
     SIZE(RestageText, 24)
         FIELD(RestageText, name, 0) FIELD(RestageText, verbatim, 8) FIELD(RestageText, verbatim_format, 16)
     SIZE(RestageMesh, 80)
@@ -178,6 +183,7 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
     CHECK(std::string(RESTAGE_DENOISER1) == "restage.denoiser/1");
     CHECK(std::string(RESTAGE_INSPECTOR1) == "restage.inspector/1");
     CHECK(std::string(RESTAGE_TABLE1) == "restage.table/1");
+    CHECK(std::string(RESTAGE_EMISSION1) == "restage.emission/1");
     const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR,    RESTAGE_INT,     RESTAGE_BOOL, RESTAGE_ENUM,
                          RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE, RESTAGE_TABLE};
     for (int i = 0; i < 9; ++i)
@@ -190,6 +196,7 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
     CHECK(RESTAGE_PARAM_TEXTURABLE == 1u);
     CHECK(RESTAGE_PARAM_ADVANCED == 2u);
     CHECK(RESTAGE_INSTANCE_TWO_SIDED == 8u);
+    CHECK(RESTAGE_INSTANCE_EMITS_BY_MATERIAL == 16u);
     CHECK(RESTAGE_LIGHT_DISTANT == 3);
     CHECK(RESTAGE_KIND_CAMERA == 9);
 }

@@ -151,7 +151,7 @@ TEST_CASE("what an importer pushes arrives as it is", "[io]") {
     CHECK(p.writer.report.entries.empty());
 
     // And the reader hands out the same again.
-    SceneReader reader(s, {});
+    SceneReader reader(s, p.registry, {});
     const RestageSceneReader1& in = reader.table();
     CHECK(in.count(in.ctx, RESTAGE_KIND_INSTANCE) == 1);
     CHECK(in.count(in.ctx, 99) == 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inspector, light: an object that emits, and lights without a surface.
 #include "inspector.hpp"
+#include "io/material_emission.hpp"
 #include "param_widget.hpp"
 #include "session/color_temperature.hpp"
 #include "state.hpp"
@@ -114,6 +115,8 @@ void emission_section(Editor& e, InstanceId id) {
                         : std::nullopt,
                      "");
     e.mark("light.emits");
+    if (!instance.emission && io::MaterialEmissions(e.registry(), e.scene()).shines(instance))
+        ImGui::TextDisabled("It shines by its material, see above.");
     if (instance.emission) {
         scene::Emission emission = *instance.emission;
         bool changed = light_value_rows(e, emission.radiance, "Brightness", "W/(m²sr)", "light");

@@ -2,6 +2,7 @@
 // Scene panel, lights: what shines, and new ones where the camera looks.
 #include "scene_panel.hpp"
 
+#include "io/material_emission.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 #include "theme.hpp"
@@ -121,8 +122,9 @@ void lights_section(Editor& e) {
     });
     constexpr std::size_t most = 50; // a file can have thousands of emitting triangles
     std::size_t emitters = 0;
+    const io::MaterialEmissions emissions(e.registry(), e.scene());
     e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
-        if (!instance.emission || ++emitters > most) return;
+        if (!emissions.shines(instance) || ++emitters > most) return;
         ImGui::PushID(int(id.value) + 1'000'000);
         const InstanceId ids[] = {id};
         if (ImGui::Selectable(instance.name.c_str(), e.selection.contains(id), ImGuiSelectableFlags_AllowOverlap))

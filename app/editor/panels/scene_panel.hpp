@@ -13,7 +13,7 @@ void lights_section(Editor& editor);
 void render_section(Editor& editor);
 
 // False when nothing in the scene shines: its picture is black.
-bool has_light(const scene::Scene& scene);
+bool has_light(const Editor& editor);
 // The image becomes the sky; read on another thread.
 void use_as_sky(Editor& editor, const std::string& file);
 

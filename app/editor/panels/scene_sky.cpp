@@ -3,6 +3,7 @@
 #include "panels.hpp"
 #include "scene_panel.hpp"
 
+#include "io/material_emission.hpp"
 #include "param_widget.hpp"
 #include "session/sky.hpp"
 #include "state.hpp"
@@ -85,10 +86,13 @@ void image_row(Editor& e, const Environment& sky) {
 
 } // namespace
 
-bool has_light(const scene::Scene& s) {
+bool has_light(const Editor& e) {
+    const scene::Scene& s = e.scene();
+    const io::MaterialEmissions emissions(e.registry(), s);
     bool found = s.environment.value.has_value() || s.lights.live() > 0;
     if (!found)
-        s.instances.each([&](InstanceId, const scene::Instance& i) { found = found || (i.emission && !i.hidden); });
+        s.instances.each(
+            [&](InstanceId, const scene::Instance& i) { found = found || (!i.hidden && emissions.shines(i)); });
     return found;
 }
 
@@ -112,7 +116,7 @@ void sky_section(Editor& e) {
     e.mark("scene.sky");
     if (!open) return;
     ImGui::PushID("sky");
-    if (!has_light(e.scene())) {
+    if (!has_light(e)) {
         warning_note("Nothing shines in this scene, so its picture is black.");
         if (ImGui::Button("Light it with a neutral studio"))
             e.edit([up = e.up()](const scene::Scene& s) { return Result<scene::Edit>(session::studio_sky(s, up)); });

@@ -5,10 +5,13 @@
  *     RESTAGE_MATERIAL_PLUGIN_UI("org.example.velvet", "1.0.0", velvet, velvet_inspector)
  * or, with a RestageTable1 that reads the files of its RESTAGE_TABLE parameters:
  *     RESTAGE_MATERIAL_PLUGIN_TABLE("org.example.velvet", "1.0.0", velvet, velvet_reader)
+ * or, with a RestageEmission1 that says by which of its parameters it shines:
+ *     RESTAGE_MATERIAL_PLUGIN_EMISSION("org.example.velvet", "1.0.0", velvet, velvet_emission)
  * Sugar: nothing in it that a plugin could not write itself. */
 #ifndef RESTAGE_MATERIAL_PLUGIN_H
 #define RESTAGE_MATERIAL_PLUGIN_H
 
+#include <restage/emission.h>
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/table.h>
@@ -24,6 +27,14 @@
 #define RESTAGE_MATERIAL_PLUGIN_TABLE(plugin_id, plugin_version, table, reader)                 \
     static const void* restage_query(const char* id, uint32_t index) {                          \
         if (index == 0 && strcmp(id, RESTAGE_TABLE1) == 0) return (const void*)&(reader);       \
+        return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? (const void*)&(table) : NULL; \
+    }                                                                                           \
+    RESTAGE_PLUGIN_ENTRY(plugin_id, plugin_version)
+
+/* With a RestageEmission1: it shines. */
+#define RESTAGE_MATERIAL_PLUGIN_EMISSION(plugin_id, plugin_version, table, emission)            \
+    static const void* restage_query(const char* id, uint32_t index) {                          \
+        if (index == 0 && strcmp(id, RESTAGE_EMISSION1) == 0) return (const void*)&(emission);  \
         return index == 0 && strcmp(id, RESTAGE_MATERIAL1) == 0 ? (const void*)&(table) : NULL; \
     }                                                                                           \
     RESTAGE_PLUGIN_ENTRY(plugin_id, plugin_version)

@@ -81,7 +81,10 @@ enum {
     RESTAGE_INSTANCE_REVERSE_ORIENTATION = 1u, /* pbrt ReverseOrientation: flips the normal (side of emission) */
     RESTAGE_INSTANCE_HIDDEN = 2u,
     RESTAGE_INSTANCE_EMITS = 4u,
-    RESTAGE_INSTANCE_TWO_SIDED = 8u /* emission from both sides */
+    RESTAGE_INSTANCE_TWO_SIDED = 8u, /* emission from both sides */
+    /* To exporters, beside EMITS: it shines because its material does (restage/emission.h), and has no emission of its
+     * own. Where the material has a texture of it, `emission` is a mean. */
+    RESTAGE_INSTANCE_EMITS_BY_MATERIAL = 16u
 };
 typedef struct RestageInstance {
     RestageText text;
@@ -90,8 +93,8 @@ typedef struct RestageInstance {
     RestageHandle interior, exterior; /* media, 0 = vacuum; used where `has_medium_interface` */
     uint32_t has_medium_interface;
     uint32_t flags;
-    float alpha;        /* constant when alpha_texture is 0 */
-    float emission[3];  /* radiance [W/(m^2 sr)], scale applied, when RESTAGE_INSTANCE_EMITS */
+    float alpha; /* constant when alpha_texture is 0 */
+    float emission[3]; /* radiance [W/(m^2 sr)], scale applied, when RESTAGE_INSTANCE_EMITS */
     double object_to_world[16];
 } RestageInstance;
 
@@ -108,7 +111,7 @@ typedef enum RestageLightKind {
 typedef struct RestageLight {
     RestageText text;
     uint32_t kind;
-    float value[3];  /* point, spot: radiant intensity [W/sr]; distant: irradiance at normal incidence [W/m^2] */
+    float value[3]; /* point, spot: radiant intensity [W/sr]; distant: irradiance at normal incidence [W/m^2] */
     double light_to_world[16]; /* at the origin; spot and distant light travels along +z */
     float cone_angle,
         cone_delta; /* spot [deg]: half angle, width of the smooth edge (pbrt: coneangle, conedeltaangle) */
@@ -117,11 +120,11 @@ typedef struct RestageLight {
 typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } RestageMapping;
 typedef struct RestageEnvironment {
     RestageText text;
-    RestageHandle image;   /* 0 = constant */
+    RestageHandle image; /* 0 = constant */
     /* RestageMapping. EQUIRECT: pbrt-v3, z up, u = phi/2pi, v = theta/pi, row 0 = +z.
      * OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4. */
     uint32_t mapping;
-    float scale[3];        /* times the image; or the radiance itself */
+    float scale[3]; /* times the image; or the radiance itself */
     double light_to_world[16]; /* rotation (and mirror) */
     uint32_t hidden_from_camera; /* shines, but where the camera looks past everything it sees black */
 } RestageEnvironment;
@@ -129,26 +132,26 @@ typedef struct RestageEnvironment {
 typedef struct RestageCamera {
     RestageText text;
     double camera_to_world[16]; /* pbrt: looks along +z, +y up, +x right */
-    float fov;                  /* [deg], of the shorter image side */
-    float screen_window[4];     /* x0 x1 y0 y1; all 0 = from the aspect ratio */
+    float fov; /* [deg], of the shorter image side */
+    float screen_window[4]; /* x0 x1 y0 y1; all 0 = from the aspect ratio */
     float lens_radius, focal_distance;
-    float frame_aspect;         /* 0 = width/height */
+    float frame_aspect; /* 0 = width/height */
 } RestageCamera;
 
 typedef struct RestageFilm {
     uint32_t width, height;
-    float crop[4];       /* x0 x1 y0 y1 in [0,1] */
-    const char* filter;  /* box triangle gaussian mitchell sinc */
+    float crop[4]; /* x0 x1 y0 y1 in [0,1] */
+    const char* filter; /* box triangle gaussian mitchell sinc */
     float filter_radius[2];
     float filter_params[2]; /* gaussian: sigma | mitchell: B C | sinc: tau */
-    float exposure;      /* linear factor on the film (pbrt-v4 sensor), 1 = none */
+    float exposure; /* linear factor on the film (pbrt-v4 sensor), 1 = none */
     const char* filename; /* what the scene file asked for, "" = none */
 } RestageFilm;
 
 typedef struct RestageSettings {
-    uint32_t max_depth;      /* path vertices beyond the camera, pbrt's maxdepth: 0 = emission only */
-    uint32_t samples;        /* a pixel, as the file says; 0 = not said */
-    RestageText text;        /* integrator, sampler, options not understood */
+    uint32_t max_depth; /* path vertices beyond the camera, pbrt's maxdepth: 0 = emission only */
+    uint32_t samples; /* a pixel, as the file says; 0 = not said */
+    RestageText text; /* integrator, sampler, options not understood */
 } RestageSettings;
 
 typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_DROPPED = 2 } RestageFate;
@@ -186,8 +189,8 @@ typedef struct RestageSceneWriter1 {
 
 typedef struct RestageImporter1 {
     uint32_t size;
-    const char* format;     /* "pbrt" */
-    const char* label;      /* "pbrt scene (v3, v4)" */
+    const char* format; /* "pbrt" */
+    const char* label; /* "pbrt scene (v3, v4)" */
     const char* extensions; /* "pbrt|gz" without dots, '|' between */
     /* [any] 0..100: how sure that this file is mine. head: the first bytes of the file (up to 4 KiB). */
     int (*probe)(const char* path, const void* head, size_t head_size);

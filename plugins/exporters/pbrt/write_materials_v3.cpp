@@ -150,6 +150,14 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         put_float(p, v, "alpha", "alpha", 2);
         return "hair";
     }
+    if (type == "emissive") { // the light is the shape's
+        if (v.ref("radiance"))
+            unlike("pbrt's area lights have one colour; the mean of its texture is written");
+        else
+            lossy_ = true;
+        put_color(p, v, "reflectance", "Kd", {0, 0, 0});
+        return "matte";
+    }
     if (type == "velvet") {
         unlike("pbrt-v3 has no standing fibres; the cloth between them is written");
         put_color(p, v, "reflectance", "Kd", {0.1f, 0.02f, 0.03f});

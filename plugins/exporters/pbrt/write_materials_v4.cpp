@@ -135,6 +135,14 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         put_float(p, v, "alpha", "alpha", 2);
         return "hair";
     }
+    if (type == "emissive") { // the light is the shape's
+        if (v.ref("radiance"))
+            unlike("pbrt's area lights have one colour; the mean of its texture is written");
+        else
+            lossy_ = true;
+        put_color(p, v, "reflectance", "reflectance", {0, 0, 0});
+        return "diffuse";
+    }
     if (type == "velvet") {
         unlike("pbrt-v4 has no standing fibres; the cloth between them is written");
         put_color(p, v, "reflectance", "reflectance", {0.1f, 0.02f, 0.03f});

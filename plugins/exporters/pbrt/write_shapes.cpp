@@ -240,7 +240,12 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
         Params light;
         light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
-        if (put_exact(light, k, "emission", i.emission, what) && light.has("filename")) light.remove("L");
+        if (i.flags & RESTAGE_INSTANCE_EMITS_BY_MATERIAL) { // our importer leaves it to the material
+            RestageMaterialDesc m{};
+            if (in_.material(in_.ctx, i.material, &m)) mark(deep.c_str(), "emission", {m.type});
+        } else if (put_exact(light, k, "emission", i.emission, what) && light.has("filename")) {
+            light.remove("L");
+        }
         if (i.flags & RESTAGE_INSTANCE_TWO_SIDED) flag(light, "twosided", true);
         text_ += deep + "AreaLightSource \"diffuse\" " + finished(light) + "\n";
     }

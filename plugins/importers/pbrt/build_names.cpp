@@ -126,6 +126,9 @@ void Builder::read_comments(const Directive& d) {
         } else if (key == "alone") {
             next_.name = strings[0];
             next_.alone = true;
+        } else if (key == "emission") {
+            std::uint32_t count = 0;
+            next_.material_shines = import_.out.material_table(import_.out.ctx, strings[0].c_str(), &count) != nullptr;
         } else if (key == "group") {
             state_.group = group_at(strings);
         } else if (std::string guess = guessed_label(comment); !guess.empty()) {

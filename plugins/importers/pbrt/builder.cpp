@@ -354,7 +354,7 @@ void Builder::step(Directive& d) {
         case Verb::area_light_source:
             in_world(d);
             add_attributes(d, "light");
-            state_.area_light = d.name.empty() || d.name == "none" ? nullptr : &d;
+            state_.area_light = d.name.empty() || d.name == "none" || next_.material_shines ? nullptr : &d;
             break;
         case Verb::light_source:
             in_world(d);

@@ -178,6 +178,7 @@ class Builder {
         std::string name, label, mesh; // label: guessed
         std::vector<std::string> members;
         bool alone = false;
+        bool material_shines = false; // an area light that is written for other programs
     } next_;
     std::string block_label_, block_name_; // for the block that begins
     bool own_name_ = false; // of the last shape: not after its material or object

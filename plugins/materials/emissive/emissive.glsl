@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What it reflects: Lambert, on both sides. What it emits is the host's part; see restage/emission.h.
+#include "lib/sampling.glsl"
+
+vec3 emissive_albedo(emissive_Params m, vec3 wo) { return clamp(m.reflectance, vec3(0), vec3(1)); }
+
+vec3 emissive_eval(emissive_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? emissive_albedo(m, wo) * (INV_PI * abs(wi.z)) : vec3(0);
+}
+
+float emissive_pdf(emissive_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? cosine_hemisphere_pdf(abs(wi.z)) : 0.0;
+}
+
+BsdfSample emissive_sample(emissive_Params m, vec3 wo, vec3 u) {
+    vec3 wi = sample_cosine_hemisphere(u.xy);
+    float pdf = cosine_hemisphere_pdf(wi.z);
+    if (wo.z < 0.0)
+        wi.z = -wi.z;
+    if (pdf <= 0.0 || wo.z == 0.0)
+        return BSDF_NONE;
+    return BsdfSample(wi, emissive_albedo(m, wo), pdf, BSDF_REFLECT, 1.0);
+}
