@@ -31,7 +31,8 @@ glm::vec3 mean_of(const PixelData& pixels) {
     const std::size_t blue = pixels.channels < 3 ? 0 : 2;
     for (std::size_t at = 0; at + pixels.channels <= pixels.values.size(); at += pixels.channels)
         for (std::size_t c = 0; c < 3; ++c)
-            if (const float v = pixels.values[at + std::min(c, blue)]; std::isfinite(v)) sum[int(c)] += std::max(v, 0.f);
+            if (const float v = pixels.values[at + std::min(c, blue)]; std::isfinite(v))
+                sum[int(c)] += std::max(v, 0.f);
     return glm::vec3(sum * double(pixels.channels) / double(std::max<std::size_t>(pixels.values.size(), 1)));
 }
 

@@ -15,8 +15,8 @@
 #include "scene/emission.hpp"
 #include "scene/scene.hpp"
 
+#include <map>
 #include <memory>
-#include <set>
 #include <unordered_map>
 
 namespace restage::render {
@@ -111,7 +111,7 @@ class GpuScene {
     std::vector<CpuImage> cpu_images_;
     TexturePrograms textures_;
     TableStore tables_;
-    std::set<std::string> said_; // warnings of tables that were given already
+    std::map<std::uint32_t, std::string> said_; // what was said of a material, by its id, while it is so
     std::vector<MaterialType> types_;
     std::vector<float> mix_amount_; // constants by MaterialData index
     std::vector<std::uint32_t> mix_texture_;

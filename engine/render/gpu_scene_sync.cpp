@@ -78,9 +78,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         const auto packed = pack_material(*types_[type].plugin.table, params, tables);
         words.insert(words.end(), packed.begin(), packed.end());
     };
-    const auto warn = [&](std::string text) {
-        if (said_.insert(text).second) changes.warnings.push_back(std::move(text));
-    };
+    std::map<std::uint32_t, std::string> said;
     scene::ParamSet pink;
     pink.set("reflectance", scene::Value::color(0.8f, 0.1f, 0.5f));
     pack(records[0], pink, fallback);
@@ -101,7 +99,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
                 const auto* v = m.params.find(param);
                 const auto* m2 = v ? scene.materials.find(v->material) : nullptr;
                 if (m2 && types_[type_index(m2->type)].plugin.emission())
-                    warn("material \"" + m.name + "\": its share \"" + m2->name + "\" does not shine within a mix");
+                    said[id.value] = "its share \"" + m2->name + "\" does not shine within a mix";
                 if (m2 && types_[type_index(m2->type)].null_surface()) return MATERIAL_NOTHING;
                 return m2 ? v->material.value : 0u;
             };
@@ -122,7 +120,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         const auto tables = tables_.find(type.plugin, m.params);
         if (!tables) { // its file is missing or broken: grey, until it is mended
             pack(record, {}, fallback);
-            warn("material \"" + m.name + "\": " + tables.error().message + "; a grey one stands for it");
+            said[id.value] = tables.error().message + "; a grey one stands for it";
             return;
         }
         pack(record, m.params, index, *tables);
@@ -137,6 +135,10 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
                 type.textured |= std::uint64_t(1) << i;
     });
     tables_.sweep();
+    for (const auto& [id, text] : said) // once, and anew when it was mended in between
+        if (const auto before = said_.find(id); before == said_.end() || before->second != text)
+            changes.warnings.push_back("material \"" + scene.materials[{id}].name + "\": " + text);
+    said_ = std::move(said);
     emission_.resize(records.size());
     emission_changed_.resize(records.size());
     for (std::size_t i = 0; i < records.size(); ++i)

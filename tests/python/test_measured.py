@@ -57,6 +57,17 @@ def test_the_picture_follows_the_file(session, tmp_path, caplog):
     os.utime(dark, (dark.stat().st_atime, dark.stat().st_mtime + 2))
     material["tint"] = (1, 1, 0.999)
     assert mean(session) == pytest.approx(0.4, abs=0.01)
+    # Broken, mended, broken again: said each time, but not with each edit.
+    caplog.clear()
+    for n, (text, expected) in enumerate([("no table", 0.5), ("", 0.5), (None, 0.4), ("no table", 0.5)]):
+        if text is None:
+            write_lambert(dark, 0.4)
+        elif text:
+            dark.write_text(text)
+        os.utime(dark, (dark.stat().st_atime, dark.stat().st_mtime + 4 + 2 * n))
+        material["tint"] = (1, 1, 0.998 - 0.001 * n)
+        assert mean(session) == pytest.approx(expected, abs=0.01)
+    assert caplog.text.count("a grey one stands for it") == 2
     with pytest.raises(restage.Error, match="expected the path of a file, not 3"):
         material["filename"] = 3
     del material["filename"]

@@ -160,6 +160,5 @@ TEST_CASE("what a material emits can be edited, replaced by the object's own, an
     b.give(b.material("mix", mixed));
     CHECK(warnings.empty());
     CHECK(mean_luminance(render_image(*renderer, b.scene, 4)).value == 0);
-    CHECK(warnings ==
-          std::vector<std::string>{"material \"mix\": its share \"emissive\" does not shine within a mix"});
+    CHECK(warnings == std::vector<std::string>{"material \"mix\": its share \"emissive\" does not shine within a mix"});
 }

@@ -27,8 +27,9 @@ std::string json_with(const std::string& emission) {
            emission + "}]}";
 }
 
-const std::string sphere_of_emissive = "WorldBegin\nMaterial \"emissive\" \"rgb radiance\" [ 1 0.5 0.25 ] \"float scale\" 8 "
-                                       "\"bool two_sided\" true\nShape \"sphere\"\n";
+const std::string sphere_of_emissive =
+    "WorldBegin\nMaterial \"emissive\" \"rgb radiance\" [ 1 0.5 0.25 ] \"float scale\" 8 "
+    "\"bool two_sided\" true\nShape \"sphere\"\n";
 
 } // namespace
 
@@ -104,8 +105,8 @@ TEST_CASE("pbrt gets an area light for a material that shines, and gives the mat
         REQUIRE(session.export_to(file, version(v)));
         const std::string text = read_file(file).value();
         CHECK_THAT(text, ContainsSubstring("AreaLightSource \"diffuse\" \"rgb L\" [ 6 3 1.5 ]") &&
-                             ContainsSubstring("\"string plugin\" [ \"emissive\" ]") &&
-                             ContainsSubstring("twosided") && ContainsSubstring("# emission: \"emissive\""));
+                             ContainsSubstring("\"string plugin\" [ \"emissive\" ]") && ContainsSubstring("twosided") &&
+                             ContainsSubstring("# emission: \"emissive\""));
         REQUIRE(session.open(file));
         expect({6, 3, 1.5f});
     }
