@@ -167,6 +167,25 @@ def test_ctrl_c_is_a_keyboard_interrupt_at_once(cornell):
     assert cornell.render(size=(16, 16), samples=1).finished
 
 
+def test_a_material_that_shines_lights_the_scene_and_comes_back_from_pbrt(cornell, tmp_path):
+    def brightness(session):
+        return float(session.render(size=(32, 32), samples=16, denoise=False).color.mean())
+
+    before = brightness(cornell)
+    thing = next(o for o in cornell.objects if o.emission is None)
+    thing.material.type = "emissive"
+    thing.material["scale"] = 20
+    after = brightness(cornell)
+    assert after > 1.5 * before and thing.emission is None, "the light is the material's"
+    cornell.export(tmp_path / "lit.pbrt")
+    with restage.open(tmp_path / "lit.pbrt") as again:
+        assert again.objects[thing.name].material.type == "emissive" and again.objects[thing.name].emission is None
+        assert brightness(again) == pytest.approx(after, rel=1e-3)
+    while cornell.undo():
+        pass
+    assert brightness(cornell) == pytest.approx(before, rel=1e-3)
+
+
 def test_targets(cornell):
     start = time.perf_counter()
     p = cornell.render(size=(32, 32), seconds=0.5)
