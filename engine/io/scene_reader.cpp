@@ -165,7 +165,9 @@ struct SceneReader::Calls {
         } else if (const auto by_material = self(ctx).shine_.of(i->material)) {
             out->flags |= RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_EMITS_BY_MATERIAL;
             if (by_material->two_sided) out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
-            copy(by_material->radiance * mean_of(scene(ctx), by_material->texture), out->emission);
+            const auto [mean, unknown] = self(ctx).means_.try_emplace(by_material->texture.value);
+            if (unknown) mean->second = mean_of(scene(ctx), by_material->texture);
+            copy(by_material->radiance * mean->second, out->emission);
         }
         copy(i->object_to_world, out->object_to_world);
         return 1;

@@ -9,6 +9,7 @@
 
 #include <restage/scene_io.h>
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ class SceneReader : public Exchange {
 
     const scene::Scene& scene_;
     MaterialEmissions shine_;
+    std::map<std::uint32_t, glm::vec3> means_; // of textures that shine, by Id<Texture>::value
     RestageSceneReader1 table_{};
     std::deque<std::vector<RestageValue>> values_; // handed out
 };

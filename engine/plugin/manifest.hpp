@@ -12,7 +12,8 @@
 //     "params": [{ "id": "fuzz", "label": "Fuzz", "type": "float",           float color int bool enum text
 //       "min": 0, "max": 1, "default": 0.5, "unit": "", "tooltip": "How fuzzy.",
 //       "choices": ["a", "b"],                     of an enum; its default is one of them
-//       "flags": ["texturable", "advanced"] }] }]
+//       "flags": ["texturable", "advanced"] }],
+//     "emission": { "radiance": "glow", "scale": "brightness", "two_sided": "both" } }]   ids of params; see emission.h
 #pragma once
 
 #include "base/result.hpp"

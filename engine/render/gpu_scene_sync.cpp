@@ -294,9 +294,9 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
         const bool whole = !(instance.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS));
         if (!traced_[id.value] || !whole || !(instance.flags & INSTANCE_EMITS)) return std::nullopt;
         Emitter out{.radiance = instance.emission, .two_sided = (instance.flags & INSTANCE_TWO_SIDED) != 0, .mean = {}};
-        if (instance.emission_texture) { // some 65,000 lookups at most, unless there are more triangles
+        if (instance.emission_texture) { // 16,384 lookups at most, unless there are more triangles
             const auto triangles = mesh_data_[mesh_of_[id.value].value]->triangles.size();
-            const int points = int(std::clamp<std::size_t>(65536 / triangles, 1, 32));
+            const int points = int(std::clamp<std::size_t>(16384 / triangles, 1, 32));
             out.mean = [this, id, points](std::uint32_t t) { return mean_emission(id.value, t, points); };
         }
         return out;

@@ -88,11 +88,11 @@ void image_row(Editor& e, const Environment& sky) {
 
 bool has_light(const Editor& e) {
     const scene::Scene& s = e.scene();
+    if (s.environment.value || s.lights.live() > 0) return true;
     const io::MaterialEmissions emissions(e.registry(), s);
-    bool found = s.environment.value.has_value() || s.lights.live() > 0;
-    if (!found)
-        s.instances.each(
-            [&](InstanceId, const scene::Instance& i) { found = found || (!i.hidden && emissions.shines(i)); });
+    bool found = false;
+    s.instances.each(
+        [&](InstanceId, const scene::Instance& i) { found = found || (!i.hidden && emissions.shines(i)); });
     return found;
 }
 
