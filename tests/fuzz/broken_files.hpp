@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/log.hpp"
+#include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "temporary_folder.hpp"
 
@@ -16,7 +17,7 @@
 
 namespace restage::test {
 
-inline const std::filesystem::path data_folder = std::filesystem::path(RESTAGE_SOURCE_DIR) / "tests/data";
+inline const std::filesystem::path data_folder = restage::test::source_dir() / "tests/data";
 
 inline std::string read_bytes(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -32,7 +33,7 @@ using Folder = TemporaryFolder;
 class Importers {
   public:
     Importers() : registry(log_) {
-        const plugin::SearchPath path[] = {{RESTAGE_BINARY_DIR "/lib/restage/plugins", true}};
+        const plugin::SearchPath path[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
         registry.scan(path);
     }
 

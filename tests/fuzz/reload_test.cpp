@@ -2,6 +2,7 @@
 // A material's library is loaded anew a hundred times, and so are the other kinds: nothing is lost. Made for
 // AddressSanitizer, whose leak checker is asked at the end; without it, loading and unloading is all that is tested.
 #include "base/log.hpp"
+#include "paths.hpp"
 #include "plugin/registry.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -18,7 +19,7 @@ namespace {
 // RESTAGE_RELOAD_PLUGIN names another plugin's folder: one that leaks shows that the test finds it.
 fs::path material_folder() {
     const char* other = std::getenv("RESTAGE_RELOAD_PLUGIN");
-    return other ? fs::path(other) : fs::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins/material-conductor";
+    return other ? fs::path(other) : restage::test::build_dir() / "lib/restage/plugins/material-conductor";
 }
 
 void no_leaks() {
@@ -52,7 +53,7 @@ TEST_CASE("registries that come and go lose nothing", "[reload]") {
     Log silent([](LogLevel, std::string_view) {});
     for (int i = 0; i < 100; ++i) {
         plugin::Registry registry(silent);
-        const auto plugins = fs::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins";
+        const auto plugins = restage::test::build_dir() / "lib/restage/plugins";
         const plugin::SearchPath paths[] = {{material_folder(), true}, {plugins / "importer-obj", true}};
         registry.scan(paths);
         REQUIRE(registry.materials().size() == 1);

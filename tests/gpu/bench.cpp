@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/bench.hpp"
+#include "paths.hpp"
 
 #include <stdexcept>
 
@@ -24,15 +25,15 @@ Bench::Bench()
           if (level == LogLevel::error) throw std::runtime_error(std::string(line));
       }),
       registry_(log_) {
-    const plugin::SearchPath paths[] = {{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true}};
+    const plugin::SearchPath paths[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
     registry_.scan(paths);
     for (const plugin::Entry* entry : registry_.entries())
         if (entry->state == plugin::State::refused)
             throw std::runtime_error(entry->name() + " was refused: " + entry->reason);
     device_ = value(gpu::Device::create({}, log_), "device");
     compiler_ = std::make_unique<gpu::ShaderCompiler>(
-        gpu::ShaderCompilerOptions{.include_dirs = {std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"},
-                                   .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
+        gpu::ShaderCompilerOptions{.include_dirs = {restage::test::source_dir() / "shaders"},
+                                   .cache_dir = restage::test::build_dir() / "test_cache/spirv"});
 }
 
 plugin::MaterialEntry Bench::material(const char* type) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shaders are compiled when they are needed, on workers; an editor sees stand-ins meanwhile, a command waits.
 #include "base/file.hpp"
+#include "paths.hpp"
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -15,7 +16,7 @@ using namespace restage::tests;
 namespace {
 
 std::filesystem::path empty_cache(const std::string& name) {
-    const auto folder = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache" / name;
+    const auto folder = restage::test::build_dir() / "test_cache" / name;
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;
@@ -254,7 +255,7 @@ TEST_CASE("a material whose shader has an error keeps its stand-in in an editor,
     });
     const bool stand_ins = GENERATE(true, false);
     render::RendererOptions options{.tracer = tracer, .stand_ins = stand_ins};
-    options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+    options.shader_dir = restage::test::source_dir() / "shaders";
     auto renderer = render::Renderer::create(options, lookup, log);
     REQUIRE(renderer);
     Ball b([](SceneBuilder& s) { return s.material("broken"); });

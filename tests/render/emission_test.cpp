@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials that shine (restage/emission.h): as objects that do, with textures, and through edits.
+#include "paths.hpp"
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -130,9 +131,8 @@ TEST_CASE("what a material emits can be edited, replaced by the object's own, an
     Log log([&](LogLevel level, std::string_view line) {
         if (level == LogLevel::warning) warnings.emplace_back(line);
     });
-    auto made = render::Renderer::create(
-        {.tracer = tracer, .shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"}, plugins().lookup(),
-        log);
+    auto made = render::Renderer::create({.tracer = tracer, .shader_dir = restage::test::source_dir() / "shaders"},
+                                         plugins().lookup(), log);
     REQUIRE(made);
     const auto& renderer = *made;
     const double one = mean_luminance(render_image(*renderer, b.scene, 16)).value;

@@ -2,6 +2,7 @@
 // Renders small scenes on the test device with both tracers, and says how far a mean is from its closed form.
 #pragma once
 
+#include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "render/renderer.hpp"
 
@@ -16,7 +17,7 @@ struct Plugins { // of the build tree
     Log log;
     plugin::Registry registry{log};
     Plugins() {
-        const plugin::SearchPath path{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true};
+        const plugin::SearchPath path{restage::test::build_dir() / "lib/restage/plugins", true};
         registry.scan({&path, 1});
     }
     render::MaterialLookup lookup() { return render::material_lookup(registry); }
@@ -29,7 +30,7 @@ inline Plugins& plugins() {
 inline std::unique_ptr<render::Renderer> make_renderer(const std::string& tracer,
                                                        render::RendererOptions options = {}) {
     options.tracer = tracer;
-    options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+    options.shader_dir = restage::test::source_dir() / "shaders";
     auto renderer = render::Renderer::create(options, plugins().lookup(), plugins().log);
     if (!renderer) FAIL(renderer.error().message);
     return std::move(*renderer);

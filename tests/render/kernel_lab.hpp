@@ -6,6 +6,7 @@
 #include "gpu/compiler.hpp"
 #include "gpu/device.hpp"
 #include "gpu/pipeline.hpp"
+#include "paths.hpp"
 
 #include <fmt/format.h>
 #include <catch2/catch_test_macros.hpp>
@@ -22,8 +23,8 @@ class KernelLab {
     KernelLab() {
         device_ = take(gpu::Device::create({}, log_));
         compiler_ = std::make_unique<gpu::ShaderCompiler>(
-            gpu::ShaderCompilerOptions{.include_dirs = {std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"},
-                                       .cache_dir = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/spirv"});
+            gpu::ShaderCompilerOptions{.include_dirs = {restage::test::source_dir() / "shaders"},
+                                       .cache_dir = restage::test::build_dir() / "test_cache/spirv"});
     }
     gpu::Device& device() { return *device_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // LiveView: the newest scene wins, what shows nothing new restarts nothing, and targets end the work.
 #include "session/live_view.hpp"
+#include "paths.hpp"
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
 
@@ -29,7 +30,7 @@ struct View {
     LiveView live;
     View()
         : live(plugins().registry, plugins().log,
-               {.tracer = "embree", .shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"}, [] {}) {}
+               {.tracer = "embree", .shader_dir = restage::test::source_dir() / "shaders"}, [] {}) {}
     bool wait(const std::function<bool(const ViewStatus&)>& done) {
         for (int i = 0; i < 6000; ++i) {
             const ViewStatus status = live.status();
@@ -210,7 +211,7 @@ TEST_CASE("live view: another tracer shows the same scene") {
     view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 4});
     REQUIRE(view.finished());
     CHECK(view.live.status().tracer == "embree");
-    view.live.configure({.tracer = "vulkan", .shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders"});
+    view.live.configure({.tracer = "vulkan", .shader_dir = restage::test::source_dir() / "shaders"});
     REQUIRE(
         view.wait([](const ViewStatus& s) { return s.tracer == "vulkan" && s.current && s.state == ViewState::done; }));
     CHECK(std::abs(mean(*view.live.frame()) - 1) < 0.02);

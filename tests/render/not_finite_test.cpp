@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is not finite never reaches the film: it is counted under the name of the material type it came from.
 #include "base/file.hpp"
+#include "paths.hpp"
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -47,12 +48,12 @@ bool all_finite(const render::FilmImage& image) {
 
 TEST_CASE("what a material gives that is not finite is counted under its name") {
     const std::string tracer = GENERATE("embree", "vulkan");
-    const auto folder = std::filesystem::path(RESTAGE_BINARY_DIR) / "test_cache/bad_material";
+    const auto folder = restage::test::build_dir() / "test_cache/bad_material";
     std::filesystem::create_directories(folder);
     REQUIRE(write_file_atomic(folder / "bad.glsl", bad_glsl));
     render::RendererOptions options;
     options.tracer = tracer;
-    options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+    options.shader_dir = restage::test::source_dir() / "shaders";
     const auto lookup = [&](const std::string& type) {
         return type == "bad" ? render::MaterialPlugin{&bad_table, folder} : plugins().lookup()(type);
     };
@@ -129,7 +130,7 @@ TEST_CASE("a texture with NaN in it spoils no picture, and the log names it") {
     b.scene.environment = {scene::Environment{.name = "sky", .image = b.image(2, 1, 1, {1, -NAN})}, ++b.scene.clock};
     render::RendererOptions options;
     options.tracer = tracer;
-    options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+    options.shader_dir = restage::test::source_dir() / "shaders";
     std::vector<std::string> warnings;
     Log log([&](LogLevel level, std::string_view line) {
         if (level == LogLevel::warning) warnings.emplace_back(line);

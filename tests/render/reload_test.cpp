@@ -2,6 +2,7 @@
 // A material whose plugin is loaded anew while it is rendered: the picture follows, a version that does not compile
 // changes nothing, and nothing of the old versions stays.
 #include "base/file.hpp"
+#include "paths.hpp"
 #include "render/checks.hpp"
 #include "render/material_composer.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 // A diffuse material whose colour stands in its GLSL, or in its parameter.
 std::string glsl(const std::string& color) {
-    std::string text = read_file(std::filesystem::path(RESTAGE_SOURCE_DIR) / "tests/data/paint.glsl").value();
+    std::string text = read_file(restage::test::source_dir() / "tests/data/paint.glsl").value();
     for (std::size_t at = 0; (at = text.find("COLOR", at)) != std::string::npos; at += color.size())
         text.replace(at, 5, color);
     return text;
@@ -41,8 +42,8 @@ struct Paint { // our plugins, and one that the test edits
     plugin::Registry registry{log};
     Paint() {
         write("vec3(m.gray)", one);
-        const std::filesystem::path shaders = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
-        const plugin::SearchPath paths[] = {{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true},
+        const std::filesystem::path shaders = restage::test::source_dir() / "shaders";
+        const plugin::SearchPath paths[] = {{restage::test::build_dir() / "lib/restage/plugins", true},
                                             {folder.path(), true}};
         registry.scan(paths);
         registry.set_judge(render::material_judge(shaders));
@@ -55,7 +56,7 @@ struct Paint { // our plugins, and one that the test edits
         // A sample of the sky by the material alone: each is the albedo, without noise.
         render::RendererOptions options{
             .tracer = tracer, .strategy = render::Strategy::bsdf_only, .stand_ins = stand_ins};
-        options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+        options.shader_dir = restage::test::source_dir() / "shaders";
         auto made = render::Renderer::create(options, render::material_lookup(registry), log);
         if (!made) FAIL(made.error().message);
         return std::move(*made);

@@ -3,6 +3,7 @@
 // same scene and the same picture; undone to the start, the export is the same bytes.
 #include "base/file.hpp"
 #include "io/scene_compare.hpp"
+#include "paths.hpp"
 #include "render/agreement.hpp"
 #include "session/session.hpp"
 #include "temporary_folder.hpp"
@@ -38,7 +39,7 @@ std::string all_files(const std::filesystem::path& folder) { // names and bytes,
 
 TEST_CASE("edits of the bundled scene survive export and import, in structure and in the picture") {
     session::Session session(plugins().registry);
-    const auto opened = session.open(std::string(RESTAGE_SOURCE_DIR) + "/scenes/demo/demo.pbrt");
+    const auto opened = session.open(restage::test::source_dir().string() + "/scenes/demo/demo.pbrt");
     REQUIRE(opened.has_value());
     const test::TemporaryFolder temporary;
     const auto& folder = temporary.path();

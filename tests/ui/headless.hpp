@@ -6,6 +6,7 @@
 #include "editor/editor.hpp"
 #include "editor/panels/state.hpp"
 #include "editor/theme.hpp"
+#include "paths.hpp"
 
 #include <imgui_internal.h>
 #include <imgui_te_context.h>
@@ -20,7 +21,7 @@ namespace restage::tests {
 class Headless {
   public:
     explicit Headless(const std::string& scene, float scale = 1, ImVec2 size = {1500, 1000}) {
-        const plugin::SearchPath plugins{std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins", true};
+        const plugin::SearchPath plugins{restage::test::build_dir() / "lib/restage/plugins", true};
         registry_.scan({&plugins, 1});
         ImGui::CreateContext();
         ImPlot::CreateContext();
@@ -41,11 +42,11 @@ class Headless {
         render::RendererOptions renderer;
         renderer.tracer = "embree";
         renderer.stand_ins = true;
-        renderer.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+        renderer.shader_dir = restage::test::source_dir() / "shaders";
         editor_ = std::make_unique<editor::Editor>(registry_, log_,
                                                    editor::EditorOptions{.renderer = renderer, .wake = [] {}});
         editor_->view.resolution = 0.02f; // the picture is no matter here
-        editor_->open(std::filesystem::path(RESTAGE_SOURCE_DIR) / "scenes" / scene);
+        editor_->open(restage::test::source_dir() / "scenes" / scene);
         const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(120);
         while (editor_->opening().running() && std::chrono::steady_clock::now() < limit) {
             frame();

@@ -2,6 +2,7 @@
 // The plugin ABI does not change: sizes, offsets and numbers as they were released (64-bit platforms), and plugins
 // built with the headers of earlier releases. If this fails, the header is wrong, not the test: growth is a new
 // interface id.
+#include "paths.hpp"
 #include "plugin_folder.hpp"
 
 #include <restage/denoiser.h>
@@ -202,7 +203,7 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
 }
 
 TEST_CASE("plugins built for earlier releases load", "[abi]") {
-    const fs::path folder = fs::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_old";
+    const fs::path folder = restage::test::build_dir() / "tests" / "plugins_old";
     int releases = 0;
     for (const auto& release : fs::directory_iterator(folder)) {
         if (!fs::exists(release.path() / "plugin.json")) continue; // CMake's own

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials that shine (restage/emission.h): what is refused, what their values come to, and pbrt files there and back.
 #include "scene/emission.hpp"
+#include "paths.hpp"
 
 #include "export_scene.hpp"
 #include "io/material_emission.hpp"
@@ -122,7 +123,7 @@ TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[em
         REQUIRE(session.set_param(session.scene().instances[{1}].material, "scale", Value::number(6)));
         REQUIRE(session.export_to(folder.file("out.pbrt"), version("v4")));
     }
-    const std::filesystem::path all = std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins";
+    const std::filesystem::path all = restage::test::build_dir() / "lib/restage/plugins";
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
     registry.scan(std::vector<plugin::SearchPath>{{all / "importer-pbrt", true}, {all / "material-diffuse", true}});

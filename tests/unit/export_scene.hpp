@@ -5,6 +5,7 @@
 
 #include "base/file.hpp"
 #include "io/export.hpp"
+#include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
 #include "scene/tables.hpp"
@@ -22,8 +23,8 @@ struct Plugins { // everything that was built
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
     Plugins() {
-        registry.scan(std::vector<plugin::SearchPath>{
-            {std::filesystem::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
+        registry.scan(
+            std::vector<plugin::SearchPath>{{restage::test::build_dir() / "lib" / "restage" / "plugins", true}});
         for (const auto* entry : registry.entries()) {
             INFO(entry->name() << ": " << entry->reason);
             if (entry->manifest.kind != plugin::Kind::denoiser) // those are no part of this

@@ -6,6 +6,7 @@
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
+#include "paths.hpp"
 #include "scene/bounds.hpp"
 #include "scene/tables.hpp"
 #include "scene/validate.hpp"
@@ -201,7 +202,7 @@ TEST_CASE("the session holds values to the material's table", "[export]") {
 
 TEST_CASE("the bundled scenes survive a round trip", "[export]") {
     Plugins plugins;
-    const fs::path scenes = fs::path(RESTAGE_SOURCE_DIR) / "scenes";
+    const fs::path scenes = restage::test::source_dir() / "scenes";
     for (const char* name : {"cornell/cornell.pbrt", "spheres/spheres.pbrt", "demo/demo.pbrt"}) {
         CAPTURE(name);
         const auto first = io::import_scene((scenes / name).string(), plugins.registry);

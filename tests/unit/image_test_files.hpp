@@ -2,6 +2,8 @@
 // Where tests of images take files from and put them.
 #pragma once
 
+#include "paths.hpp"
+
 #include <filesystem>
 #include <random>
 #include <string>
@@ -9,6 +11,8 @@
 
 namespace restage::test {
 
-inline std::string data_image(const std::string& name) { return RESTAGE_SOURCE_DIR "/tests/data/images/" + name; }
+inline std::string data_image(const std::string& name) {
+    return restage::test::source_dir().string() + "/tests/data/images/" + name;
+}
 
 } // namespace restage::test

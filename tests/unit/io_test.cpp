@@ -5,6 +5,7 @@
 #include "io/import.hpp"
 #include "io/scene_reader.hpp"
 #include "io/scene_writer.hpp"
+#include "paths.hpp"
 #include "plugin/library.hpp"
 #include "scene/validate.hpp"
 #include "temporary_folder.hpp"
@@ -33,7 +34,7 @@ struct TestImporter { // a registry with the importer and the material of tests/
         const fs::path folder = path / "plugins" / library;
         fs::create_directories(folder);
         const std::string file = std::string(library) + plugin::Library::extension();
-        fs::copy_file(fs::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_bad" / file, folder / file);
+        fs::copy_file(restage::test::build_dir() / "tests" / "plugins_bad" / file, folder / file);
         REQUIRE(write_file_atomic(folder / "plugin.json",
                                   std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
                                       R"(", "version": "1.0.0", "licence": "MIT", "abi": 1, "library": ")" + library +

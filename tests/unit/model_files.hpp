@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/import.hpp"
+#include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "scene/tables.hpp"
 #include "temporary_folder.hpp"
@@ -23,7 +24,7 @@ namespace restage::tests {
 class ModelFiles {
   public:
     ModelFiles() {
-        const plugin::SearchPath path[] = {{RESTAGE_BINARY_DIR "/lib/restage/plugins", true}};
+        const plugin::SearchPath path[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
         registry.scan(path);
     }
     ModelFiles(const ModelFiles&) = delete;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole files: every broken one of tests/data/pbrt/broken gives the message and place its first line names; files cut
 // or damaged anywhere never crash; the scenes and corpora of the environment variables load or say why not.
+#include "paths.hpp"
 #include "pbrt_writer.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
     return out;
 }
 
-const fs::path data = fs::path(RESTAGE_SOURCE_DIR) / "tests/data/pbrt";
+const fs::path data = restage::test::source_dir() / "tests/data/pbrt";
 
 } // namespace
 

@@ -3,6 +3,7 @@
 // does not know. Read, written, read again.
 #include "export_scene.hpp"
 #include "io/import.hpp"
+#include "paths.hpp"
 #include "session/session.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -66,7 +67,7 @@ TEST_CASE("pbrt's hair, by its colour, its absorption or its pigments", "[pbrt]"
 }
 
 TEST_CASE("pbrt's hair without its plugin keeps its colour, and the report says why", "[pbrt]") {
-    const std::filesystem::path all = std::filesystem::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins";
+    const std::filesystem::path all = restage::test::build_dir() / "lib/restage/plugins";
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
     registry.scan(std::vector<plugin::SearchPath>{

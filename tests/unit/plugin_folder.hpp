@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/file.hpp"
+#include "paths.hpp"
 #include "plugin/library.hpp"
 #include "plugin/registry.hpp"
 #include "temporary_folder.hpp"
@@ -15,7 +16,7 @@
 
 namespace restage::test {
 
-inline const std::filesystem::path built_plugins = std::filesystem::path(RESTAGE_BINARY_DIR) / "tests" / "plugins_bad";
+inline const std::filesystem::path built_plugins = restage::test::build_dir() / "tests" / "plugins_bad";
 
 inline std::string manifest(const char* kind = "material", const char* abi = "1",
                             const char* id = "org.example.velvet") {

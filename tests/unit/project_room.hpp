@@ -4,6 +4,7 @@
 
 #include "base/file.hpp"
 #include "io/image_file.hpp"
+#include "paths.hpp"
 #include "scene/bounds.hpp"
 #include "session/project.hpp"
 #include "session/project_fields.hpp"
@@ -63,7 +64,7 @@ struct Fixture {
     const fs::path& folder = own.path();
     Fixture() {
         registry.scan(
-            std::vector<plugin::SearchPath>{{fs::path(RESTAGE_BINARY_DIR) / "lib" / "restage" / "plugins", true}});
+            std::vector<plugin::SearchPath>{{restage::test::build_dir() / "lib" / "restage" / "plugins", true}});
         fs::create_directories(folder / "scenes");
         PixelData wood{.width = 4, .height = 2, .channels = 3, .values = std::vector<float>(24, 0.25f)};
         REQUIRE(io::write_png(at("scenes/wood.png"), wood));

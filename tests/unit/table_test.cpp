@@ -4,6 +4,7 @@
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "merl_file.hpp"
+#include "paths.hpp"
 #include "plugin/table_reader.hpp"
 #include "plugin_folder.hpp"
 #include "session/session.hpp"
@@ -158,7 +159,7 @@ TEST_CASE("a table is read once, and anew when its file changes; not after its p
 
 TEST_CASE("a reload of the plugin takes the files of its folder anew", "[table][plugin]") {
     test::PluginFolder folder;
-    const fs::path built = fs::path(RESTAGE_BINARY_DIR) / "lib/restage/plugins/material-measured";
+    const fs::path built = restage::test::build_dir() / "lib/restage/plugins/material-measured";
     const fs::path copy = folder.path / "measured";
     fs::create_directories(copy);
     for (const auto& entry : fs::directory_iterator(built))
