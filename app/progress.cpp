@@ -23,16 +23,19 @@ namespace {
 // is the same key press delivered to the process and to its group.
 std::atomic<bool> interrupt_asked = false;
 std::atomic<std::int64_t> interrupt_time = 0; // [ms]
+std::atomic<int> interrupt_signal = SIGINT; // the first
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
-void on_interrupt(int) {
+void on_interrupt(int signal) {
     const auto now =
         std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch());
-    if (!interrupt_asked.exchange(true))
+    if (!interrupt_asked.exchange(true)) {
         interrupt_time = now.count();
-    else if (now.count() - interrupt_time > 500)
-        std::_Exit(130);
-    std::signal(SIGINT, on_interrupt); // some systems reset it
+        interrupt_signal = signal;
+    } else if (now.count() - interrupt_time > 500) {
+        std::_Exit(128 + signal);
+    }
+    std::signal(signal, on_interrupt); // some systems reset it
 }
 
 std::string clock_text(double seconds) {
@@ -73,7 +76,17 @@ void ProgressBar::finish() {
     open_ = false;
 }
 
-void catch_interrupts() { std::signal(SIGINT, on_interrupt); }
+void catch_interrupts() {
+    const auto hear = [](int signal) {
+        if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
+    };
+    hear(SIGINT);
+    hear(SIGTERM);
+#ifdef SIGHUP
+    hear(SIGHUP);
+#endif
+}
+int interrupt_exit_code() { return 128 + interrupt_signal; }
 bool interrupted() { return interrupt_asked; }
 
 } // namespace restage::app

@@ -21,8 +21,11 @@ class ProgressBar {
     double last_done_ = -1;
 };
 
-// From the first call on, SIGINT (Ctrl-C) sets a flag instead of ending the program; a second one ends it.
+// From the first call on, SIGINT (Ctrl-C), SIGTERM and SIGHUP (a batch system's time limit, a closed terminal) set a
+// flag instead of ending the program; a second one ends it. What was ignored when the program started (nohup) stays
+// ignored.
 void catch_interrupts();
 bool interrupted();
+int interrupt_exit_code(); // 128 + the signal's number, as shells have it
 
 } // namespace restage::app

@@ -11,6 +11,8 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
@@ -97,6 +99,13 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
     return imported;
 }
 
+std::shared_ptr<gpu::DeviceFault> device_fault() {
+    const char* text = std::getenv("RESTAGE_TEST_DEVICE_LOST");
+    int after = 0, times = 0;
+    if (!text || std::sscanf(text, "%d,%d", &after, &times) != 2) return nullptr;
+    return std::make_shared<gpu::DeviceFault>(after, times);
+}
+
 Result<glm::uvec2> parse_size(const std::string& text, const char* option) {
     unsigned w = 0, h = 0;
     const char* end = text.data() + text.size();
@@ -131,7 +140,8 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     catch_interrupts();
     ProgressBar bar(context.quiet);
     bar.show(0, label + "preparing shaders and acceleration structures");
-    RESTAGE_CHECK(renderer.sync(scene));
+    bool revived = false;
+    RESTAGE_CHECK(renderer.or_revive(renderer.sync(scene), scene, revived));
     const double start = now_seconds();
     const std::uint32_t file_spp = scene.settings.value.samples ? scene.settings.value.samples : 64;
     const bool open_ended = o.seconds > 0 || o.error > 0;
@@ -140,7 +150,7 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     while (renderer.samples() < target && !interrupted()) {
         const double before = now_seconds();
         batch = std::min(batch, target - renderer.samples());
-        RESTAGE_CHECK(renderer.trace(batch, [] { return !interrupted(); }));
+        RESTAGE_CHECK(renderer.or_revive(renderer.trace(batch, [] { return !interrupted(); }), scene, revived));
         const double now = now_seconds(), took = now - before, elapsed = now - start;
         double done = double(renderer.samples()) / target;
         std::string note = fmt::format("{}{} spp", label, renderer.samples());

@@ -33,6 +33,9 @@ struct RenderOptions {
 // Adds the options of the renderer and the targets to a command.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
+// For tests: what RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES in the environment says, see gpu::DeviceFault; null = nothing.
+std::shared_ptr<gpu::DeviceFault> device_fault();
+
 // With a progress bar; notes the report's counts in the log.
 // What `--isolate` and its limits say; null = scenes are read in this process.
 Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Context& context);

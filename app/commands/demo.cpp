@@ -129,13 +129,13 @@ Result<int> run(Context& context, Options& o) {
         }
     }
     RESTAGE_CHECK(picture("before"));
-    if (interrupted()) return 130;
+    if (interrupted()) return interrupt_exit_code();
 
     RESTAGE_TRY(const auto gestures, restage_room(session));
     for (const auto& line : gestures)
         std::printf("edit      %s\n", line.c_str());
     RESTAGE_CHECK(picture("after"));
-    if (interrupted()) return 130;
+    if (interrupted()) return interrupt_exit_code();
 
     const auto file = (folder / "edited.pbrt").string();
     RESTAGE_TRY(const auto report, session.export_to(file));

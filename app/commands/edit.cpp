@@ -32,6 +32,7 @@ void add_edit(CLI::App& program, Context& context) {
         context.choose([&context, o, size]() -> Result<int> {
             o->plugins = {.safe_mode = context.safe_mode, .paths = search_paths(context.plugin_paths)};
             RESTAGE_TRY(o->isolate, isolate_options(context));
+            o->renderer.fault = device_fault();
             if (!size->empty()) {
                 RESTAGE_TRY(const auto parsed, parse_size(*size, "--window"));
                 o->size = parsed;

@@ -26,6 +26,7 @@ Result<int> run(Context& context, Options& o) {
     o.renderer.strategy = o.strategy == "light"  ? render::Strategy::light_only
                           : o.strategy == "bsdf" ? render::Strategy::bsdf_only
                                                  : render::Strategy::mis;
+    o.renderer.fault = device_fault();
     RESTAGE_TRY(const auto renderer,
                 render::Renderer::create(o.renderer, render::material_lookup(context.registry()), context.log));
     RESTAGE_CHECK(render_to_target(context, o, scene, *renderer));
@@ -51,7 +52,7 @@ Result<int> run(Context& context, Options& o) {
     context.log.debug(fmt::format("rays {}, shadow rays {}, shading {:.2f} s, tracing {:.2f} s, shaders {} KiB",
                                   stats.rays, stats.shadow_rays, stats.seconds_shading, stats.seconds_tracing,
                                   stats.shader_bytes / 1024));
-    return interrupted() ? 130 : int(exit_ok); // as the shell reports an interrupted program; the picture is written
+    return interrupted() ? interrupt_exit_code() : int(exit_ok); // the picture is written
 }
 
 } // namespace

@@ -63,7 +63,8 @@ bool Editor::animating() const {
 }
 
 std::shared_ptr<const session::Frame> Editor::shown_frame() const {
-    return live_->best(view.denoise && view.display.layer == session::Layer::color);
+    auto frame = live_->best(view.denoise && view.display.layer == session::Layer::color);
+    return frame && frame->document == document_ ? frame : nullptr; // another scene has been opened in this very frame
 }
 
 // --- asking
@@ -262,7 +263,8 @@ void Editor::refresh_picture() {
         shown.film = scene().film;
     }
     const std::uint64_t request = live_->show(std::move(shown), {.size = wanted.size,
-                                                                 .document = document_ * 2 + (wanted.original ? 1 : 0),
+                                                                 .document = document_,
+                                                                 .variant = wanted.original ? 1u : 0u,
                                                                  .paused = wanted.paused,
                                                                  .samples = wanted.samples,
                                                                  .seconds = wanted.seconds,

@@ -94,6 +94,7 @@ class Editor {
     const scene::Camera& camera() const; // a default one where the scene has none
     double film_aspect() const;
     const glm::dvec3& up() const { return up_; }
+    std::uint64_t document() const { return document_; } // another number = another one was opened; as in Frame
 
     // Asks for an edit. The builder sees the scene as it is when its turn comes; an error becomes a notice. Edits with
     // the same gesture, until the mouse button or the widget is let go, are one step of the history.

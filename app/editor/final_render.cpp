@@ -44,15 +44,17 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     options.stand_ins = false;
     RESTAGE_TRY(const auto renderer, render::Renderer::create(options, render::material_lookup(registry), log));
     job.report(0, "preparing shaders and acceleration structures");
-    RESTAGE_CHECK(renderer->sync(scene));
+    bool revived = false;
+    RESTAGE_CHECK(renderer->or_revive(renderer->sync(scene), scene, revived));
     // Denoising is a small part at the end of the bar.
     const bool denoise = wish.denoise && !registry.denoisers().empty();
     const double traced = denoise ? 0.97 : 1.0, start = now_seconds();
     std::uint32_t batch = 1;
     while (renderer->samples() < wish.samples && !job.stopping()) {
         const double before = now_seconds();
-        RESTAGE_CHECK(
-            renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }));
+        RESTAGE_CHECK(renderer->or_revive(
+            renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }),
+            scene, revived));
         double done = double(renderer->samples()) / wish.samples;
         std::string stage = fmt::format("{} of {} samples a pixel", renderer->samples(), wish.samples);
         if (wish.error > 0 && renderer->samples() >= 8) {

@@ -8,7 +8,9 @@ namespace restage::editor {
 
 InstanceId picked_at(const Editor& e, ImVec2 screen) {
     const auto frame = e.shown_frame();
-    if (frame && frame->divider == 1 && e.live().status().current && frame->request == e.viewport.shown_request())
+    const auto newest = e.live().frame();
+    if (frame && newest && frame->divider == 1 && e.live().status().current && frame->request == newest->request &&
+        frame->request == e.viewport.shown_request())
         return e.viewport.instance_at(e, screen);
     const glm::dvec2 film = e.viewport.film_point(screen);
     if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1) return {};

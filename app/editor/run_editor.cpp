@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "editor.hpp"
+#include "farewell.hpp"
 #include "files.hpp"
 #include "recovery_dialog.hpp"
 #include "render/material_composer.hpp"
@@ -10,8 +11,55 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
+#include <mutex>
 
 namespace restage::editor {
+
+namespace {
+
+// Until the window is closed (0), or a signal comes (its exit code).
+Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const RunOptions& options,
+                       const std::filesystem::path& commands, const std::function<void()>& write_aside) {
+    std::error_code ignored;
+    std::string title, probe;
+    while (!editor.quit_confirmed()) {
+        const bool goes_on = editor.animating() || editor.viewport.navigating() || window.unsettled();
+        farewell.busy().unlock();
+        window.wait(window.input_waits() ? 0 : goes_on ? 0.016 : 0.5);
+        farewell.busy().lock();
+        if (const int signal = farewell.signal()) return 128 + signal;
+        if (window.close_requested()) {
+            window.refuse_close();
+            write_aside(); // the desktop's session may be at its end, and will not wait for an answer
+            if (window.display_gone()) return fail("the display is gone");
+            editor.request_quit();
+        }
+        const auto begin = std::chrono::steady_clock::now();
+        RESTAGE_TRY(const bool visible, window.begin_frame());
+        if (!visible) continue;
+        glm::vec2 where(0);
+        if (const auto dropped = window.take_dropped(where); !dropped.empty()) editor.drop(dropped, {where.x, where.y});
+        if (!options.probe.empty() && std::filesystem::exists(commands, ignored))
+            if (const auto lines = read_file(commands)) {
+                std::filesystem::remove(commands, ignored);
+                editor.run_commands(*lines);
+            }
+        const auto keys = window.take_keys();
+        editor.frame(&keys);
+        RESTAGE_CHECK(window.end_frame());
+        editor.presented(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        if (editor.title() != title) window.set_title(title = editor.title());
+        if (!options.probe.empty())
+            if (std::string now = editor.probe(); now != probe) {
+                RESTAGE_CHECK(write_file_atomic(options.probe, now));
+                probe = std::move(now);
+            }
+    }
+    return 0;
+}
+
+} // namespace
 
 Result<int> run_editor(const RunOptions& options) {
     // The order matters: what comes later goes first. The editor outlives the window, see texture.hpp.
@@ -53,38 +101,23 @@ Result<int> run_editor(const RunOptions& options) {
     std::filesystem::path commands = options.probe;
     commands += ".in";
 
-    std::string title, probe;
-    while (!editor.quit_confirmed()) {
-        const bool goes_on = editor.animating() || editor.viewport.navigating() || window->unsettled();
-        window->wait(window->input_waits() ? 0 : goes_on ? 0.016 : 0.5);
-        if (window->close_requested()) {
-            window->refuse_close();
-            editor.request_quit();
-        }
-        const auto begin = std::chrono::steady_clock::now();
-        RESTAGE_TRY(const bool visible, window->begin_frame());
-        if (!visible) continue;
-        glm::vec2 where(0);
-        if (const auto dropped = window->take_dropped(where); !dropped.empty())
-            editor.drop(dropped, {where.x, where.y});
-        if (!options.probe.empty() && std::filesystem::exists(commands, ignored))
-            if (const auto lines = read_file(commands)) {
-                std::filesystem::remove(commands, ignored);
-                editor.run_commands(*lines);
-            }
-        const auto keys = window->take_keys();
-        editor.frame(&keys);
-        RESTAGE_CHECK(window->end_frame());
-        editor.presented(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-        if (editor.title() != title) window->set_title(title = editor.title());
-        if (!options.probe.empty())
-            if (std::string now = editor.probe(); now != probe) {
-                RESTAGE_CHECK(write_file_atomic(options.probe, now));
-                probe = std::move(now);
-            }
+    // Whatever ends the program, unsaved work is written aside first.
+    const auto write_aside = [&editor] {
+        if (editor.session().modified()) editor.files().autosave.write_now(editor.session(), 0);
+    };
+    Farewell farewell(Window::wake, [&] {
+        write_aside();
+        std::fputs("restage: the display is gone; unsaved work is kept for the next start\n", stderr);
+    });
+    const std::unique_lock busy(farewell.busy()); // released while it waits for events
+    const auto ended = run_frames(editor, *window, farewell, options, commands, write_aside);
+    if (!ended || *ended != 0) {
+        write_aside();
+        if (ended) log.warning("ended by " + signal_name(*ended - 128) + "; unsaved work is kept for the next start");
     }
-    editor.files().autosave.forget(); // a clean end; any other leaves what it wrote
-    return 0;
+    // What is kept is offered at the next start; else nothing is left.
+    if ((ended && *ended == 0) || !editor.session().modified()) editor.files().autosave.forget();
+    return ended;
 }
 
 } // namespace restage::editor

@@ -43,6 +43,8 @@ void Viewport::draw(Editor& e) {
         draw->AddImage(picture_.ref(), corner, end);
     } else if (e.scene().instances.live() == 0 && !e.opening().running()) {
         draw_welcome(e, origin, space);
+    } else if (e.scene().instances.live() > 0) { // a picture is on its way: draw_progress() says how far
+        draw->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));
     }
     bool gizmo = false;
     if (e.view.show_overlays && picture_.ready()) {
@@ -63,6 +65,7 @@ void Viewport::draw(Editor& e) {
     // The scene as it was opened, while O is held.
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_status(e);
+    draw_progress(e);
     draw_hint(e);
     if (e.view.show_overlays) e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
 }
@@ -85,9 +88,16 @@ InstanceId Viewport::instance_at(const Editor& e, ImVec2 screen) const {
 
 void Viewport::update_textures(Editor& e) {
     const auto frame = e.shown_frame();
-    if (!frame) return;
+    if (!frame) { // another scene, of which nothing is there yet
+        drawn_ = nullptr;
+        picture_.hide();
+        outline_.hide();
+        outlined_ = {};
+        return;
+    }
     session::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
+    if (frame->clay && settings.layer == session::Layer::color) settings = {};
     const auto same = [](const session::DisplaySettings& a, const session::DisplaySettings& b) {
         return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
     };

@@ -29,6 +29,7 @@ class Viewport {
     // The object seen there in the shown picture; none outside.
     InstanceId instance_at(const Editor& editor, ImVec2 screen) const;
     std::uint64_t shown_request() const { return drawn_ ? drawn_->request : 0; } // of LiveView::show
+    bool shows_clay() const { return drawn_ && drawn_->clay; }
     bool shows_clean() const { return drawn_ && drawn_->denoised && drawn_->divider <= 2; }
     bool navigating() const { return navigation_ != Navigation::none; }
 
@@ -38,6 +39,7 @@ class Viewport {
     void update_textures(Editor& editor);
     void draw_overlays(Editor& editor);
     void draw_status(Editor& editor);
+    void draw_progress(Editor& editor); // over the picture, while a scene is opened and prepared
     void draw_hint(Editor& editor); // until the first gesture of somebody's first start
     void draw_welcome(Editor& editor, ImVec2 origin, ImVec2 space); // where there is no scene
     void navigate(Editor& editor, bool over);
@@ -54,6 +56,7 @@ class Viewport {
     Texture picture_, outline_;
     std::shared_ptr<const session::Frame> drawn_; // what picture_ holds
     session::DisplaySettings drawn_settings_;
+    std::size_t most_compiling_ = 0; // shaders, since the scene was opened
     struct OutlineKey {
         const session::Frame* frame = nullptr;
         std::vector<InstanceId> selected;

@@ -75,7 +75,7 @@ void Viewport::draw_status(Editor& e) {
     std::string text;
     if (status.state == session::ViewState::failed)
         text = status.text;
-    else if (drawn_) {
+    else if (drawn_ && !drawn_->clay) {
         const std::uint32_t samples = std::max(status.divider > 1 ? 1u : status.samples, 1u);
         text = fmt::format("{} × {}, {} sample{} a pixel", drawn_->image.width, drawn_->image.height, samples,
                            samples == 1 ? "" : "s");
@@ -93,16 +93,39 @@ void Viewport::draw_status(Editor& e) {
                       ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
                       text.c_str(), nullptr, wrap);
     }
-    if (e.opening().running()) {
-        ImGui::SetCursorScreenPos({corner.x + 12 * scale, corner.y + 12 * scale});
-        ImGui::BeginChild("opening", {std::min(320 * scale, size.x - 24 * scale), 0},
-                          ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
+}
+
+void Viewport::draw_progress(Editor& e) {
+    const session::ViewStatus status = e.live().status();
+    const bool opening = e.opening().running();
+    const bool waits = !opening && e.scene().instances.live() > 0 && status.state != session::ViewState::failed &&
+                       (!drawn_ || drawn_->clay);
+    if (!opening && !waits) {
+        most_compiling_ = 0;
+        return;
+    }
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    ImGui::SetCursorScreenPos({corner.x + 12 * scale, corner.y + 12 * scale});
+    ImGui::BeginChild("progress", {std::min(320 * scale, size.x - 24 * scale), 0},
+                      ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
+    if (opening) {
         ImGui::Text("Opening %s", e.opening().path().filename().string().c_str());
         ImGui::ProgressBar(e.opening().progress(), {-1, 0}, e.opening().stage().c_str());
         if (ImGui::Button("Cancel")) e.opening().cancel();
         e.mark("opening.cancel");
-        ImGui::EndChild();
+    } else if (status.compiling_left > 0) {
+        most_compiling_ = std::max(most_compiling_, status.compiling_left);
+        const std::size_t done = most_compiling_ - status.compiling_left;
+        ImGui::Text("Compiling %zu shader%s", most_compiling_, most_compiling_ == 1 ? "" : "s");
+        ImGui::ProgressBar(float(done) / float(most_compiling_), {-1, 0}, status.compiling.c_str());
+    } else {
+        // Nobody knows how long: a bar without an end. It need not move; frames are drawn when there is news.
+        ImGui::TextUnformatted(status.state == session::ViewState::starting ? "Starting the renderer"
+                                                                            : "Preparing the scene");
+        ImGui::ProgressBar(0, {-1, 0}, drawn_ ? "the first picture is being made" : "reading geometry and textures");
     }
+    e.mark("progress");
+    ImGui::EndChild();
 }
 
 void Viewport::draw_hint(Editor& e) {

@@ -17,6 +17,10 @@
 #include <algorithm>
 #include <optional>
 
+#if defined(__linux__)
+#include <dlfcn.h>
+#endif
+
 // Of Dear ImGui's backend; not in its header.
 ImGuiKey ImGui_ImplGlfw_KeyToImGuiKey(int keycode, int scancode);
 
@@ -301,6 +305,24 @@ bool Window::input_waits() const {
 }
 
 bool Window::close_requested() const { return glfwWindowShouldClose(impl_->window); }
+bool Window::display_gone() const {
+#if defined(__linux__)
+    // Both by name: a GLFW that knows no Wayland has no such function.
+    using Get = void* (*)();
+    using Error = int (*)(void*);
+    static const auto get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "glfwGetWaylandDisplay"));
+    void* display = get ? get() : nullptr;
+    if (!display) return false;
+    void* library = dlopen("libwayland-client.so.0", RTLD_LAZY | RTLD_NOLOAD);
+    if (!library) return false;
+    const auto error = reinterpret_cast<Error>(dlsym(library, "wl_display_get_error"));
+    const bool gone = error && error(display) != 0;
+    dlclose(library);
+    return gone;
+#else
+    return false;
+#endif
+}
 void Window::refuse_close() { glfwSetWindowShouldClose(impl_->window, GLFW_FALSE); }
 
 std::vector<std::filesystem::path> Window::take_dropped(glm::vec2& where) {

@@ -52,6 +52,7 @@ class Window {
     bool input_waits() const; // Dear ImGui takes some events a frame later than others
 
     bool close_requested() const;
+    bool display_gone() const; // Wayland's compositor has ended. X11 ends the process itself: see Farewell
     void refuse_close();
     std::vector<std::filesystem::path> take_dropped(glm::vec2& where); // files dropped on it since the last call
     void set_title(const std::string& title);

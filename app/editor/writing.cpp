@@ -131,7 +131,7 @@ void start_export(Editor& e, const fs::path& path, io::ExportOptions options) {
 // The live picture, as traced and, where there is one of the same film, denoised.
 std::optional<session::Picture> live_picture(const Editor& e) {
     const auto raw = e.live().frame(), clean = e.live().denoised();
-    if (!raw) return std::nullopt;
+    if (!raw || raw->document != e.document()) return std::nullopt;
     session::Picture picture{.film = raw->image, .denoised = std::nullopt, .exposure = e.scene().film.value.exposure};
     if (clean && clean->request == raw->request && clean->image.width == raw->image.width &&
         clean->image.height == raw->image.height)
@@ -214,7 +214,7 @@ void save_image_dialog(Editor& e) {
         static constexpr const char* formats[] = {"PNG", "EXR", "HDR"};
         static constexpr const char* extensions[] = {".png", ".exr", ".hdr"};
         const auto picture = editor.live().frame();
-        if (!picture)
+        if (!picture || picture->document != editor.document())
             ImGui::TextUnformatted("There is no picture yet.");
         else
             ImGui::Text("The live picture as it is: %u × %u, %u samples a pixel", picture->image.width,

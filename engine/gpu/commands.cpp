@@ -104,7 +104,10 @@ Result<Submission> Device::submit(CommandList& list) {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commands};
     {
         std::lock_guard lock(impl_->queue_mutex);
-        result = vk_.vkQueueSubmit2(queue_, 1, &info, state.fence);
+        if (lost() || (impl_->fault && impl_->fault->strikes()))
+            result = VK_ERROR_DEVICE_LOST;
+        else
+            result = vk_.vkQueueSubmit2(queue_, 1, &info, state.fence);
     }
     if (result != VK_SUCCESS) return error(result, "submitting work");
     state.pending = true;

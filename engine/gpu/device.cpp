@@ -148,6 +148,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options, Log
     auto self = std::unique_ptr<Device>(new Device);
     self->log_ = &log;
     Impl& impl = *self->impl_;
+    impl.fault = options.fault;
     bool no_driver = false;
     RESTAGE_TRY(impl.instance, Instance::create({.validation = options.validation,
                                                  .driver_defaults = options.driver_defaults,
@@ -284,6 +285,13 @@ void Device::save_pipeline_cache() {
 }
 
 bool Device::lost() const { return impl_->lost; }
+
+bool DeviceFault::strikes() {
+    if (times <= 0 || --left > 0) return false;
+    left = after;
+    --times;
+    return true;
+}
 
 std::vector<std::string> Device::validation_messages() const { return impl_->instance->messages(); }
 void Device::clear_validation_messages() { impl_->instance->clear_messages(); }

@@ -15,6 +15,7 @@
 #include <volk.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -51,6 +52,15 @@ struct DeviceInfo {
 // Every device of every installed driver, the unusable ones too. An empty list means: no Vulkan driver.
 Result<std::vector<DeviceInfo>> list_devices(Log& log);
 
+// For tests: the driver "stops" (VK_ERROR_DEVICE_LOST) at the `after`-th submission to a device that was made with
+// this, and again, `times` in all, at the `after`-th one to the device made after it. [any]
+struct DeviceFault {
+    DeviceFault(int after_, int times_) : after(after_), times(times_), left(after_) {}
+    bool strikes();
+    const int after;
+    std::atomic<int> times, left;
+};
+
 struct DeviceOptions {
     std::string select;               // index or part of the name (case ignored); empty: the best one
     bool validation = false; // validation and synchronization validation; fails if the layer is not installed
@@ -59,6 +69,7 @@ struct DeviceOptions {
     std::filesystem::path cache_dir; // pipeline cache and the driver's own shader cache; empty: restage::cache_dir()
     std::vector<std::string> instance_extensions; // for a window: what it needs to present. All must be there.
     std::vector<std::string> device_extensions;
+    std::shared_ptr<DeviceFault> fault; // for tests; null = none
 };
 
 class Device {

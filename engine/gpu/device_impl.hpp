@@ -36,6 +36,7 @@ struct Device::Impl {
     std::mutex free_mutex;
     std::vector<std::unique_ptr<Submission::State>> free_lists;
     std::atomic<bool> lost = false;
+    std::shared_ptr<DeviceFault> fault;
 
     ~Impl();
 };

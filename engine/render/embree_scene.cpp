@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace restage::render {
 
@@ -71,8 +72,9 @@ void hit_filter(const RTCFilterFunctionNArguments* args) {
 
 } // namespace
 
-Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads) {
+Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, bool copies) {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
+    self->copies_ = copies;
     self->device_ = rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str());
     if (!self->device_)
         return fail(fmt::format("Embree could not be started (error {})", int(rtcGetDeviceError(nullptr))));
@@ -104,10 +106,18 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
         mesh->scene = rtcNewScene(device_);
         rtcSetSceneFlags(mesh->scene, RTC_SCENE_FLAG_ROBUST);
         mesh->geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        rtcSetSharedGeometryBuffer(mesh->geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g->buffer.mapped(),
-                                   g->positions_offset, 12, g->vertex_count);
-        rtcSetSharedGeometryBuffer(mesh->geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g->buffer.mapped(),
-                                   g->indices_offset, 12, g->triangle_count);
+        const auto set_buffer = [&](RTCBufferType type, RTCFormat format, std::size_t offset, std::size_t count,
+                                    const void* source) {
+            if (!copies_)
+                rtcSetSharedGeometryBuffer(mesh->geometry, type, 0, format, g->buffer.mapped(), offset, 12, count);
+            else if (void* own = rtcSetNewGeometryBuffer(mesh->geometry, type, 0, format, 12, count))
+                std::memcpy(own, source, 12 * count);
+        };
+        const scene::MeshData& data = *scene.mesh_data(id);
+        set_buffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, g->positions_offset, g->vertex_count,
+                   data.positions.data());
+        set_buffer(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, g->indices_offset, g->triangle_count,
+                   data.triangles.data());
         rtcSetGeometryUserData(mesh->geometry, static_cast<void*>(&scene_));
         rtcCommitGeometry(mesh->geometry);
         rtcAttachGeometryByID(mesh->scene, mesh->geometry, 0);

@@ -15,7 +15,8 @@ namespace restage::render {
 
 class EmbreeScene {
   public:
-    static Result<std::unique_ptr<EmbreeScene>> create(unsigned threads);
+    // `copies`: meshes are copied, for devices whose memory the CPU reads slowly.
+    static Result<std::unique_ptr<EmbreeScene>> create(unsigned threads, bool copies = false);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
 
@@ -46,6 +47,7 @@ class EmbreeScene {
     void intersect(const Instances&, shared::RayHit&) const;
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
+    bool copies_ = false;
     Instances surfaces_, borders_; // what light meets; borders of media, which it passes
     std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value
 };

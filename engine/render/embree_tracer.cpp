@@ -31,6 +31,7 @@ class EmbreeTracer final : public Tracer {
   public:
     explicit EmbreeTracer(const TracerContext& c) : c_(c), kernels_(c) {}
     const char* name() const override { return "embree"; }
+    const EmbreeScene* embree() const override { return embree_.get(); }
 
     Result<void> start() {
         RESTAGE_TRY(embree_, EmbreeScene::create(c_.jobs.threads()));

@@ -57,6 +57,7 @@ class GpuScene {
     const std::vector<shared::MaterialData>& materials() const { return materials_.host(); }
     const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
+    const scene::MeshData* mesh_data(scene::Id<scene::Mesh> id) const { return mesh_data_[id.value].get(); }
     // Is this instance something rays can hit?
     bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
     // Is it, or part of it, a border of media that rays pass?

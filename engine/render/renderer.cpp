@@ -2,6 +2,7 @@
 #include "render/renderer.hpp"
 
 #include "base/file.hpp"
+#include "render/clay.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -30,34 +31,78 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     const std::string& wanted = options.tracer;
     if (!wanted.empty() && wanted != "embree" && wanted != "vulkan")
         return fail("there is no tracer \"" + wanted + "\"; there are embree and vulkan");
-    RESTAGE_TRY(self->device_, gpu::Device::create({.select = options.device,
-                                                    .validation = options.validation,
-                                                    .require_ray_tracing = wanted == "vulkan",
-                                                    .cache_dir = self->options_.cache_dir},
-                                                   log));
-    self->compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{
-        .include_dirs = {self->options_.shader_dir}, .cache_dir = self->options_.cache_dir / "spirv"});
-    const auto& info = self->device_->info();
-    const bool use_vulkan =
-        wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);
-    const TracerContext context{.device = *self->device_,
-                                .compiler = *self->compiler_,
-                                .jobs = self->jobs_,
-                                .log = log,
-                                .shader_dir = self->options_.shader_dir,
-                                .strategy = options.strategy,
-                                .stand_ins = options.stand_ins};
-    if (use_vulkan) {
-        RESTAGE_TRY(self->tracer_, make_vulkan_tracer(context));
-    } else {
-        RESTAGE_TRY(self->tracer_, make_embree_tracer(context));
-    }
-    log.debug(fmt::format("device: {} ({}); tracer: {}", info.name, info.driver, self->tracer_->name()));
-    self->forget_scene();
+    RESTAGE_CHECK(self->open());
     return self;
 }
 
+Result<void> Renderer::open() {
+    const std::string& wanted = options_.tracer;
+    RESTAGE_TRY(device_, gpu::Device::create({.select = options_.device,
+                                              .validation = options_.validation,
+                                              .require_ray_tracing = wanted == "vulkan",
+                                              .cache_dir = options_.cache_dir,
+                                              .fault = options_.fault},
+                                             *log_));
+    compiler_ = std::make_unique<gpu::ShaderCompiler>(
+        gpu::ShaderCompilerOptions{.include_dirs = {options_.shader_dir}, .cache_dir = options_.cache_dir / "spirv"});
+    const auto& info = device_->info();
+    const bool use_vulkan =
+        wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);
+    const TracerContext context{.device = *device_,
+                                .compiler = *compiler_,
+                                .jobs = jobs_,
+                                .log = *log_,
+                                .shader_dir = options_.shader_dir,
+                                .strategy = options_.strategy,
+                                .stand_ins = options_.stand_ins};
+    if (use_vulkan) {
+        RESTAGE_TRY(tracer_, make_vulkan_tracer(context));
+    } else {
+        RESTAGE_TRY(tracer_, make_embree_tracer(context));
+    }
+    log_->debug(fmt::format("device: {} ({}); tracer: {}", info.name, info.driver, tracer_->name()));
+    forget_scene();
+    return {};
+}
+
+Result<void> Renderer::revive(const scene::Scene& scene) {
+    if (std::exchange(revived_, true))
+        return fail(
+            "the graphics driver stopped again at once (VK_ERROR_DEVICE_LOST): this scene may be too much for it. Try "
+            "a "
+            "smaller picture, another --device or --tracer embree; if it stays, update the driver");
+    log_->warning(
+        "the graphics driver stopped (VK_ERROR_DEVICE_LOST); it is started again, and the picture begins anew");
+    forget_clay();
+    film_.reset();
+    tracer_.reset();
+    gpu_scene_.reset();
+    compiler_.reset();
+    device_.reset();
+    RESTAGE_CHECK(open());
+    return sync(scene);
+}
+
+Result<FilmImage> Renderer::clay(glm::uvec2 size) {
+    const EmbreeScene* embree = tracer_->embree();
+    if (!embree && !clay_scene_) {
+        RESTAGE_TRY(clay_scene_, EmbreeScene::create(jobs_.threads(), true));
+        SceneChanges all;
+        for (std::uint32_t i = 0; i < gpu_scene_->instances().size(); ++i)
+            if (gpu_scene_->traced(i) || gpu_scene_->border(i)) {
+                all.instances.push_back({i});
+                all.meshes.push_back(gpu_scene_->mesh_of(i));
+            }
+        std::ranges::sort(all.meshes, {}, &scene::Id<scene::Mesh>::value);
+        const auto twice = std::ranges::unique(all.meshes);
+        all.meshes.erase(twice.begin(), twice.end());
+        RESTAGE_CHECK(clay_scene_->update(*gpu_scene_, all));
+    }
+    return clay_picture(*gpu_scene_, embree ? *embree : *clay_scene_, jobs_, size);
+}
+
 void Renderer::forget_scene() {
+    clay_scene_.reset();
     gpu_scene_ = std::make_unique<GpuScene>(*device_, jobs_, lookup_);
     film_.reset();
     samples_ = 0;
@@ -68,6 +113,7 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
     for (const auto& warning : changes.warnings)
         log_->warning(warning);
     RESTAGE_CHECK(tracer_->update(*gpu_scene_, changes));
+    if (clay_scene_) RESTAGE_CHECK(clay_scene_->update(*gpu_scene_, changes));
     if (changes.film || !film_) {
         // The crop window in pixels; pbrt 4ed, 5.4.2, in floats as there: 0.2f of 30 is 6
         const scene::Film& f = scene.film.value;
@@ -105,6 +151,7 @@ Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_g
     RESTAGE_CHECK(tracer_->trace(*gpu_scene_, *film_, request));
     // Stopped within a pass, some pixels have more samples than others: what all of them have is what counts.
     samples_ = stopped ? film_->least_samples() : samples_ + samples;
+    if (samples_ > 0) revived_ = false;
     return {};
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Renderer: from a scene to a film, in the order sync, reset, trace. Denoising and display work on what image() gives.
-// One thread at a time.
+// After an error, ask lost(): a driver that stopped can be started again by revive(). One thread at a time.
 #pragma once
 
+#include "render/embree_scene.hpp"
 #include "render/tracer.hpp"
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace restage::render {
 
@@ -22,6 +24,7 @@ struct RendererOptions {
     bool stand_ins = false;
     std::filesystem::path shader_dir; // empty = <program>/../share/restage/shaders
     std::filesystem::path cache_dir; // empty = base's cache_dir()
+    std::shared_ptr<gpu::DeviceFault> fault; // for tests, see gpu::DeviceFault
 };
 
 class Renderer {
@@ -36,6 +39,23 @@ class Renderer {
     // `keep_going` is asked between batches of work (a wave of 65536 paths, a rectangle of the film) and while shaders
     // compile; false stops early and is no error.
     Result<void> trace(std::uint32_t samples, std::function<bool()> keep_going = {});
+
+    // The driver has stopped (VK_ERROR_DEVICE_LOST): everything fails until revive().
+    bool lost() const { return !device_ || device_->lost(); }
+    // Opens the device anew, derives everything from the scene again and says so in the log; the film is empty, and
+    // restart()'s numbers stay. An error when the driver has stopped again before it brought a sample: it would do so
+    // for ever. After an error the renderer is of no more use.
+    Result<void> revive(const scene::Scene& scene);
+    // What sync() or trace() gave; where the driver stopped and `once` is still false, what revive() gives. For work
+    // that begins again when that happens, but does not begin for ever.
+    Result<void> or_revive(Result<void> did, const scene::Scene& scene, bool& once) {
+        return did || !lost() || std::exchange(once, true) ? did : revive(scene);
+    }
+
+    // A picture that needs no shader, of what sync() saw; see clay.hpp. `size` in pixels. The first of a scene builds
+    // what it needs where the tracer does not use Embree; forget_clay() frees that.
+    Result<FilmImage> clay(glm::uvec2 size);
+    void forget_clay() { clay_scene_.reset(); }
 
     // What workers compile now; nullopt: the picture is (or, before trace() has begun, may be) the scene's own.
     std::optional<CompileProgress> compiling() const { return tracer_->compiling(); }
@@ -67,6 +87,7 @@ class Renderer {
 
   private:
     Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log);
+    Result<void> open();
 
     RendererOptions options_;
     MaterialLookup lookup_;
@@ -76,9 +97,11 @@ class Renderer {
     std::unique_ptr<gpu::ShaderCompiler> compiler_;
     std::unique_ptr<GpuScene> gpu_scene_;
     std::unique_ptr<Tracer> tracer_;
+    std::unique_ptr<EmbreeScene> clay_scene_;
     std::optional<Film> film_;
     glm::uvec2 crop_origin_{0};
     std::uint32_t samples_ = 0, first_sample_ = 0;
+    bool revived_ = false; // and has brought no sample since
 };
 
 } // namespace restage::render

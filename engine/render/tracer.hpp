@@ -16,6 +16,8 @@
 
 namespace restage::render {
 
+class EmbreeScene;
+
 struct TracerContext {
     gpu::Device& device;
     const gpu::ShaderCompiler& compiler;
@@ -53,6 +55,7 @@ class Tracer {
   public:
     virtual ~Tracer() = default;
     virtual const char* name() const = 0;
+    virtual const EmbreeScene* embree() const { return nullptr; } // what it finds hits with, if that
     // Brings acceleration structures up to date, and notes which shaders the scene now wants.
     virtual Result<void> update(const GpuScene& scene, const SceneChanges& changes) = 0;
     // Uses from now on what has been compiled in the meantime. True: it looks different, the film must start again.

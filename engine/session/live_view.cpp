@@ -2,7 +2,8 @@
 #include "session/live_view.hpp"
 
 #include "base/thread_priority.hpp"
-#include "render/denoise.hpp"
+#include "session/pictures.hpp"
+#include "session/view_denoiser.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -22,7 +23,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 constexpr double coarse_budget = 0.05;   // for the first picture after a change [s]
 constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
-constexpr double still_close = 0.5;      // a denoised picture of an earlier request is shown so long [s]
+constexpr double compile_patience = 0.15; // a document's first picture gives way to a newer request after so long [s]
+constexpr double clay_pixels = 200e3;     // some 30 ms on two cores
 constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 6, 8, 12, 16}; // each halved (rounded down) is another, or 1
 
 struct Request {
@@ -41,23 +43,36 @@ struct LiveView::Impl {
     std::function<void()> on_news;
 
     mutable std::mutex mutex;
-    std::condition_variable wake_render, wake_denoise;
+    std::condition_variable wake_render;
     bool stop = false;
     std::optional<Request> mail; // the newest request, not yet taken
     std::optional<render::RendererOptions> new_options;
     std::uint64_t last_number = 0; // given out
     bool taking = false; // a request was taken from `mail`, and is not yet known to show something else
     std::uint64_t visible = 0; // the newest request that shows something else than the one before
-    std::shared_ptr<const Frame> newest, newest_denoised, to_denoise;
+    Pictures pictures;
     ViewStatus now;
-    std::string no_denoiser;
 
-    std::thread render_thread, denoise_thread;
+    std::thread render_thread;
+    std::optional<ViewDenoiser> denoiser;
 
     Impl(const plugin::Registry& r, Log& l, render::RendererOptions options, std::function<void()> news)
         : registry(r), log(l), on_news(std::move(news)), new_options(std::move(options)) {
+        denoiser.emplace(registry, ViewDenoiser::Host{
+                                       // A coarse picture is worth finishing; a fine one is given up when the scene has
+                                       // changed.
+                                       .wanted =
+                                           [this](const Frame& frame) {
+                                               const std::lock_guard lock(mutex);
+                                               return !stop && (frame.divider > 1 || visible == frame.request);
+                                           },
+                                       .done =
+                                           [this](auto frame) {
+                                               put(std::move(frame));
+                                               on_news();
+                                           },
+                                       .says = [this](const std::string& problem) { denoiser_says(problem); }});
         render_thread = std::thread([this] { render_loop(); });
-        denoise_thread = std::thread([this] { denoise_loop(); });
     }
 
     ~Impl() {
@@ -66,9 +81,8 @@ struct LiveView::Impl {
             stop = true;
         }
         wake_render.notify_all();
-        wake_denoise.notify_all();
         render_thread.join();
-        denoise_thread.join();
+        denoiser.reset();
     }
 
     void set_state(ViewState state, std::string text = {}) {
@@ -91,8 +105,10 @@ struct LiveView::Impl {
         std::unique_ptr<render::Renderer> renderer;
         std::optional<Request> request;
         scene::Version film_version = std::uint64_t(1) << 62; // of the films of other resolutions
-        std::uint64_t document = 0;
-        std::optional<scene::Film> film;                            // the scene's own
+        std::uint64_t document = 0, variant = 0;
+        bool pictured = false; // a picture of this document was made; until then: clay
+        bool compiling = false; // as the last pass saw it
+        std::optional<scene::Film> film; // the scene's own
         std::uint64_t shown = 0; // number of the request the film is of; 0 = none
         glm::uvec2 size{0}; // of the full picture
         std::uint32_t divider = 1;
@@ -156,7 +172,9 @@ struct LiveView::Impl {
         if (!work.renderer) return;
         Request& request = *work.request;
         const glm::uvec2 size = glm::max(request.options.size, glm::uvec2(1));
-        if (work.document == request.options.document && work.size == size && work.shown) {
+        const bool another_document = work.document != request.options.document;
+        const bool another_scene = another_document || work.variant != request.options.variant;
+        if (!another_scene && work.size == size && work.shown) {
             const std::uint32_t before = work.renderer->samples();
             if (!sync(work)) return;
             if (before > 0 && work.renderer->samples() == before) {
@@ -178,16 +196,47 @@ struct LiveView::Impl {
             work.divider = d;
             if (pixels / (d * d) <= rate * coarse_budget) break;
         }
-        if (work.document != request.options.document) {
+        if (another_document) work.pictured = false;
+        if (another_scene) {
             work.document = request.options.document;
+            work.variant = request.options.variant;
             work.renderer->forget_scene();
             set_state(ViewState::preparing);
         }
-        if (prepare(work)) pass(work, true);
+        if (!prepare(work)) return;
+        if (!work.pictured) show_clay(work);
+        pass(work, true);
+    }
+
+    // What stands where, at once; nobody waits for it where it cannot be had.
+    void show_clay(Work& work) {
+        const double pixels = double(work.size.x) * work.size.y;
+        std::uint32_t divider = 1;
+        while (pixels / (divider * divider) > clay_pixels)
+            ++divider;
+        auto image = work.renderer->clay(glm::max(work.size / divider, glm::uvec2(1)));
+        if (!image) return log.debug("no preview: " + image.error().message);
+        auto frame = std::make_shared<Frame>();
+        frame->image = std::move(*image);
+        frame->request = work.request->number;
+        frame->document = work.document;
+        frame->divider = divider;
+        frame->clay = true;
+        frame->seconds = seconds_since(work.request->time);
+        put(std::move(frame));
+        on_news();
     }
 
     // The next step of the same request: refine, or gather samples.
     void advance(Work& work) {
+        if (!work.pictured && work.compiling) { // clay is shown: leave the processors to the compiler
+            {
+                std::unique_lock lock(mutex);
+                wake_render.wait_for(lock, std::chrono::milliseconds(20), [&] { return stop || mail || new_options; });
+                if (stop || mail || new_options) return;
+            }
+            return pass(work, true);
+        }
         if (work.divider > 1) {
             work.divider /= 2;
             if (!prepare(work)) return;
@@ -217,13 +266,24 @@ struct LiveView::Impl {
         film.height = size.y;
         film.crop = {0, 1, 0, 1};
         scene.film.version = work.film_version;
-        if (auto ready = work.renderer->sync(scene); !ready) {
-            work.finished = true;
-            work.shown = 0;
-            failed(ready.error());
-            return false;
-        }
-        return true;
+        auto ready = work.renderer->sync(scene);
+        if (!ready && work.renderer->lost()) ready = revive(work);
+        if (!ready) give_up(work, ready.error());
+        return bool(ready);
+    }
+
+    // The driver has stopped: once more, from the scene.
+    Result<void> revive(Work& work) {
+        set_state(ViewState::starting);
+        auto revived = work.renderer->revive(work.request->scene);
+        if (!revived) work.renderer.reset(); // until somebody chooses another device
+        return revived;
+    }
+
+    void give_up(Work& work, const Error& error) {
+        work.finished = true;
+        work.shown = 0;
+        failed(error);
     }
 
     bool target_met(const Work& work) const {
@@ -240,16 +300,28 @@ struct LiveView::Impl {
         const auto start = Clock::now();
         const std::uint32_t before = renderer.samples();
         bool stopped = false;
+        double said = 0; // [s]
         auto traced = renderer.trace(1, [&] {
-            std::lock_guard lock(mutex);
-            stopped = stop || (!first && (mail || new_options));
+            const double now_at = seconds_since(start);
+            const auto compiling = !work.pictured && now_at > said + 0.1 ? renderer.compiling() : std::nullopt;
+            {
+                std::lock_guard lock(mutex);
+                stopped = stop || ((mail || new_options) && (!first || (!work.pictured && now_at > compile_patience)));
+                if (compiling) say(*compiling);
+            }
+            if (compiling) {
+                said = now_at;
+                on_news();
+            }
             return !stopped;
         });
-        if (!traced) {
-            work.finished = true;
-            work.shown = 0;
-            return failed(traced.error());
+        if (!traced && renderer.lost()) {
+            if (traced = revive(work); traced) {
+                work.published_samples = 0;
+                return;
+            }
         }
+        if (!traced) return give_up(work, traced.error());
         if (stopped) return; // what is new comes next
         if (renderer.samples() <= before) work.published_samples = 0; // something compiled: the film started again
         const double took = seconds_since(start);
@@ -258,11 +330,17 @@ struct LiveView::Impl {
         // The first pass of new code is slow, and nothing to judge by: one fast pass counts at once, a slow one slowly.
         work.rate = work.rate <= 0 ? rate : std::max(rate, work.rate) * 0.3 + std::min(rate, work.rate) * 0.7;
         const auto compiling = renderer.compiling();
+        work.compiling = bool(compiling);
+        if (!compiling && !work.pictured) {
+            work.pictured = true;
+            renderer.forget_clay();
+        }
         work.finished = work.divider == 1 && !compiling && target_met(work);
         const bool doubled = renderer.samples() >= 2 * work.published_samples;
-        if (work.finished || work.published_samples == 0 ||
-            (seconds_since(work.last_publish) > publish_interval && (doubled || renderer.samples() < 64)) ||
-            seconds_since(work.last_publish) > 10 * publish_interval)
+        if (work.pictured &&
+            (work.finished || work.published_samples == 0 ||
+             (seconds_since(work.last_publish) > publish_interval && (doubled || renderer.samples() < 64)) ||
+             seconds_since(work.last_publish) > 10 * publish_interval))
             publish(work);
         {
             std::lock_guard lock(mutex);
@@ -272,15 +350,21 @@ struct LiveView::Impl {
             now.samples_per_second = work.rate;
             now.gpu_bytes = renderer.gpu_scene().bytes();
             now.not_finite = renderer.stats().not_finite;
-            now.compiling = compiling ? compiling->what : "";
+            say(compiling.value_or(render::CompileProgress{}));
         }
         on_news();
+    }
+
+    void say(const render::CompileProgress& compiling) { // locked
+        now.compiling = compiling.what;
+        now.compiling_left = compiling.left;
     }
 
     void publish(Work& work) {
         auto frame = std::make_shared<Frame>();
         frame->image = work.renderer->image();
         frame->request = work.request->number;
+        frame->document = work.document;
         frame->divider = work.divider;
         frame->seconds = seconds_since(work.request->time);
         frame->relative_error = work.renderer->relative_error();
@@ -290,51 +374,23 @@ struct LiveView::Impl {
                              (std::bit_floor(samples) > std::bit_floor(work.published_samples) || work.finished);
         work.published_samples = samples;
         work.last_publish = Clock::now();
-        {
-            std::lock_guard lock(mutex);
-            newest = frame;
-            if (denoise) to_denoise = frame;
-        }
-        if (denoise) wake_denoise.notify_one();
+        put(frame);
+        if (denoise) denoiser->add(std::move(frame));
     }
 
-    // --- the denoising thread
-    // ------------------------------------------------------------------------------------------
+    void put(std::shared_ptr<const Frame> frame) { // [any]
+        std::lock_guard lock(mutex);
+        pictures.put(std::move(frame));
+    }
 
-    void denoise_loop() {
-        lower_thread_priority(7);
-        const auto& denoisers = registry.denoisers();
-        const char* reason = "no denoiser plugin is loaded";
-        if (denoisers.empty() || !denoisers[0].table->available(&reason)) {
+    void denoiser_says(const std::string& problem) { // [any]
+        {
             std::lock_guard lock(mutex);
-            no_denoiser = reason;
-            return;
+            if (pictures.denoiser_missing() == problem) return;
+            pictures.denoiser(problem);
         }
-        for (;;) {
-            std::shared_ptr<const Frame> source;
-            {
-                std::unique_lock lock(mutex);
-                wake_denoise.wait(lock, [&] { return stop || to_denoise; });
-                if (stop) return;
-                source = std::move(to_denoise);
-                to_denoise = nullptr;
-            }
-            // A coarse picture is worth finishing; a fine one is given up when the scene has changed.
-            const auto keep_going = [&](double) {
-                std::lock_guard lock(mutex);
-                return !stop && (source->divider > 1 || visible == source->request);
-            };
-            auto color = render::denoise(source->image, denoisers[0], RESTAGE_DENOISE_FAST, 0, keep_going);
-            if (!color) continue; // stopped; a lasting fault shows as pictures that stay noisy
-            auto frame = std::make_shared<Frame>(*source);
-            frame->image.color = std::move(*color);
-            frame->denoised = true;
-            {
-                std::lock_guard lock(mutex);
-                newest_denoised = frame;
-            }
-            on_news();
-        }
+        if (!problem.empty()) log.debug("pictures stay noisy: " + problem); // the toolbar says it
+        on_news();
     }
 };
 
@@ -349,6 +405,7 @@ std::uint64_t LiveView::show(scene::Scene scene, const ViewOptions& options) {
     {
         std::lock_guard lock(impl_->mutex);
         number = ++impl_->last_number;
+        impl_->pictures.ask(options.document, options.denoise);
         impl_->mail = Request{std::move(scene), options, number, Clock::now()};
     }
     impl_->wake_render.notify_one();
@@ -365,33 +422,30 @@ void LiveView::configure(render::RendererOptions options) {
 
 std::shared_ptr<const Frame> LiveView::frame() const {
     std::lock_guard lock(impl_->mutex);
-    return impl_->newest;
+    return impl_->pictures.raw();
 }
 
 std::shared_ptr<const Frame> LiveView::denoised() const {
     std::lock_guard lock(impl_->mutex);
-    return impl_->newest_denoised;
+    return impl_->pictures.clean();
 }
 
 std::shared_ptr<const Frame> LiveView::best(bool want_denoised) const {
     std::lock_guard lock(impl_->mutex);
-    const auto &raw = impl_->newest, &clean = impl_->newest_denoised;
-    if (!want_denoised || !clean || !raw) return raw;
-    if (clean->request == raw->request) return clean->divider <= 2 * raw->divider ? clean : raw;
-    return raw->seconds < still_close && raw->request - clean->request <= 3 ? clean : raw;
+    return impl_->pictures.best(want_denoised);
 }
 
 ViewStatus LiveView::status() const {
     std::lock_guard lock(impl_->mutex);
     ViewStatus status = impl_->now;
-    status.current = !impl_->mail && !impl_->new_options && !impl_->taking && impl_->newest &&
-                     impl_->newest->request == impl_->visible;
+    const auto& raw = impl_->pictures.raw();
+    status.current = !impl_->mail && !impl_->new_options && !impl_->taking && raw && raw->request == impl_->visible;
     return status;
 }
 
 std::string LiveView::denoiser_missing() const {
     std::lock_guard lock(impl_->mutex);
-    return impl_->no_denoiser;
+    return impl_->pictures.denoiser_missing();
 }
 
 } // namespace restage::session

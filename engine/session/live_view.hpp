@@ -21,15 +21,19 @@ namespace restage::session {
 struct Frame {
     render::FilmImage image; // colour is the denoised one where `denoised`
     std::uint64_t request = 0; // of which show()
+    std::uint64_t document = 0; // of its ViewOptions
     std::uint32_t divider = 1; // full resolution / this one's
     bool denoised = false;
+    bool clay = false; // of first hits alone, see render/clay.hpp; colours in [0,1], not to be exposed
     double seconds = 0; // since that show()
     double relative_error = 1e30; // of what was traced; Film::relative_error
 };
 
 struct ViewOptions {
     glm::uvec2 size{640, 360}; // of the full picture [pixel]
-    std::uint64_t document = 0; // another number = another scene, nothing of the last one is of use
+    std::uint64_t document = 0; // another number = another scene: nothing of the last one is of use, or shown
+    std::uint64_t variant = 0; // another number = the same document in another state (as it was opened): nothing that
+                               // was made of the last one is of use, but its picture stays until there is a new one
     bool denoise = true;
     bool paused = false; // keep what is there
     std::uint32_t samples = 0; // stop at so many a pixel; 0 = never
@@ -49,7 +53,8 @@ struct ViewStatus {
     ViewState state = ViewState::starting;
     std::string text; // of `failed`: why
     std::string device, tracer; // once started
-    std::string compiling; // a material type whose code is not ready: a stand-in is shown; "" = none
+    std::string compiling; // a material type whose code is not ready: a stand-in is shown, or clay; "" = none
+    std::size_t compiling_left = 0; // how many are not
     bool current = false; // frame() shows the newest request
     std::uint32_t samples = 0, divider = 1; // of the picture being made
     double samples_per_second = 0; // pixels times samples, measured
@@ -72,14 +77,15 @@ class LiveView {
     // Opens the renderer anew, with another device, tracer or number of threads.
     void configure(render::RendererOptions options);
 
-    // The newest pictures; null before the first. frame(): as traced.
+    // The newest pictures of the document that was asked for last; null before the first. frame(): as traced.
     std::shared_ptr<const Frame> frame() const;
     std::shared_ptr<const Frame> denoised() const;
-    // Which of the two to show: the denoised one when it is of the newest request, or of one shortly before it (while
-    // things move it comes a moment later, and changing between both would flicker).
+    // What to show; null: nothing yet. With `want_denoised` never a noisy one: the last clean one, of whichever
+    // request, stays until the next is there. A document begins with clay, until all that it needs is compiled and its
+    // first picture is made. Where there is no denoiser, or it fails, noisy ones.
     std::shared_ptr<const Frame> best(bool want_denoised) const;
     ViewStatus status() const;
-    // Why pictures are not denoised; "" = they are.
+    // Why pictures are not denoised, now; "" = they are.
     std::string denoiser_missing() const;
 
   private:

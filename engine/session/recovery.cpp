@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double first_after = 3; // a document's first edit is written aside after so long [s]
+
 long process_id() {
 #if defined(_WIN32)
     return _getpid();
@@ -76,7 +78,7 @@ void Autosave::update(const Session& session, double now) {
     if (session.version() == written_) return;
     if (!waiting_) {
         waiting_ = true;
-        due_ = std::max(due_, now + every_);
+        due_ = file_.empty() ? now + std::min(every_, first_after) : std::max(due_, now + every_);
     }
     if (now >= due_) start(session, now);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recovery: unsaved work is written aside every minute, as a project with absolute paths and a note on whose it is; it
-// is gone after a clean end. Files of processes that are no more are what can be recovered: a living one holds a lock.
+// Recovery: unsaved work is written aside, a few seconds after a document's first edit and every minute then, as a
+// project with absolute paths and a note on whose it is; it is gone after a clean end. Files of processes that are no
+// more are what can be recovered: a living one holds a lock.
 #pragma once
 
 #include "session/session.hpp"

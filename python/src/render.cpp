@@ -81,9 +81,15 @@ Result<void> run(Workspace& w, const scene::Scene& scene, const Request& request
     RESTAGE_TRY(render::Renderer * renderer, use.get(request.key));
     renderer->restart(request.seed, request.first_sample);
     renderer->reset_stats();
-    RESTAGE_CHECK(renderer->sync(scene));
+    bool revived = false; // a driver that stops is started again, once
+    RESTAGE_CHECK(renderer->or_revive(renderer->sync(scene), scene, revived));
     const double start = now_seconds();
-    if (auto traced = trace(*renderer, request.target, pulse, progress, out.finished); !traced) {
+    auto traced = trace(*renderer, request.target, pulse, progress, out.finished);
+    if (!traced && renderer->lost() && !revived) {
+        traced = renderer->revive(scene);
+        if (traced) traced = trace(*renderer, request.target, pulse, progress, out.finished);
+    }
+    if (!traced) {
         use.drop(); // whatever state it is in
         return traced;
     }

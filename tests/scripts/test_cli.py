@@ -112,15 +112,37 @@ def test_targets_of_time_and_error(tmp_path):
     assert float(done.stderr.split("relative error ")[1].split(",")[0]) <= 0.2
 
 
-def test_one_ctrl_c_writes_what_is_there(tmp_path):
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_one_signal_writes_what_is_there(tmp_path, name):
+    """Ctrl-C; a batch system's time limit, `timeout`; a terminal that is closed."""
     out = tmp_path / "long.exr"
-    process = subprocess.Popen([RESTAGE, "render", str(CORNELL), "-o", str(out), "--size", "128x128", "--spp", "10000000"],
+    process = subprocess.Popen([RESTAGE, "-v", "render", str(CORNELL), "-o", str(out), "--size", "64x64", "--spp", "10000000"],
                                stderr=subprocess.PIPE, text=True)
-    time.sleep(8)
-    process.send_signal(signal.SIGINT)
-    _, log = process.communicate(timeout=120)
-    assert process.returncode == 130 and "stopped after" in log
+    log = ""
+    while "tracer:" not in log:  # the renderer is there: what follows can be stopped
+        line = process.stderr.readline()
+        assert line, log
+        log += line
+    time.sleep(1)  # a few samples, on most machines
+    process.send_signal(getattr(signal, name))
+    log += process.communicate(timeout=120)[1]
+    assert process.returncode == 128 + getattr(signal, name) and "stopped after" in log
     assert restage("compare", out, out).returncode == 0
+
+
+def test_a_lost_device_is_opened_again_once(tmp_path):
+    """RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES: the driver stops at so many submissions, so often."""
+    arguments = ["render", CORNELL, "--size", "48x48", "--spp", 8, "--tracer", "embree", "-o"]
+    plain = restage(*arguments, tmp_path / "plain.exr")
+    assert plain.returncode == 0 and "driver stopped" not in plain.stderr
+    once = restage(*arguments, tmp_path / "once.exr", env={**os.environ, "RESTAGE_TEST_DEVICE_LOST": "10,1"})
+    assert once.returncode == 0, once.stderr
+    assert once.stderr.count("the graphics driver stopped (VK_ERROR_DEVICE_LOST); it is started again") == 1
+    same = restage("compare", tmp_path / "plain.exr", tmp_path / "once.exr")
+    assert same.returncode == 0, same.stdout + same.stderr
+    again = restage(*arguments, tmp_path / "again.exr", env={**os.environ, "RESTAGE_TEST_DEVICE_LOST": "10,9"})
+    assert again.returncode == 1 and "VK_ERROR_DEVICE_LOST" in again.stderr and not (tmp_path / "again.exr").exists()
+    assert again.stderr.count("it is started again") == 1
 
 
 def test_info_as_json_counts_and_reports():

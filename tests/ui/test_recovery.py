@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Work is not lost when the editor is: it is killed in mid-edit, and started again."""
 import pathlib
+import signal
+import subprocess
 
 import pytest
 
-from desk import Timeout
+from desk import Desk, Editor, Timeout
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CORNELL = ROOT / "scenes/cornell/cornell.pbrt"
@@ -90,3 +92,75 @@ def test_later_offers_again_and_discard_does_not(launch, tmp_path):
     third.wait(lambda s: s["modal"] == "Unsaved work was found", "the same offer again")
     answer(third, "recovery.discard")
     assert list((config / "recovery").iterdir()) == []
+
+
+def unsaved(launch, config):
+    """An editor whose first edit was written aside soon, and whose second one is only in memory."""
+    editor = launch(CORNELL, "--autosave", 3600, config=config)
+    editor.wait(lambda s: s["counts"]["instances"] > 0 and not s["opening"], "the scene")
+    hidden = hide_all(editor)["counts"]["hidden"]
+    aside = written_aside(editor)  # a few seconds after the first edit, not an hour
+    before = aside.read_text()
+    editor.key("alt+h")
+    editor.wait(lambda s: s["counts"]["hidden"] == 0, "all shown")
+    hide_all(editor)
+    editor.wait(lambda s: s["history"]["position"] == 3, "the third edit")
+    return editor, aside, before, hidden
+
+
+def offered_with(launch, config, hidden):
+    second = launch(config=config)
+    second.wait(lambda s: s["modal"] == "Unsaved work was found", "the offer to recover")
+    answer(second, "recovery.recover")
+    second.wait(lambda s: s["counts"]["hidden"] == hidden, "the recovered scene", 60)
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_ended_by_a_signal_loses_nothing(launch, tmp_path, name):
+    config = tmp_path / "config"
+    editor, aside, before, hidden = unsaved(launch, config)
+    number = getattr(signal, name)
+    editor.process.send_signal(number)
+    assert editor.process.wait(60) == 128 + number
+    assert aside.read_text() != before and '"changes": "3"' in aside.read_text()
+    assert name in editor.output()
+
+
+def test_ended_by_a_signal_with_nothing_to_save_leaves_nothing(launch, tmp_path):
+    config = tmp_path / "config"
+    editor = launch(CORNELL, config=config)
+    editor.wait(lambda s: s["counts"]["instances"] > 0 and not s["opening"], "the scene")
+    editor.process.send_signal(signal.SIGTERM)
+    assert editor.process.wait(60) == 128 + signal.SIGTERM
+    assert not (config / "recovery").exists() or list((config / "recovery").iterdir()) == []
+
+
+def test_a_display_that_is_gone_loses_nothing(binary, tmp_path):
+    """The X server is killed, as at a crash of the desktop."""
+    own = Desk(tmp_path / "screen")
+    running = []
+
+    def start(*arguments, config, **more):
+        running.append(Editor(own, binary, *arguments, config=config, probe=tmp_path / "probe.json", **more))
+        return running[-1]
+
+    try:
+        editor, aside, before, hidden = unsaved(start, tmp_path / "config")
+        own.server.kill()
+        assert editor.process.wait(60) == 1
+        assert aside.read_text() != before and '"changes": "3"' in aside.read_text()
+    finally:
+        for editor in running:
+            editor.close()
+        own.close()
+
+
+def test_a_close_request_writes_aside_before_it_is_answered(launch, desk, tmp_path):
+    """A desktop whose session ends asks windows to close, and does not wait long."""
+    editor, aside, before, hidden = unsaved(launch, tmp_path / "config")
+    found = subprocess.run(["xdotool", "search", "--name", "Restage"], env=desk.environment, check=True, capture_output=True, text=True)
+    desk.xdotool("windowquit", found.stdout.split()[-1])
+    editor.wait(lambda s: s["modal"] == "Unsaved changes", "the question")
+    assert '"changes": "3"' in aside.read_text()
+    editor.kill()
+    offered_with(launch, tmp_path / "config", hidden)

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/clay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace restage::render {
+
+namespace {
+
+constexpr glm::vec3 ground(0.045f, 0.047f, 0.05f), clay(0.62f, 0.58f, 0.53f), lamp(1.f, 0.93f, 0.78f);
+
+// Through the middle of the lens and of the pixel, as camera_ray() in lib/camera.glsl.
+void aim(const shared::CameraData& camera, glm::vec2 film, shared::RayHit& ray) {
+    const glm::vec2 s = glm::mix(camera.screen_min, camera.screen_max, film);
+    ray.origin = camera.camera_to_world * glm::vec4(0, 0, 0, 1);
+    ray.direction = glm::normalize(glm::vec3(camera.camera_to_world * glm::vec4(s, 1, 0)));
+}
+
+} // namespace
+
+FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& jobs, glm::uvec2 size) {
+    FilmImage image;
+    image.width = size.x;
+    image.height = size.y;
+    image.samples = 1;
+    const std::size_t n = std::size_t(size.x) * size.y;
+    image.color.assign(n, ground);
+    image.std_error.resize(n);
+    image.luminance_variance.resize(n);
+    image.albedo.resize(n);
+    image.normal.resize(n);
+    image.depth.resize(n);
+    image.instance_id.resize(n);
+    image.material_id.resize(n);
+    const shared::CameraData& camera = scene.data().camera;
+    jobs.parallel_for(size.y, 4, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t y = begin; y < end; ++y)
+            for (std::uint32_t x = 0; x < size.x; ++x) {
+                alignas(16) shared::RayHit ray{};
+                aim(camera, (glm::vec2(float(x), float(y)) + 0.5f) / glm::vec2(size), ray);
+                ray.tfar = std::numeric_limits<float>::infinity();
+                ray.mask = ~0u;
+                ray.geom = ray.inst = NONE;
+                embree.intersect(ray);
+                if (ray.inst == NONE) continue;
+                const std::size_t i = y * size.x + x;
+                const shared::InstanceData& instance = scene.instances()[ray.inst];
+                const glm::vec3 across = instance.normal_to_world * ray.ng;
+                const float length = glm::length(across);
+                const glm::vec3 normal = length > 0 ? across / length : -ray.direction;
+                const float facing = std::abs(glm::dot(normal, ray.direction));
+                image.albedo[i] = (instance.flags & INSTANCE_EMITS) ? lamp : clay;
+                image.color[i] = (instance.flags & INSTANCE_EMITS) ? lamp : clay * (0.2f + 0.8f * facing);
+                image.normal[i] = normal;
+                image.depth[i] = ray.tfar;
+                image.instance_id[i] = instance.object_id;
+                if (const auto material = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
+                    material != MATERIAL_NOTHING)
+                    image.material_id[i] = scene.materials()[material].id;
+            }
+    });
+    return image;
+}
+
+} // namespace restage::render

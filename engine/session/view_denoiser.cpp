@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/view_denoiser.hpp"
+
+#include "base/thread_priority.hpp"
+#include "render/denoise.hpp"
+
+#include <utility>
+
+namespace restage::session {
+
+ViewDenoiser::ViewDenoiser(const plugin::Registry& registry, Host host) : registry_(registry), host_(std::move(host)) {
+    thread_ = std::thread([this] { run(); });
+}
+
+ViewDenoiser::~ViewDenoiser() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+// The newest, but a coarse one of the same request goes before the full one: it is there in a quarter of the time.
+void ViewDenoiser::add(std::shared_ptr<const Frame> frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!queue_.empty() && queue_.back()->request != frame->request) queue_.clear();
+        if (!queue_.empty() && (queue_.back()->divider == 1 || frame->divider > 1)) queue_.pop_back();
+        queue_.push_back(std::move(frame));
+    }
+    wake_.notify_one();
+}
+
+void ViewDenoiser::run() {
+    lower_thread_priority(7);
+    const auto& denoisers = registry_.denoisers();
+    const char* reason = "no denoiser plugin is loaded";
+    if (denoisers.empty() || !denoisers[0].table->available(&reason)) return host_.says(reason);
+    for (;;) {
+        std::shared_ptr<const Frame> source;
+        {
+            std::unique_lock lock(mutex_);
+            wake_.wait(lock, [&] { return stop_ || !queue_.empty(); });
+            if (stop_) return;
+            source = std::move(queue_.front());
+            queue_.pop_front();
+        }
+        bool given_up = false;
+        const auto keep_going = [&](double) {
+            {
+                const std::lock_guard lock(mutex_);
+                given_up = stop_;
+            }
+            given_up = given_up || !host_.wanted(*source);
+            return !given_up;
+        };
+        auto color = render::denoise(source->image, denoisers[0], RESTAGE_DENOISE_FAST, 0, keep_going);
+        if (!color && given_up) continue;
+        host_.says(color ? "" : color.error().message); // where it failed, pictures are shown as they are
+        if (!color) continue;
+        auto frame = std::make_shared<Frame>(*source);
+        frame->image.color = std::move(*color);
+        frame->denoised = true;
+        host_.done(std::move(frame));
+    }
+}
+
+} // namespace restage::session
