@@ -5,6 +5,7 @@ import numpy as np
 
 from .mesh import (
     Mesh,
+    above,
     box_between,
     fillet,
     grid_faces,
@@ -250,7 +251,7 @@ def crease(mesh, degrees):
     limit = np.cos(np.radians(degrees))
     for group in corners.values():
         faces = np.array(group) // 3
-        near = (unit[faces] @ unit[faces].T) > limit
+        near = above(unit[faces] @ unit[faces].T, limit)
         total = near @ face_n[faces]
         normals[group] = total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-20)
     flat = mesh.f.ravel()

@@ -2,9 +2,28 @@
 """Triangle meshes for the bundled scenes: lathes, rounded boxes, sweeps, sheets, and a binary PLY writer.
 
 Lengths in metres, z up, right-handed; normals point out of the solid, and triangles wind counter-clockwise about them.
+The last bits of sine, power and matrix product differ from processor to processor. No choice may hang on them: what is
+chosen (a vertex kept, an axis, a side) goes through `above` or `first_largest`.
 """
 
 import numpy as np
+
+SLACK = 1e-9  # relative: a million times what rounding can do here, and far below what can be seen
+
+
+def above(values, limit):
+    """values > limit; refuses a shape where the answer hangs on rounding, for its author to change."""
+    if np.any(np.abs(np.asarray(values) - limit) <= SLACK * abs(limit)):
+        raise ValueError(f"a value is as good as equal to the limit {limit}")
+    return np.asarray(values) > limit
+
+
+def first_largest(values):
+    """The first index (along the last axis) of all that are as large as the largest, but for rounding."""
+    top = np.max(values, axis=-1, keepdims=True)
+    if np.any((values < top * (1 - SLACK)) & (values > top * (1 - 2 * SLACK))):
+        raise ValueError("a value lies where it is neither the largest nor clearly less")
+    return np.argmax(values >= top * (1 - SLACK), axis=-1)
 
 
 class Mesh:
@@ -66,7 +85,7 @@ def scale(x, y=None, z=None):
 def z_to(direction):
     """A rotation that takes +z to a direction."""
     d = np.asarray(direction, float) / np.linalg.norm(direction)
-    side = np.cross([0, 1.0, 0] if abs(d[1]) < 0.9 else [1.0, 0, 0], d)
+    side = np.cross([1.0, 0, 0] if above(abs(d[1]), 0.9) else [0, 1.0, 0], d)
     side /= np.linalg.norm(side)
     m = np.eye(4)
     m[:3, 0], m[:3, 1], m[:3, 2] = side, np.cross(d, side), d
@@ -86,7 +105,7 @@ def grid_faces(rows, columns):
 def without_slivers(mesh):
     """Drop triangles of no area (the poles of a lathe) and the vertices nobody uses."""
     a, b, c = (mesh.v[mesh.f[:, k]] for k in range(3))
-    f = mesh.f[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-14]
+    f = mesh.f[above(np.linalg.norm(np.cross(b - a, c - a), axis=1), 1e-14)]
     used, f = np.unique(f, return_inverse=True)
     return Mesh(mesh.v[used], mesh.n[used], mesh.uv[used], f.reshape(-1, 3))
 
@@ -111,7 +130,7 @@ def fillet(points, radii, steps=5):
     for k in range(1, len(p) - 1):
         a, b = _normalised(p[k - 1] - p[k]), _normalised(p[k + 1] - p[k])
         half = 0.5 * np.arccos(np.clip(a @ b, -1, 1))
-        if radii[k] <= 0 or abs(np.pi / 2 - half) < 1e-3:
+        if radii[k] <= 0 or not above(abs(np.pi / 2 - half), 1e-3):
             out.append(p[k])
             continue
         reach = radii[k] / np.tan(half)
@@ -148,9 +167,9 @@ def essential(points, tolerance):
         d = points[b] - points[a]
         rel = points[a + 1 : b] - points[a]
         length = np.linalg.norm(d)
-        away = np.abs(d[0] * rel[:, 1] - d[1] * rel[:, 0]) / length if length > 1e-9 else np.linalg.norm(rel, axis=1)
-        if len(away) and away.max() > tolerance:
-            m = a + 1 + int(np.argmax(away))
+        away = np.abs(d[0] * rel[:, 1] - d[1] * rel[:, 0]) / length if above(length, 1e-9) else np.linalg.norm(rel, axis=1)
+        if len(away) and above(away.max(), tolerance):
+            m = a + 1 + int(first_largest(away))
             keep[m] = True
             todo += [(a, m), (m, b)]
     return keep
@@ -167,7 +186,7 @@ def lathe(profile, segments=64, uv_scale=(1.0, 1.0)):
     n[:-1] += edge * length[:, None]
     n[1:] += edge * length[:, None]
     for k in (0, -1):
-        if p[k, 0] < 1e-9:  # on the axis the surface is flat
+        if not above(p[k, 0], 1e-9):  # on the axis the surface is flat
             n[k] = 0, np.sign(n[k, 1]) or 1
     n = _normalised(n)
     along = np.concatenate([[0], np.cumsum(length)])
@@ -184,7 +203,7 @@ def lathe(profile, segments=64, uv_scale=(1.0, 1.0)):
 
 def planar_uv(mesh, scale_=1.0, grain=1):
     """Box-projected uvs in metres: v runs along the grain axis (0 x, 1 y, 2 z), u along the other of each face."""
-    axis = np.argmax(np.abs(mesh.n), axis=1)
+    axis = first_largest(np.abs(mesh.n))
     uv = np.zeros((len(mesh.v), 2))
     for a in range(3):
         others = [k for k in range(3) if k != a]
@@ -215,7 +234,7 @@ def rounded_box(size, radius, steps=3, grain=None):
             f = grid_faces(len(ticks[0]), len(ticks[1]))
             parts.append(Mesh(inner + r * n, n, np.zeros(n.shape[:2] + (2,)), f if sign > 0 else f[:, ::-1]))
     m = merge(*parts)
-    return planar_uv(m, grain=int(np.argmax(h)) if grain is None else grain)
+    return planar_uv(m, grain=int(first_largest(h)) if grain is None else grain)
 
 
 def box_between(lo, hi, radius=0.003, steps=2, grain=None):
@@ -227,7 +246,7 @@ def box_between(lo, hi, radius=0.003, steps=2, grain=None):
 def superellipse(width, depth, power=4.0, count=64):
     """A closed outline between an ellipse (power 2) and a rectangle."""
     t = np.linspace(0, 2 * np.pi, count, endpoint=False)
-    c, s = np.cos(t), np.sin(t)
+    c, s = (np.round(x, 14) for x in (np.cos(t), np.sin(t)))  # a power would make 1e-9 of the 1e-17 that is none
     return np.stack(
         [width / 2 * np.sign(c) * np.abs(c) ** (2 / power), depth / 2 * np.sign(s) * np.abs(s) ** (2 / power)], 1
     )

@@ -9,7 +9,8 @@ from .mesh import write_ply
 
 
 def numbers(values):
-    return " ".join(f"{float(x):.6g}" for x in np.ravel(values))
+    """Six digits; what is nothing but rounding (the cosine of a right angle) is 0, not 1.11022e-16."""
+    return " ".join(f"{float(x):.6g}" for x in np.round(np.ravel(np.asarray(values, float)), 9) + 0.0)
 
 
 class Scene:
