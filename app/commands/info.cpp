@@ -95,8 +95,8 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
                 l["environment"].get<std::string>().c_str());
     std::printf("film        %dx%d, %zu samples a pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
-    std::printf("memory      geometry %.1f MB, pixels %.1f MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,
-                d["memory_bytes"]["pixels"].get<double>() * 1e-6);
+    fmt::print("memory      geometry {:.1f} MB, pixels {:.1f} MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,
+               d["memory_bytes"]["pixels"].get<double>() * 1e-6);
     std::printf("import      %zu kept, %zu approximated, %zu dropped\n", report.count(RESTAGE_KEPT),
                 report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
     for (const auto& e : report.entries)

@@ -126,8 +126,9 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     apply_pending();
     if (!options_.config_dir.empty()) {
         files_->autosave.update(session_, ImGui::GetTime());
-        if (const std::string problem = files_->autosave.take_problem(); !problem.empty())
-            notices.add(LogLevel::error, problem);
+        if (std::string problem = files_->autosave.take_problem();
+            !problem.empty() && problem != files_->autosave_problem) // once, not each minute
+            notices.add(LogLevel::error, files_->autosave_problem = std::move(problem));
     }
     refresh_picture();
     remember_preferences();

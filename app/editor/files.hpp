@@ -15,13 +15,14 @@ namespace restage::editor {
 struct Files {
     Files(const std::filesystem::path& config, double autosave_seconds, std::function<void()> wake)
         : recent(config.empty() ? config : config / "recent.json"),
-          recovery_folder(config / "recovery"),
+          recovery_folder(config.empty() ? config : config / "recovery"),
           autosave(recovery_folder, autosave_seconds),
           jobs(std::move(wake)) {}
 
     Recent recent;
     std::filesystem::path recovery_folder;
     session::Autosave autosave;
+    std::string autosave_problem; // that was said
     BackgroundJobs jobs;
     std::filesystem::path last_picture; // where one was written last
 };

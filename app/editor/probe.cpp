@@ -4,8 +4,8 @@
 #include "editor.hpp"
 #include "files.hpp"
 
+#include <charconv>
 #include <imgui_internal.h>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -108,7 +108,12 @@ void Editor::run_commands(const std::string& lines) {
             log_.warning("probe: \"" + line + "\" is no command");
             continue;
         }
-        drop({line.substr(5, x - 5)}, {std::strtof(line.c_str() + x, nullptr), std::strtof(line.c_str() + y, nullptr)});
+        const auto number = [&](std::size_t at) {
+            float value = 0;
+            std::from_chars(line.data() + at + 1, line.data() + line.size(), value);
+            return value;
+        };
+        drop({line.substr(5, x - 5)}, {number(x), number(y)});
     }
 }
 

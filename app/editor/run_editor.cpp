@@ -59,6 +59,20 @@ Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const
     return 0;
 }
 
+// The folder for what the editor remembers; "" or why nothing will be. It is read where it cannot be written.
+std::string prepare(std::filesystem::path& config) {
+    if (config.empty()) {
+        auto user = user_data_dir();
+        if (!user) return user.error().message;
+        config = std::move(*user);
+    }
+    std::error_code code;
+    std::filesystem::create_directories(config, code);
+    if (code) return config.string() + ": cannot be created: " + code.message();
+    const auto probe = AtomicFile::create(config / "write-test"); // gone with its owner
+    return probe ? "" : probe.error().message;
+}
+
 } // namespace
 
 Result<int> run_editor(const RunOptions& options) {
@@ -73,11 +87,9 @@ Result<int> run_editor(const RunOptions& options) {
     registry.scan(options.plugins.paths);
 
     std::filesystem::path config = options.config_dir;
-    if (config.empty()) {
-        RESTAGE_TRY(config, user_data_dir());
-    }
     std::error_code ignored;
-    std::filesystem::create_directories(config, ignored);
+    if (const std::string problem = prepare(config); !problem.empty())
+        log.warning("layout, preferences and recovery files will not be kept: " + problem);
     RESTAGE_TRY(const auto bin, executable_dir());
     registry.set_judge(render::material_judge(bin.parent_path() / "share/restage/shaders"));
 

@@ -186,6 +186,10 @@ Result<fs::path> cache_dir() {
     std::error_code code;
     fs::create_directories(folder, code);
     if (code) return fail(folder.string() + ": cannot be created: " + code.message());
+#if !defined(_WIN32)
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        return fail(folder.string() + ": cannot be written: " + reason(errno));
+#endif
     return folder;
 }
 

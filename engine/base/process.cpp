@@ -43,8 +43,20 @@ struct Pipe { // closed with its owner
     Pipe& operator=(const Pipe&) = delete;
     ~Pipe() { close_end(0), close_end(1); }
     bool open() {
+#if defined(__linux__)
+        if (::pipe2(fd.data(), O_CLOEXEC) != 0) return false; // at once: another thread may fork at any moment
+#else
         if (::pipe(fd.data()) != 0) return false;
-        return ::fcntl(fd[0], F_SETFD, FD_CLOEXEC) == 0 && ::fcntl(fd[1], F_SETFD, FD_CLOEXEC) == 0;
+        for (const int end : fd)
+            ::fcntl(end, F_SETFD, FD_CLOEXEC);
+#endif
+        for (int& end : fd) { // not where a child's own 0, 1 and 2 go, which we may have been started without
+            if (end > 2) continue;
+            const int higher = ::fcntl(end, F_DUPFD_CLOEXEC, 3);
+            if (higher < 0) return false;
+            ::close(std::exchange(end, higher));
+        }
+        return true;
     }
     void close_end(std::size_t i) {
         if (fd[i] >= 0) ::close(std::exchange(fd[i], -1));
@@ -110,7 +122,7 @@ std::string signal_text(int number) {
         const rlimit limit{static_cast<rlim_t>(memory_limit), static_cast<rlim_t>(memory_limit)};
         if (::setrlimit(RLIMIT_AS, &limit) != 0) bad = errno;
     }
-    const int nothing = ::open("/dev/null", O_RDONLY);
+    const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (!bad && (nothing < 0 || ::dup2(nothing, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0)) bad = errno;
     if (!bad) ::execve(argv[0], argv, env), bad = errno;
     [[maybe_unused]] const ssize_t told = ::write(report, &bad, sizeof bad);

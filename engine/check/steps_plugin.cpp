@@ -30,7 +30,13 @@ Result<StepResult> check_manifest(Subject& s) {
 
 Result<StepResult> check_load(Subject& s) {
     const auto start = std::chrono::steady_clock::now();
-    RESTAGE_CHECK(s.load());
+    if (const auto loaded = s.load(); !loaded) {
+        StepResult result = StepResult::failed(loaded.error().message);
+        const auto manifest = plugin::read_manifest(s.folder / "plugin.json");
+        if (manifest && !manifest->library.empty() && !fs::exists(s.folder / manifest->library))
+            result.cause = "the plugin is not built yet, or this is the folder of its sources";
+        return result;
+    }
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const plugin::Registry& r = s.registry();
     const double tables =

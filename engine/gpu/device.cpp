@@ -9,6 +9,7 @@
 #include <vk_mem_alloc.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cstring>
 
@@ -92,7 +93,7 @@ std::filesystem::path choose_cache_dir(const DeviceOptions& options, Log& log) {
     if (!options.cache_dir.empty()) return options.cache_dir;
     if (auto dir = cache_dir())
         return *dir;
-    else
+    else if (static std::atomic_flag said; !said.test_and_set()) // a program has several devices
         log.warning("shaders will be compiled anew at each start: " + dir.error().message);
     return {};
 }

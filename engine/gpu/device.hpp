@@ -44,6 +44,7 @@ struct DeviceInfo {
     std::uint32_t subgroup_size = 0;
     bool ray_tracing = false; // acceleration structures and the ray-tracing pipeline, callables too
     bool timestamps = false;
+    bool keeps_nan = false; // shaders may ask for NaN, infinity and -0 to be kept: SignedZeroInfNanPreserve, 32 bit
     bool unified_memory = false;     // the host sees all device memory (CPU, integrated)
     std::string missing;             // why it cannot be used ("... has no bufferDeviceAddress"); empty: it can
     std::string missing_ray_tracing; // why ray_tracing is false; empty if true

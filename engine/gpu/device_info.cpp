@@ -153,12 +153,15 @@ DeviceInfo Instance::describe(VkPhysicalDevice physical, std::uint32_t index) co
         return info;
     }
 
+    VkPhysicalDeviceFloatControlsProperties floats{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES, .pNext = &subgroup};
     VkPhysicalDeviceMaintenance4Properties maintenance4{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, .pNext = &subgroup};
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, .pNext = &floats};
     properties.pNext = &maintenance4;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     info.subgroup_size = subgroup.subgroupSize;
+    info.keeps_nan = floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;
     info.max_buffer_bytes = std::min(maintenance3.maxMemoryAllocationSize, maintenance4.maxBufferSize);
 
     const std::vector<VkExtensionProperties> extensions = device_extensions(physical);

@@ -3,6 +3,7 @@
 #include "gpu/pipeline.hpp"
 
 #include "gpu/device.hpp"
+#include "gpu/float_controls.hpp"
 
 #include <cassert>
 #include <cstring>
@@ -25,9 +26,10 @@ class Modules {
     Modules& operator=(const Modules&) = delete;
 
     Result<VkShaderModule> create(const Spirv& shader) {
+        const auto words = device_.info().keeps_nan ? keep_nan(shader.words) : shader.words;
         const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                            .codeSize = shader.words.size() * sizeof(std::uint32_t),
-                                            .pCode = shader.words.data()};
+                                            .codeSize = words.size() * sizeof(std::uint32_t),
+                                            .pCode = words.data()};
         VkShaderModule module = VK_NULL_HANDLE;
         const VkResult result = device_.vk().vkCreateShaderModule(device_.handle(), &info, nullptr, &module);
         if (result != VK_SUCCESS) return device_.error(result, "loading the shader " + shader.name);

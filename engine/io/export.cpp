@@ -58,7 +58,7 @@ Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::
         known += (known.empty() ? "" : ", ") + std::string(entry.table->format);
     known = known.empty() ? "no exporter plugin is loaded" : "known are: " + known;
     if (!format.empty()) {
-        if (const auto* entry = registry.find_exporter(format)) return *entry;
+        if (auto entry = registry.find_exporter(format)) return *std::move(entry);
         return fail("there is no exporter \"" + format + "\"; " + known);
     }
     std::string extension = std::filesystem::path(path).extension().string();

@@ -40,7 +40,7 @@ std::string known_formats(const plugin::Registry& registry) {
 Result<plugin::ImporterEntry> choose(const std::string& path, const std::string& head, const plugin::Registry& registry,
                                      const std::string& format) {
     if (!format.empty()) {
-        if (const auto* entry = registry.find_importer(format)) return *entry;
+        if (auto entry = registry.find_importer(format)) return *std::move(entry);
         return fail(path + ": there is no importer \"" + format + "\"; " + known_formats(registry));
     }
     plugin::ImporterEntry best;

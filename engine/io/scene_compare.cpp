@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <map>
 #include <unordered_map>
 
@@ -18,9 +18,7 @@ using namespace scene;
 namespace {
 
 std::string shown(float x) { // six digits: what a text file or another order of operations may change is beyond
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", static_cast<double>(x == 0 ? 0.f : x));
-    return text;
+    return fmt::format("{:.6g}", x == 0 ? 0.f : x);
 }
 std::string shown(glm::vec3 v) { return shown(v.x) + " " + shown(v.y) + " " + shown(v.z); }
 

@@ -11,12 +11,18 @@
 #include "base/file.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstdlib>
 #endif
 #if defined(__linux__)
 #include <elf.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <atomic>
+#include <cstdint>
 #include <cstring>
-#include <fstream>
 #endif
 
 namespace restage::plugin {
@@ -54,6 +60,30 @@ void* Library::symbol(const char* name) const {
 
 const char* Library::extension() { return ".so"; }
 
+namespace {
+
+struct Descriptor { // closed with its owner
+    int file;
+    explicit Descriptor(int f) : file(f) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (file >= 0) ::close(file);
+    }
+};
+
+bool write_all(int file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(file, bytes.data(), bytes.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+    return true;
+}
+
+} // namespace
+
 #if defined(__linux__)
 
 namespace {
@@ -63,8 +93,9 @@ namespace {
 Result<> check_elf(const std::filesystem::path& path) {
     RESTAGE_TRY(const std::string bytes, read_file(path));
     Elf64_Ehdr header, ours;
-    std::ifstream self("/proc/self/exe", std::ios::binary);
-    if (!self.read(reinterpret_cast<char*>(&ours), sizeof ours)) return fail("/proc/self/exe: cannot be read");
+    const Descriptor self(::open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
+    if (self.file < 0 || ::read(self.file, &ours, sizeof ours) != static_cast<ssize_t>(sizeof ours))
+        return fail("/proc/self/exe: cannot be read");
     const auto broken = [&](const std::string& what) -> Result<> { return fail(path.string() + ": " + what); };
     if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
         return broken("is no shared library (no ELF file)");
@@ -87,6 +118,17 @@ Result<> check_elf(const std::filesystem::path& path) {
     return {};
 }
 
+// A path of an open file that nobody has had before: dlopen() gives the library that is open already for a name it knows,
+// and the number of a descriptor comes again. A counter is spelled in "/." and "//", which mean nothing to a path.
+std::string new_name_of(int file) {
+    static std::atomic<std::uint32_t> counter{0};
+    std::string name = "/proc/self/fd";
+    const std::uint32_t number = counter++;
+    for (int bit = 0; bit < 32; ++bit)
+        name += number >> bit & 1 ? "/." : "//";
+    return name + "/" + std::to_string(file);
+}
+
 } // namespace
 
 #endif
@@ -107,22 +149,23 @@ Result<Library> Library::open_copy(const std::filesystem::path& path) {
 #endif
     RESTAGE_TRY(const std::string bytes, read_file(path));
     std::error_code code;
-    const auto folder = std::filesystem::temp_directory_path(code);
-    if (code) return open(path); // without it, the plugin cannot be replaced while in use, which is all
-    std::string copy = (folder / "restage-plugin-XXXXXX").string();
-    const int file = mkstemp(copy.data());
-    if (file < 0) return open(path);
-    ::close(file);
-    auto result = [&]() -> Result<Library> {
-        RESTAGE_CHECK(write_file_atomic(copy, bytes));
-        if (void* handle = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
-        const char* why = dlerror();
-        std::string text = why ? why : "unknown reason";
-        if (const auto at = text.find(copy); at != std::string::npos) text.replace(at, copy.size(), path.string());
-        return fail(text.starts_with(path.string()) ? text : path.string() + ": " + text);
-    }();
-    std::filesystem::remove(copy, code); // what is mapped stays
-    return result;
+    if (const auto folder = std::filesystem::temp_directory_path(code); !code) {
+        std::string copy = (folder / "restage-plugin-XXXXXX").string();
+        void* handle = nullptr;
+        if (const Descriptor file(::mkostemp(copy.data(), O_CLOEXEC)); file.file >= 0) {
+            if (write_all(file.file, bytes)) handle = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL);
+            std::filesystem::remove(copy, code); // what is mapped stays
+        }
+        if (handle) return Library(handle);
+    }
+#if defined(__linux__)
+    // That folder is missing, full, not ours, or forbids execution (noexec). Memory does not.
+    if (const Descriptor memory(static_cast<int>(::syscall(SYS_memfd_create, "restage-plugin-copy", MFD_CLOEXEC)));
+        memory.file >= 0 && write_all(memory.file, bytes))
+        if (void* handle = dlopen(new_name_of(memory.file).c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
+#endif
+    // Itself: then it cannot be replaced while it is in use, which is all. If the library is at fault, this says how.
+    return open(path);
 }
 
 Library::~Library() {

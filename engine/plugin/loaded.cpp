@@ -88,7 +88,14 @@ Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manif
 Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, Log& log) {
     const fs::path library = folder / manifest.library;
     std::error_code code;
-    if (!fs::exists(library, code)) return fail(library.string() + ": the library is missing");
+    if (!fs::exists(library, code)) {
+        if (!fs::exists(folder / "CMakeLists.txt", code))
+            return fail(library.string() + ": the library is missing: the plugin is not built, or not all of it was copied");
+        // Sources: what restage_add_plugin() makes of them lies elsewhere.
+        return fail(library.string() + ": the library is missing: this folder holds the plugin's sources. Build it there, "
+                    "'cmake -B build -DCMAKE_PREFIX_PATH=<where Restage is installed> && cmake --build build', and use " +
+                    (folder / "build/lib/restage/plugins").string());
+    }
     // A material's library may be built anew while it is in use; what is open is then a copy of the one before.
     RESTAGE_TRY(library_, manifest.kind == Kind::material ? Library::open_copy(library) : Library::open(library));
     const auto* table = static_cast<const RestagePlugin*>(library_->symbol(RESTAGE_PLUGIN_SYMBOL));

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <string_view>
+#include <utility>
 
 namespace restage::plugin {
 
@@ -22,6 +25,67 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
     const auto line = 1 + std::count(text.begin(), end, '\n');
     const auto start = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
     return std::to_string(line) + ":" + std::to_string(std::max<std::ptrdiff_t>(end - start, 1));
+}
+
+// Keys of a manifest: a misspelt one is not passed over. Who keeps notes of their own in it calls them "x-...".
+constexpr std::string_view known_keys[] = {"id",      "version", "kind",      "abi",       "licence",
+                                           "library", "files",   "materials", "exceptions"};
+
+// Where a key of the outermost object stands: the byte of its opening quote. `text` is an object, and JSON.
+std::size_t place_of_key(const std::string& text, const std::string& key) {
+    int depth = 0;
+    bool is_key = false; // the next string at depth 1
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '{' || c == '[') {
+            is_key = ++depth == 1;
+        } else if (c == '}' || c == ']') {
+            --depth;
+        } else if (c == ',') {
+            is_key = depth == 1;
+        } else if (c == '"') {
+            const std::size_t start = i;
+            for (++i; i < text.size() && text[i] != '"'; ++i)
+                if (text[i] == '\\') ++i;
+            const auto string = json::parse(text.substr(start, i + 1 - start), nullptr, false);
+            if (std::exchange(is_key, false) && string.is_string() && string.get_ref<const std::string&>() == key)
+                return start + 1;
+        }
+    }
+    return 0;
+}
+
+// How many letters must be inserted, dropped or replaced (Levenshtein 1966).
+std::size_t typing_errors(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+Result<> check_keys(const json& object, const std::string& text, const std::string& file) {
+    for (const auto& [key, value] : object.items()) {
+        if (key.starts_with("x-") || std::count(std::begin(known_keys), std::end(known_keys), key)) continue;
+        std::string all;
+        std::string_view nearest = known_keys[0];
+        for (const std::string_view known : known_keys) {
+            all += (all.empty() ? "" : ", ") + std::string(known);
+            if (typing_errors(key, known) < typing_errors(key, nearest)) nearest = known;
+        }
+        const bool alike = typing_errors(key, nearest) <= std::max<std::size_t>(1, nearest.size() / 3);
+        return fail(file + ":" + line_and_column(text, place_of_key(text, key)) + ": the key \"" + key +
+                    "\" is unknown; " +
+                    (alike ? "is \"" + std::string(nearest) + "\" meant?" : "known are " + all) +
+                    " (keys of your own begin with \"x-\")");
+    }
+    return {};
 }
 
 Result<std::string> text_of(const json& object, const char* key, const std::string& file) {
@@ -105,6 +169,7 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
                     ": not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2)));
     }
     if (!object.is_object()) return fail(file + ": the manifest must be one JSON object { ... }");
+    RESTAGE_CHECK(check_keys(object, text, file));
     Manifest out;
     RESTAGE_TRY(out.id, text_of(object, "id", file));
     if (!is_reverse_dns(out.id))

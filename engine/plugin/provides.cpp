@@ -6,13 +6,13 @@ namespace restage::plugin {
 std::vector<std::string> provides(const Registry& registry, const Entry& entry) {
     std::vector<std::string> names;
     for (const auto& m : registry.materials())
-        if (m.plugin == &entry) names.push_back(std::string("material ") + m.table->type);
+        if (m.plugin->folder == entry.folder) names.push_back(std::string("material ") + m.table->type);
     for (const auto& m : registry.importers())
-        if (m.plugin == &entry) names.push_back(std::string("importer ") + m.table->format);
+        if (m.plugin->folder == entry.folder) names.push_back(std::string("importer ") + m.table->format);
     for (const auto& m : registry.exporters())
-        if (m.plugin == &entry) names.push_back(std::string("exporter ") + m.table->format);
+        if (m.plugin->folder == entry.folder) names.push_back(std::string("exporter ") + m.table->format);
     for (const auto& m : registry.denoisers()) {
-        if (m.plugin != &entry) continue;
+        if (m.plugin->folder != entry.folder) continue;
         const char* reason = "";
         const bool usable = m.table->available(&reason);
         names.push_back(std::string("denoiser ") + m.table->type +

@@ -5,6 +5,9 @@
 #include "base/file.hpp"
 
 #include <sstream>
+#if !defined(_WIN32)
+#include <unistd.h>
+#endif
 
 namespace restage::plugin {
 
@@ -13,6 +16,9 @@ namespace fs = std::filesystem;
 std::string Quarantine::note_of(const std::string& id) const {
     std::error_code code;
     if (folder_.empty() || id.empty() || (fs::create_directories(folder_, code), code)) return {};
+#if !defined(_WIN32)
+    if (::access(folder_.c_str(), W_OK | X_OK) != 0) return {};
+#endif
     return (folder_ / (id + ".txt")).string();
 }
 

@@ -19,10 +19,10 @@ namespace {
 
 constexpr int deepest_folder = 3; // lib/restage/plugins/<kinds>/<name>, and one for a vendor
 
-template <class Table>
-const Provided<Table>* find_in(const std::vector<Provided<Table>>& list, std::string_view name) {
+template <class Listed>
+std::optional<Listed> find_in(const std::vector<Listed>& list, std::string_view name) {
     const auto it = std::find_if(list.begin(), list.end(), [&](const auto& p) { return key(*p.table) == name; });
-    return it == list.end() ? nullptr : &*it;
+    return it == list.end() ? std::nullopt : std::optional<Listed>(*it);
 }
 
 bool has_manifest(const fs::path& folder) {
@@ -70,7 +70,7 @@ std::uint64_t stamp_of(const fs::path& folder) {
 
 struct Registry::Plugin {
     Entry entry;
-    std::unique_ptr<Loaded> loaded;
+    std::shared_ptr<Loaded> loaded; // shared with catalogues
 };
 
 Blame Entry::blame(const std::string& doing) const {
@@ -78,9 +78,14 @@ Blame Entry::blame(const std::string& doing) const {
 }
 
 Registry::Registry(Log& log, RegistryOptions options)
-    : log_(log), options_(std::move(options)), quarantine_(options_.quarantine) {}
+    : log_(log),
+      options_(std::move(options)),
+      quarantine_(options_.quarantine),
+      catalogue_(std::make_shared<const Catalogue>()) {}
 
 Registry::~Registry() {
+    catalogue_.reset();
+    replaced_.clear();
     while (!plugins_.empty())
         plugins_.pop_back();
 }
@@ -124,7 +129,7 @@ void Registry::scan(std::span<const SearchPath> paths) {
         for (const fs::path& folder : folders)
             add(fs::absolute(folder, code).lexically_normal(), path.own);
     }
-    list();
+    publish();
 }
 
 void Registry::add(const fs::path& folder, bool own) {
@@ -156,13 +161,17 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
                         ", which comes first in the search order");
     if (!entry.own) {
         entry.crash_file = quarantine_.note_of(manifest.id);
+        if (static std::atomic_flag said;
+            entry.crash_file.empty() && !options_.quarantine.empty() && !said.test_and_set())
+            log_.warning("crashes of plugins will not be remembered: " + options_.quarantine.string() +
+                         " cannot be created or written");
         const auto crashed = quarantine_.reason(manifest.id, entry.stamp);
         entry.quarantined = crashed.has_value();
         if (crashed)
             return fail(file + ": " + *crashed +
                         "; it stays off until it changes, or until 'restage plugins --enable " + manifest.id + "'");
     }
-    std::unique_ptr<Loaded> loaded;
+    std::shared_ptr<Loaded> loaded;
     {
         const CrashNote note(entry.blame("while it was being loaded"));
         RESTAGE_TRY(loaded, Loaded::open(entry.folder, manifest, log_));
@@ -170,8 +179,10 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
     RESTAGE_CHECK(unique(plugin, *loaded));
     if (judged && judge_)
         for (const auto& source : loaded->materials)
-            RESTAGE_CHECK(judge_({&source->table(), &entry, entry.blame("while its GLSL was being compiled"), source}));
-    plugin.loaded = std::move(loaded); // what was open before is shut down; who renders with its tables has them
+            RESTAGE_CHECK(judge_({&source->table(), std::make_shared<const Entry>(entry),
+                                  entry.blame("while its GLSL was being compiled"), source}));
+    if (plugin.loaded) replaced_.push_back(std::move(plugin.loaded)); // who renders with its tables has copies of them
+    plugin.loaded = std::move(loaded);
     entry.manifest = manifest;
     entry.state = State::loaded;
     entry.reason.clear();
@@ -208,38 +219,46 @@ Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
     return {};
 }
 
-void Registry::list() {
-    std::vector<MaterialEntry> materials;
-    inspectors_.clear(), importers_.clear(), exporters_.clear(), denoisers_.clear();
+void Registry::publish() {
+    auto all = std::make_shared<Catalogue>();
     for (const auto& plugin : plugins_) {
         if (!plugin->loaded) continue;
-        const Entry* entry = &plugin->entry;
+        const auto entry = std::make_shared<const Entry>(plugin->entry);
+        const auto take = [&](auto& list, const auto& tables) {
+            for (const auto* table : tables)
+                list.push_back({table, entry, plugin->loaded});
+        };
+        take(all->inspectors, plugin->loaded->inspectors);
+        take(all->importers, plugin->loaded->importers);
+        take(all->exporters, plugin->loaded->exporters);
+        take(all->denoisers, plugin->loaded->denoisers);
         for (const auto& source : plugin->loaded->materials)
-            materials.push_back({&source->table(), entry, entry->blame("while its GLSL was being compiled"), source});
+            all->materials.push_back(
+                {&source->table(), entry, entry->blame("while its GLSL was being compiled"), source});
         for (const auto& reader : plugin->loaded->table_readers)
             reader->set_blame(entry->blame("while it read a table"));
-        for (const auto* table : plugin->loaded->inspectors)
-            inspectors_.push_back(table);
-        for (const auto* table : plugin->loaded->importers)
-            importers_.push_back({table, entry});
-        for (const auto* table : plugin->loaded->exporters)
-            exporters_.push_back({table, entry});
-        for (const auto* table : plugin->loaded->denoisers)
-            denoisers_.push_back({table, entry});
     }
-    const auto by_key = [](const auto& a, const auto& b) { return key(*a.table) < key(*b.table); };
-    std::sort(materials.begin(), materials.end(), by_key);
-    std::sort(importers_.begin(), importers_.end(), by_key);
-    std::sort(exporters_.begin(), exporters_.end(), by_key);
-    std::sort(denoisers_.begin(), denoisers_.end(), by_key);
+    const auto sort = [](auto& list) {
+        std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return key(*a.table) < key(*b.table); });
+    };
+    sort(all->materials), sort(all->importers), sort(all->exporters), sort(all->denoisers), sort(all->inspectors);
+    std::shared_ptr<const Catalogue> before = std::move(all);
     {
-        std::lock_guard lock(materials_mutex_);
-        materials_.swap(materials);
+        std::lock_guard lock(catalogue_mutex_);
+        catalogue_.swap(before);
     }
     ++version_;
+    before.reset();
+    close_replaced();
+}
+
+// Shutting down is for the main thread (restage/plugin.h), so what another thread still uses waits for the next time.
+void Registry::close_replaced() {
+    std::erase_if(replaced_, [](const std::shared_ptr<Loaded>& l) { return l.use_count() == 1; });
 }
 
 std::vector<Reload> Registry::reload_changed() {
+    close_replaced();
     std::vector<Reload> news;
     for (const auto& plugin : plugins_) {
         Entry& entry = plugin->entry;
@@ -255,16 +274,16 @@ std::vector<Reload> Registry::reload_changed() {
         }
         news.push_back({&entry, done ? "" : done.error().message});
     }
-    if (!news.empty()) list();
+    if (!news.empty()) publish();
     return news;
 }
 
 Result<> Registry::reload(const Entry& which) {
     for (const auto& plugin : plugins_) {
-        if (&plugin->entry != &which) continue;
+        if (plugin->entry.folder != which.folder) continue;
         const auto done = load(*plugin, true);
         if (!done) (plugin->loaded ? plugin->entry.trouble : plugin->entry.reason) = done.error().message;
-        list();
+        publish();
         return done;
     }
     return fail("no such plugin");
@@ -277,23 +296,25 @@ std::vector<const Entry*> Registry::entries() const {
     return result;
 }
 
-std::optional<MaterialEntry> Registry::find_material(std::string_view type) const {
-    std::lock_guard lock(materials_mutex_);
-    for (const MaterialEntry& material : materials_)
-        if (key(*material.table) == type) return material;
-    return std::nullopt;
+std::shared_ptr<const Catalogue> Registry::catalogue() const {
+    std::lock_guard lock(catalogue_mutex_);
+    return catalogue_;
 }
-std::vector<MaterialEntry> Registry::materials() const {
-    std::lock_guard lock(materials_mutex_);
-    return materials_;
+std::optional<MaterialEntry> Registry::find_material(std::string_view type) const {
+    return find_in(catalogue()->materials, type);
+}
+std::optional<ImporterEntry> Registry::find_importer(std::string_view format) const {
+    return find_in(catalogue()->importers, format);
+}
+std::optional<ExporterEntry> Registry::find_exporter(std::string_view format) const {
+    return find_in(catalogue()->exporters, format);
+}
+std::optional<DenoiserEntry> Registry::find_denoiser(std::string_view type) const {
+    return find_in(catalogue()->denoisers, type);
 }
 const RestageInspector1* Registry::find_inspector(std::string_view type) const {
-    for (const RestageInspector1* table : inspectors_)
-        if (key(*table) == type) return table;
-    return nullptr;
+    const auto found = find_in(catalogue()->inspectors, type);
+    return found ? found->table : nullptr;
 }
-const ImporterEntry* Registry::find_importer(std::string_view format) const { return find_in(importers_, format); }
-const ExporterEntry* Registry::find_exporter(std::string_view format) const { return find_in(exporters_, format); }
-const DenoiserEntry* Registry::find_denoiser(std::string_view type) const { return find_in(denoisers_, type); }
 
 } // namespace restage::plugin

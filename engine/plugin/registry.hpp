@@ -51,17 +51,28 @@ struct Entry {
 template <class Table>
 struct Provided { // a table and who provides it
     const Table* table = nullptr;
-    const Entry* plugin = nullptr; // its files are in plugin->folder
+    std::shared_ptr<const Entry> plugin; // as it was when this was listed; its files are in plugin->folder
+    std::shared_ptr<const void> library; // stays open while somebody holds this
 };
 using ImporterEntry = Provided<RestageImporter1>;
 using ExporterEntry = Provided<RestageExporter1>;
 using DenoiserEntry = Provided<RestageDenoiser1>;
+using InspectorEntry = Provided<RestageInspector1>;
 
 struct MaterialEntry {
     const RestageMaterial1* table = nullptr; // source's
-    const Entry* plugin = nullptr;
+    std::shared_ptr<const Entry> plugin;     // as it was when this was listed
     Blame blame; // for compiling its GLSL
     std::shared_ptr<const MaterialSource> source; // keeps the table alive, also after the plugin was loaded anew
+};
+
+// All that was provided at one moment, by type or format in order of the alphabet. Never changes.
+struct Catalogue {
+    std::vector<MaterialEntry> materials;
+    std::vector<ImporterEntry> importers;
+    std::vector<ExporterEntry> exporters;
+    std::vector<DenoiserEntry> denoisers;
+    std::vector<InspectorEntry> inspectors;
 };
 
 struct SearchPath {
@@ -81,6 +92,8 @@ struct Reload {
     std::string error; // "" = the new version is in use; else why not: the one before stays, where there was one
 };
 
+class Loaded;
+
 class Registry {
   public:
     explicit Registry(Log&, RegistryOptions = {});
@@ -97,7 +110,8 @@ class Registry {
 
     // [main] Loads anew the materials whose files have changed since: manifest, library or GLSL. A version that does
     // not fit, or that `judge` refuses, is not taken, and the one before goes on; values of parameters live in the
-    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Other kinds of plugins need a new start.
+    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Other kinds of plugins need a new start,
+    // or reload().
     std::vector<Reload> reload_changed();
     Result<> reload(const Entry& plugin); // this one, changed or not
     // Asked before a material is taken by reload_changed: does its GLSL compile? See render/material_types.hpp.
@@ -108,20 +122,22 @@ class Registry {
 
     const Quarantine& quarantine() const { return quarantine_; }
 
-    // Everything that was found, in the order of finding; pointers stay valid.
+    // [main] Everything that was found, in the order of finding; pointers stay valid, what they point to changes.
     std::vector<const Entry*> entries() const;
 
-    // [any] Materials are handed out as copies, because another thread may load them anew.
-    std::optional<MaterialEntry> find_material(std::string_view type) const; // nullopt = no plugin provides it
-    std::vector<MaterialEntry> materials() const; // by type
+    // [any] The newest catalogue. scan() and the reloads publish another one, whole, in one step; who holds this one,
+    // or an entry of it, goes on with the plugins as they were, and their libraries stay open that long.
+    std::shared_ptr<const Catalogue> catalogue() const;
+    // [any] Of the newest catalogue. nullopt = no plugin provides it.
+    std::optional<MaterialEntry> find_material(std::string_view type) const;
+    std::optional<ImporterEntry> find_importer(std::string_view format) const;
+    std::optional<ExporterEntry> find_exporter(std::string_view format) const;
+    std::optional<DenoiserEntry> find_denoiser(std::string_view type) const;
+    std::vector<MaterialEntry> materials() const { return catalogue()->materials; }
+    std::vector<ImporterEntry> importers() const { return catalogue()->importers; }
+    std::vector<ExporterEntry> exporters() const { return catalogue()->exporters; }
+    std::vector<DenoiserEntry> denoisers() const { return catalogue()->denoisers; }
     const RestageInspector1* find_inspector(std::string_view material_type) const; // [main] until the next reload
-    const ImporterEntry* find_importer(std::string_view format) const;
-    const ExporterEntry* find_exporter(std::string_view format) const;
-    const DenoiserEntry* find_denoiser(std::string_view type) const;
-    // By format or type, in order of the alphabet.
-    const std::vector<ImporterEntry>& importers() const { return importers_; }
-    const std::vector<ExporterEntry>& exporters() const { return exporters_; }
-    const std::vector<DenoiserEntry>& denoisers() const { return denoisers_; }
 
     Log& log() const { return log_; }
 
@@ -129,8 +145,9 @@ class Registry {
     struct Plugin;
     void add(const std::filesystem::path& folder, bool own);
     Result<> load(Plugin&, bool judged);
-    Result<> unique(const Plugin&, const class Loaded&) const;
-    void list(); // makes the lists anew
+    Result<> unique(const Plugin&, const Loaded&) const;
+    void publish(); // a catalogue of what is loaded now
+    void close_replaced();
 
     Log& log_;
     RegistryOptions options_;
@@ -138,12 +155,9 @@ class Registry {
     Judge judge_;
     std::vector<std::unique_ptr<Plugin>> plugins_;
     std::atomic<std::uint64_t> version_{0};
-    mutable std::mutex materials_mutex_;
-    std::vector<MaterialEntry> materials_;
-    std::vector<const RestageInspector1*> inspectors_;
-    std::vector<ImporterEntry> importers_;
-    std::vector<ExporterEntry> exporters_;
-    std::vector<DenoiserEntry> denoisers_;
+    std::vector<std::shared_ptr<Loaded>> replaced_; // closed on the main thread, when nobody uses them any more
+    mutable std::mutex catalogue_mutex_;            // of the pointer; nobody waits for more than its copy
+    std::shared_ptr<const Catalogue> catalogue_;
 };
 
 } // namespace restage::plugin

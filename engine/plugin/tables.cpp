@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugin/tables.hpp"
 
+#include "plugin/glsl_words.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,24 +14,6 @@ namespace restage::plugin {
 namespace fs = std::filesystem;
 
 namespace {
-
-// Words a struct member or a function prefix must not be: keywords and reserved words of GLSL 4.60, section 3.6.
-constexpr std::string_view reserved_words[] = {
-    "active",    "asm",      "attribute", "bool",       "break",     "buffer",        "bvec2",    "bvec3",
-    "bvec4",     "case",     "cast",      "centroid",   "class",     "coherent",      "common",   "const",
-    "continue",  "default",  "discard",   "dmat2",      "dmat3",     "dmat4",         "do",       "double",
-    "dvec2",     "dvec3",    "dvec4",     "else",       "enum",      "extern",        "external", "false",
-    "filter",    "fixed",    "flat",      "float",      "for",       "fvec2",         "fvec3",    "fvec4",
-    "goto",      "half",     "highp",     "hvec2",      "hvec3",     "hvec4",         "if",       "image1D",
-    "image2D",   "image3D",  "in",        "inline",     "inout",     "input",         "int",      "interface",
-    "invariant", "ivec2",    "ivec3",     "ivec4",      "layout",    "long",          "lowp",     "mat2",
-    "mat3",      "mat4",     "mediump",   "namespace",  "noinline",  "noperspective", "out",      "output",
-    "partition", "patch",    "precise",   "precision",  "public",    "readonly",      "resource", "restrict",
-    "return",    "sample",   "sampler1D", "sampler2D",  "sampler3D", "shared",        "short",    "sizeof",
-    "smooth",    "static",   "struct",    "subroutine", "superp",    "switch",        "template", "this",
-    "true",      "typedef",  "uint",      "uniform",    "union",     "unsigned",      "using",    "uvec2",
-    "uvec3",     "uvec4",    "varying",   "vec2",       "vec3",      "vec4",          "void",     "volatile",
-    "while",     "writeonly"};
 
 std::string quoted(const char* text) { return std::string("\"") + text + "\""; }
 
@@ -127,7 +111,7 @@ bool is_glsl_identifier(std::string_view name) {
     const bool letters = std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     });
-    return letters && std::find(std::begin(reserved_words), std::end(reserved_words), name) == std::end(reserved_words);
+    return letters && !is_glsl_word(name);
 }
 
 std::string check_params(const RestageParam* params, std::uint32_t count) {
@@ -136,9 +120,12 @@ std::string check_params(const RestageParam* params, std::uint32_t count) {
     std::set<std::string_view> ids;
     for (std::uint32_t i = 0; i < count; ++i) {
         const RestageParam& p = params[i];
+        if (p.id && is_glsl_word(p.id))
+            return "parameter " + std::to_string(i) + ": " + quoted(p.id) +
+                   " is a word of GLSL (a keyword, a type, or taken by the shaders around it): call it otherwise";
         if (!p.id || !is_glsl_identifier(p.id))
             return "parameter " + std::to_string(i) + ": " + (p.id ? quoted(p.id) : "an id that is NULL") +
-                   " is no GLSL identifier";
+                   " is no GLSL identifier: letters, digits and single underscores, no digit first, not gl_...";
         if (!ids.insert(p.id).second) return "parameter " + quoted(p.id) + " is there twice";
         if (!p.label) return "parameter " + quoted(p.id) + " has no label";
         if (const std::string problem = check_param(p); !problem.empty())

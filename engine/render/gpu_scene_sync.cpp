@@ -54,7 +54,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
 
     const auto old_types = types_;
     for (auto& t : types_) {
-        t.textured = 0;
+        t.textured.clear();
         t.bump = t.used = false;
     }
     const std::uint32_t fallback = type_index("diffuse"); // what a missing plugin's materials look like
@@ -130,9 +130,11 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         record.normal_map = m.params.texture("normalmap").value;
         type.bump |= record.bump || record.normal_map;
         const RestageMaterial1& table = *type.plugin.table;
-        for (std::uint32_t i = 0; i < table.param_count; ++i)
-            if ((table.params[i].flags & RESTAGE_PARAM_TEXTURABLE) && m.params.texture(table.params[i].id))
-                type.textured |= std::uint64_t(1) << i;
+        for (std::uint32_t i = 0; i < table.param_count; ++i) {
+            if (!(table.params[i].flags & RESTAGE_PARAM_TEXTURABLE) || !m.params.texture(table.params[i].id)) continue;
+            if (type.textured.size() <= i) type.textured.resize(i + 1);
+            type.textured[i] = true;
+        }
     });
     tables_.sweep();
     for (const auto& [id, text] : said) // once, and anew when it was mended in between

@@ -77,7 +77,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
             continue;
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
-        if (type.textured >> i & 1) // a slot nobody has textured carries no texture code
+        if (type.is_textured(i)) // a slot nobody has textured carries no texture code
             fetch += fmt::format("    if (w.at[at + {0}] != 0u) m.{1} = texture_eval(scene, w.at[at + {0}], uv).{2};\n",
                                  at + n, line.id, line.type == RESTAGE_COLOR ? "xyz" : "x");
         at += line_words(line);
@@ -138,7 +138,7 @@ plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {
         MaterialType type;
         type.type = entry.table->type;
         type.plugin = {entry.table, entry.plugin->folder, entry.source};
-        type.textured = ~std::uint64_t(0);
+        type.textured.assign(entry.table->param_count, true);
         if (type.mix() || type.null_surface()) return {};
         RESTAGE_CHECK(compiler->compile(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute)));
         return {};
@@ -148,7 +148,7 @@ plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guides, Strategy strategy,
                                               const MaterialType* type) {
     const bool bump = type && type->bump;
-    const bool textures = type && (type->textured != 0 || bump);
+    const bool textures = type && (bump || !type->textured.empty());
     const bool tangents = type && (bump || (type->plugin.table->flags & RESTAGE_MATERIAL_TANGENT));
     return {{0, f.environment},
             {1, textures},

@@ -34,9 +34,10 @@ MaterialLookup material_lookup(const plugin::Registry& registry); // `registry` 
 struct MaterialType {
     std::string type;
     MaterialPlugin plugin;
-    std::uint64_t textured = 0; // bit i: some material of the scene has a texture in table line i
+    std::vector<bool> textured; // by table line, up to the last in which some material of the scene has a texture
     bool used = false;          // by a visible instance; types are never taken away
     bool bump = false;          // some material of the type has a bump or normal map
+    bool is_textured(std::size_t line) const { return line < textured.size() && textured[line]; }
     bool mix() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_MIX); }
     bool null_surface() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_NULL); }
 };

@@ -24,9 +24,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     if (!std::filesystem::exists(self->options_.shader_dir / "path/step.glsl"))
         return fail(self->options_.shader_dir.string() +
                     ": Restage's shaders are not there; the installation is incomplete");
-    if (self->options_.cache_dir.empty()) {
-        RESTAGE_TRY(self->options_.cache_dir, cache_dir());
-    }
+    if (self->options_.cache_dir.empty())
+        if (auto cache = cache_dir()) self->options_.cache_dir = std::move(*cache); // without: the device says so
 
     const std::string& wanted = options.tracer;
     if (!wanted.empty() && wanted != "embree" && wanted != "vulkan")
@@ -43,8 +42,9 @@ Result<void> Renderer::open() {
                                               .cache_dir = options_.cache_dir,
                                               .fault = options_.fault},
                                              *log_));
+    const auto spirv_cache = options_.cache_dir.empty() ? std::filesystem::path() : options_.cache_dir / "spirv";
     compiler_ = std::make_unique<gpu::ShaderCompiler>(
-        gpu::ShaderCompilerOptions{.include_dirs = {options_.shader_dir}, .cache_dir = options_.cache_dir / "spirv"});
+        gpu::ShaderCompilerOptions{.include_dirs = {options_.shader_dir}, .cache_dir = spirv_cache});
     const auto& info = device_->info();
     const bool use_vulkan =
         wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace restage::scene {
@@ -170,7 +171,7 @@ void check_things(const Scene& scene, Findings& out) {
     scene.cameras.each([&](auto, const Camera& c) {
         check_transform(called(c), c.camera_to_world, out);
         if (!(c.fov > 0 && c.fov < 180))
-            out.error("camera", called(c) + ": a field of view of " + std::to_string(c.fov) +
+            out.error("camera", called(c) + fmt::format(": a field of view of {:f}", c.fov) +
                                     " degrees; it must be between 0 and 180");
         if (!(c.lens_radius >= 0) || !finite(c.lens_radius) || !(c.focal_distance > 0) || !(c.frame_aspect >= 0))
             out.error("camera", called(c) + ": lens radius, focal distance or aspect is out of range");

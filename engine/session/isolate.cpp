@@ -3,14 +3,17 @@
 
 #include "base/file.hpp"
 #include "base/process.hpp"
+#include "base/temporary.hpp"
 #include "scene/edit.hpp"
 #include "session/project.hpp"
 #include "session/session.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace restage::session {
@@ -24,13 +27,11 @@ namespace {
 struct Handover {
     fs::path folder;
     static Result<Handover> create() {
-        std::error_code code;
-        std::string name = (fs::temp_directory_path(code) / "restage-import-XXXXXX").string();
 #if defined(_WIN32)
         return fail("reading in a process of its own is not supported on Windows yet");
 #else
-        if (code || !mkdtemp(name.data())) return fail("no temporary folder can be made: " + name);
-        return Handover(name);
+        RESTAGE_TRY(fs::path folder, make_temporary_folder("restage-import"));
+        return Handover(std::move(folder));
 #endif
     }
     explicit Handover(fs::path f) : folder(std::move(f)) {}
@@ -67,7 +68,7 @@ Result<> import_child(const std::string& path, const std::string& out, const plu
     io::ImportOptions options;
     options.read_images = false; // they are not the importer's; who asked reads them
     options.progress = [](float done, std::string_view what) {
-        std::printf("%.4f %.*s\n", static_cast<double>(done), static_cast<int>(what.size()), what.data());
+        fmt::print("{:.4f} {}\n", done, what);
         std::fflush(stdout);
         return true;
     };
@@ -94,11 +95,11 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
     child.memory_limit = options.memory_limit;
     child.cancel = &cancel;
     child.on_out = [&](std::string_view line) {
-        char* end = nullptr;
-        const std::string text(line);
-        const float done = std::strtof(text.c_str(), &end);
-        const std::string_view what = *end == ' ' ? end + 1 : end;
-        if (progress && !progress(0.9f * done, what)) cancel = true;
+        float done = 0;
+        const char* end = std::from_chars(line.data(), line.data() + line.size(), done).ptr;
+        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+        if (line.starts_with(' ')) line.remove_prefix(1);
+        if (progress && !progress(0.9f * done, line)) cancel = true;
     };
     RESTAGE_TRY(const ProcessOutcome outcome, run_process(child));
     if (outcome.end == ProcessEnd::cancelled) return fail(path + ": stopped on request");

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace restage::session {
@@ -140,8 +141,8 @@ Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value 
         for (int i = 0; i < components && !value.texture; ++i)
             if (!(value.v[static_cast<std::size_t>(i)] >= line->min &&
                   value.v[static_cast<std::size_t>(i)] <= line->max))
-                return fail(who + ": " + std::to_string(value.v[static_cast<std::size_t>(i)]) +
-                            " is out of its range, " + std::to_string(line->min) + " to " + std::to_string(line->max));
+                return fail(fmt::format("{}: {:f} is out of its range, {:f} to {:f}", who,
+                                        value.v[static_cast<std::size_t>(i)], line->min, line->max));
     }
     return scene::set_param(scene_, id, param, std::move(value));
 }

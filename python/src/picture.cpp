@@ -7,6 +7,7 @@
 #include "render/denoise.hpp"
 #include "session/picture.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/map.h>
 #include <cmath>
 #include <cstring>
@@ -96,7 +97,7 @@ void save(const Picture& p, const std::filesystem::path& path, const std::string
                         {"restage:tracer", p.tracer},
                         {"restage:samples", std::to_string(p.film.samples)},
                         {"restage:seed", std::to_string(p.seed)},
-                        {"restage:seconds", std::to_string(p.seconds)}};
+                        {"restage:seconds", fmt::format("{:f}", p.seconds)}};
     take(session::write_picture(path.string(), out, options));
 }
 

@@ -4,6 +4,7 @@
 // z < 0 is the back side (inside, for closed things). Radiance transport: transmission carries 1/eta^2.
 #ifndef RESTAGE_LIB_BSDF
 #define RESTAGE_LIB_BSDF
+#include "lib/numbers.glsl"
 
 const float PI = 3.14159265358979323846;
 const float INV_PI = 0.31830988618379067154;

@@ -59,7 +59,7 @@ float rough_dielectric_sample(vec3 wo, vec2 alpha, float eta, int distribution, 
     float hi = dot(wi, h);
     float jacobian = reflects ? 0.25 * fresnel : -ho * hi / max(sqr(hi + ho / eta), 1e-20) * (1.0 - fresnel);
     pdf = microfacet_d(h, alpha, distribution) * jacobian / sigma_o;
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return 0.0;
     return ci * smith_visibility(wo.z, sigma_o, ci, sigma_i) * sigma_o * (reflects ? 1.0 : 1.0 / (eta * eta));
 }

@@ -2,6 +2,7 @@
 // Frame: an orthonormal basis; BSDFs live in its local coordinates (n = +z).
 #ifndef RESTAGE_LIB_FRAME
 #define RESTAGE_LIB_FRAME
+#include "lib/numbers.glsl"
 
 struct Frame {
     vec3 t, b, n;
@@ -19,7 +20,7 @@ Frame frame_from_normal(vec3 n) {
 Frame frame_from_tangent(vec3 n, vec3 t) {
     vec3 u = t - n * dot(n, t);
     float l2 = dot(u, u);
-    if (!(l2 > 1e-12 * dot(t, t)))
+    if (is_nan(l2) || l2 <= 1e-12 * dot(t, t))
         return frame_from_normal(n);
     u *= inversesqrt(l2);
     return Frame(u, cross(n, u), n);

@@ -104,7 +104,7 @@ bool layered_survives(int depth, inout vec3 beta, inout Rng rng) {
     float q = max_component(beta);
     if (depth <= 3 || q >= 0.25)
         return true;
-    if (!(rng_next(rng) < q))
+    if (is_nan(q) || rng_next(rng) >= q)
         return false;
     beta /= q;
     return true;

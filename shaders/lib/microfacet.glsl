@@ -102,7 +102,7 @@ vec3 beckmann_sample(vec3 w, vec2 alpha, vec2 u) {
     float b = upper - (1.0 + upper) * pow(1.0 - max(u.x, 1e-6), fit);
     float x = 0.0;
     for (int i = 0; i < 10; ++i) {
-        if (!(b >= lo && b <= hi))
+        if (is_nan(b) || b < lo || b > hi)
             b = 0.5 * (lo + hi);
         x = erf_inverse(clamp(b, -0.9999999, 0.9999999));
         float excess = 1.0 + b + inv_sqrt_pi * t * exp(-x * x) - target;

@@ -26,7 +26,7 @@ vec3 sample_sphere(vec2 u) {
 
 // Veach 1997, Eq. 9.13 with beta = 2, one sample each. Divides first: squares of large densities overflow.
 float power_heuristic(float a, float b) {
-    if (!(a > 0.0))
+    if (!positive(a))
         return 0.0;
     float r = b / a;
     return 1.0 / (1.0 + r * r);

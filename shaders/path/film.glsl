@@ -19,7 +19,7 @@ const float FILM_LARGEST = 1e16;
 
 // A sample that is not finite, or too large, counts as black, and false says so: nothing unnatural reaches the film.
 bool film_add(inout FilmPixel f, vec3 c) {
-    bool fits = all(lessThanEqual(abs(c), vec3(FILM_LARGEST)));
+    bool fits = finite(c) && all(lessThanEqual(abs(c), vec3(FILM_LARGEST)));
     if (!fits) c = vec3(0);
     f.sum += c;
     f.sum_sq += c * c;

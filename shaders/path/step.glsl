@@ -21,8 +21,6 @@ struct StepRay {
     uint medium; // at the origin; of shadow rays
 };
 
-bool finite(vec3 c) { return !(any(isnan(c)) || any(isinf(c))); }
-
 // From a hit to the next rays. Returns false when something was not finite: the path then ends, and carries nothing on.
 bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, uint prim, vec2 bary, float t,
                vec3 ray_direction, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
@@ -57,8 +55,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     vec3 wo = to_local(s, wo_world);
     if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) {
         vec3 seen = depth == 0u ? vec3(1) : abs(path.throughput) / (scene.filter_.weight.x * scene.filter_.weight.y);
-        guide.albedo = clamp(seen * material_albedo(m, wo), vec3(0), vec3(1));
-        guide.normal = s.ns;
+        vec3 albedo = seen * material_albedo(m, wo);
+        guide.albedo = finite(albedo) ? clamp(albedo, vec3(0), vec3(1)) : vec3(0);
+        guide.normal = finite(s.ns) ? s.ns : vec3(0);
         guide.depth = t;
         guide.instance_id = inst.object_id;
         guide.material_id = material_data.id;
@@ -95,7 +94,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                     vec3 d = light.end - shadow.origin;
                     shadow.tmax = length(d);
                     shadow.direction = d / shadow.tmax;
-                    if (!(dot(d, light.wi) > 0.0)) { // closer than floats can tell: nothing is between
+                    if (!positive(dot(d, light.wi))) { // closer than floats can tell: nothing is between
                         path.radiance += shadow_contribution;
                         shadow.tmax = -1.0;
                     }
@@ -108,12 +107,13 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe.x), rng);
     ok = ok && finite(shadow_contribution) && finite(path.radiance);
+    if (shadow.tmax > 0.0) ok = ok && finite(shadow.origin) && finite(shadow.direction);
     if (b.flags != 0u) ok = ok && finite(b.weight) && finite(b.wi) && finite(vec3(b.pdf, b.eta, 0.0));
     if (!ok) {
         shadow.tmax = -1.0;
         return false;
     }
-    if (b.flags == 0u || !(max_component(b.weight) > 0.0)) return true;
+    if (b.flags == 0u || !positive(max_component(b.weight))) return true;
     vec3 wi_world = to_world(s, b.wi);
     bool same_side = dot(wi_world, s.ng) * dot(wo_world, s.ng) > 0.0;
     if (same_side != ((b.flags & BSDF_REFLECT) != 0u)) return true;
@@ -139,6 +139,10 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
     next.origin = offset_origin(s.p, s.ng, s.offset, wi_world);
     next.direction = normalize(wi_world);
+    if (!finite(next.origin) || !finite(next.direction)) {
+        shadow.tmax = -1.0;
+        return false;
+    }
     next.tmax = 1e30;
     return true;
 }

@@ -51,7 +51,7 @@ void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Su
     vec3 a = dpdu + du * n, b = dpdv + dv * n;
     vec3 m = cross(a, b);
     float l = dot(m, m);
-    if (!(l > 0.0)) return;
+    if (!positive(l)) return;
     m *= inversesqrt(l);
     s.ns = dot(m, n) < 0.0 ? -m : m;
     set_frame(s, a);
@@ -59,7 +59,7 @@ void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Su
 
 void apply_normal_map(SceneData scene, uint texture_id, vec3 dpdu, inout Surface s) {
     vec3 m = 2.0 * texture_eval(scene, texture_id, s.uv) - 1.0;
-    if (!(dot(m, m) > 1e-6)) return;
+    if (is_nan(dot(m, m)) || dot(m, m) <= 1e-6) return;
     set_frame(s, dpdu);
     s.ns = normalize(to_world(s, normalize(m)));
     set_frame(s, dpdu);

@@ -56,10 +56,10 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
     scene.film.value.height = a.height;
     scene.film.version = ++scene.clock;
     const float exposure = scene.film.value.exposure;
-    const plugin::DenoiserEntry* denoiser = nullptr;
+    std::optional<plugin::DenoiserEntry> denoiser;
     const char* reason = "";
     for (const auto& entry : plugins.registry.denoisers())
-        if (!denoiser && entry.table->available(&reason)) denoiser = &entry;
+        if (!denoiser && entry.table->available(&reason)) denoiser = entry;
 
     using render::Strategy;
     const std::uint32_t deep = o.quick ? 16 : o.samples, most = std::max(deep / 2, 8u);

@@ -58,7 +58,7 @@ class Plugins {
         registry_.scan(path);
     }
     const RestageDenoiser1& oidn() {
-        const auto* entry = registry_.find_denoiser("oidn");
+        const auto entry = registry_.find_denoiser("oidn");
         REQUIRE(entry);
         return *entry->table;
     }

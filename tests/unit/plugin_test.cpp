@@ -76,7 +76,7 @@ TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") 
     CHECK_THAT(refused("no_tables"), ContainsSubstring("provides no restage.material/1"));
     CHECK_THAT(refused("small_table"), ContainsSubstring("its table restage.material/1 has 16 bytes"));
     CHECK_THAT(refused("bad_prefix"), ContainsSubstring("\"gl_velvet\" is no GLSL identifier"));
-    CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is no GLSL identifier"));
+    CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is a word of GLSL"));
     CHECK_THAT(refused("bad_default"), ContainsSubstring("parameter \"fuzz\": its default is out of its range"));
     CHECK_THAT(refused("bad_enum"), ContainsSubstring("parameter \"weave\": its default is not the index of a choice"));
     CHECK_THAT(refused("table_unread"), ContainsSubstring("has a table as a parameter, and nothing reads it"));

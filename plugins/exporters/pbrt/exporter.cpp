@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 namespace restage::pbrt_out {
@@ -70,12 +69,11 @@ bool Exporter::put_exact(Params& params, const Kept& k, const char* id, const fl
                          const std::string& what) {
     const auto line = k.for_values.find(id);
     if (line == k.for_values.end()) return false;
-    const char* at = line->second.c_str();
+    std::string_view at = line->second;
     bool same = true;
     for (const float x : value) {
-        char* end = nullptr;
-        same = same && static_cast<float>(std::strtod(at, &end)) == x;
-        if (end) at = end;
+        const auto kept = read_number(at);
+        same = same && kept && static_cast<float>(*kept) == x;
     }
     Params original;
     original.add_raw(at);

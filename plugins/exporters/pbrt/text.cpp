@@ -49,6 +49,16 @@ std::string unquote(std::string_view text) { // of quote()
 std::string number(float value) { return shortest(value); }
 std::string number(double value) { return shortest(value); }
 
+std::optional<double> read_number(std::string_view& text) {
+    text.remove_prefix(skip_space(text, 0));
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end == text.data()) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
 std::string quote(std::string_view text) {
     std::string out = "\"";
     for (const char c : text)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@ namespace restage::pbrt_out {
 
 std::string number(float);
 std::string number(double);
+std::optional<double> read_number(std::string_view& text); // takes it, and space before it, off the text's beginning
 std::string quote(std::string_view); // with pbrt's escapes
 std::string plain_name(std::string_view); // fit for a comment and a file: no quotes, slashes or control characters
 std::vector<std::string> lines(std::string_view text); // without empty ones

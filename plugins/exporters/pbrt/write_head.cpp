@@ -54,8 +54,13 @@ double Exporter::shutter_time() const {
     Params params;
     for (const std::string& line : lines(camera.text.verbatim))
         params.add_raw(line[0] == '"' ? line : split_directive(line).rest);
-    const double open = params.has("shutteropen") ? std::strtod(params.value("shutteropen").c_str(), nullptr) : 0;
-    const double close = params.has("shutterclose") ? std::strtod(params.value("shutterclose").c_str(), nullptr) : 1;
+    const auto number_of = [&](const char* name, double otherwise) {
+        if (!params.has(name)) return otherwise;
+        const std::string text = params.value(name);
+        std::string_view rest = text;
+        return read_number(rest).value_or(0);
+    };
+    const double open = number_of("shutteropen", 0), close = number_of("shutterclose", 1);
     return close > open ? close - open : 1;
 }
 

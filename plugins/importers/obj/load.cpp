@@ -7,8 +7,8 @@
 #include "importer.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <istream>
 #include <optional>
@@ -207,6 +207,21 @@ void Importer::run() {
     add_studio(out_, report_, Up::y);
 }
 
+// A statement of one letter, and as many numbers behind it.
+bool begins_with_numbers(std::string_view line, char letter, int count) {
+    if (line.size() < 2 || line[0] != letter || (line[1] != ' ' && line[1] != '\t')) return false;
+    line.remove_prefix(1);
+    for (; count > 0; --count) {
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        if (line.starts_with('+')) line.remove_prefix(1);
+        double number = 0;
+        const char* end = std::from_chars(line.data(), line.data() + line.size(), number).ptr;
+        if (end == line.data()) return false;
+        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+    }
+    return true;
+}
+
 int probe(const char* path, const void* head, std::size_t head_size) {
     if (has_extension(path, "obj")) return 90;
     if (!head) return 0;
@@ -215,11 +230,9 @@ int probe(const char* path, const void* head, std::size_t head_size) {
     if (text.find('\0') != text.npos) return 0;
     int vertices = 0, faces = 0;
     for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size()) + 1) {
-        double x = 0, y = 0, z = 0;
-        int index = 0;
-        const std::string line(text.substr(at, std::min(text.find('\n', at), text.size()) - at));
-        vertices += std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3;
-        faces += std::sscanf(line.c_str(), "f %d", &index) == 1 || line.starts_with("mtllib ");
+        const std::string_view line = text.substr(at, std::min(text.find('\n', at), text.size()) - at);
+        vertices += begins_with_numbers(line, 'v', 3);
+        faces += begins_with_numbers(line, 'f', 1) || line.starts_with("mtllib ");
     }
     return vertices >= 3 ? (faces ? 60 : 30) : 0;
 }

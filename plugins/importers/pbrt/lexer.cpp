@@ -23,6 +23,24 @@ std::string quoted(std::string_view text) {
 
 } // namespace
 
+namespace {
+
+// About the power of ten of a decimal number: huge or tiny is all that is asked. Saturates.
+long long power_of_ten(std::string_view text) {
+    constexpr long long most = 1'000'000'000'000;
+    const std::size_t e = std::min(text.find_first_of("eE"), text.size());
+    std::string_view mantissa = text.substr(0, e), exponent = text.substr(std::min(e + 1, text.size()));
+    if (exponent.starts_with('+')) exponent.remove_prefix(1);
+    long long power = 0;
+    if (std::from_chars(exponent.data(), exponent.data() + exponent.size(), power).ec == std::errc::result_out_of_range)
+        power = exponent.starts_with('-') ? -most : most;
+    power = std::clamp(power, -most, most);
+    const std::size_t digit = mantissa.find_first_of("123456789"), point = std::min(mantissa.find('.'), mantissa.size());
+    return power + static_cast<long long>(point) - static_cast<long long>(std::min(digit, mantissa.size()));
+}
+
+} // namespace
+
 double parse_number(std::string_view text, Location at) {
     const char* begin = text.data();
     const char* end = begin + text.size();
@@ -31,8 +49,7 @@ double parse_number(std::string_view text, Location at) {
     const auto [stop, code] = std::from_chars(begin, end, value);
     if (stop == end && begin != end && code == std::errc::result_out_of_range) {
         // from_chars says the same of 1e-400 and of 1e400; only the first is harmless.
-        const double exact = std::strtod(std::string(text).c_str(), nullptr);
-        if (std::abs(exact) < 1) return exact;
+        if (power_of_ten(text) < 0) return text.starts_with('-') ? -0.0 : 0.0;
         throw ImportError{at, "number " + quoted(text) + " is too large for a double; write a smaller one"};
     }
     if (stop != end || begin == end || code != std::errc())

@@ -74,7 +74,7 @@ BsdfSample coateddiffuse_sample(coateddiffuse_Params m, vec3 wo, vec3 u, inout R
         return BsdfSample(vec3(-wo.xy, wo.z), vec3(1), f, BSDF_REFLECT | BSDF_DELTA, 1.0);
     vec3 wi = sample_cosine_hemisphere(u.xy);
     float pdf = (1.0 - f) * cosine_hemisphere_pdf(wi.z);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     if (wo.z < 0.0)
         wi.z = -wi.z;

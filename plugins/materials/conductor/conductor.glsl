@@ -91,7 +91,7 @@ BsdfSample conductor_sample(conductor_Params m, vec3 wo, vec3 u) {
     }
     float pdf;
     vec3 f = conductor_value(m, v, wi, alpha, pdf);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, BSDF_REFLECT, 1.0);
 }

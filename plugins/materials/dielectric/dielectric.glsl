@@ -95,7 +95,7 @@ BsdfSample dielectric_sample(dielectric_Params m, vec3 wo, vec3 u) {
         }
         if (share > 0.0) {
             vec2 value = dielectric_value_pdf(m, wo, vec3(wi.xy, side * wi.z));
-            if (!(value.y > 0.0))
+            if (!positive(value.y))
                 return BSDF_NONE;
             pdf = value.y;
             weight = value.x / value.y;

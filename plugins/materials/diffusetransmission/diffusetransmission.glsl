@@ -29,7 +29,7 @@ BsdfSample diffusetransmission_sample(diffusetransmission_Params m, vec3 wo, vec
     if ((wo.z < 0.0) == reflects)
         wi.z = -wi.z;
     float pdf = diffusetransmission_pdf(m, wo, wi);
-    if (!(pdf > 0.0) || wo.z == 0.0)
+    if (!positive(pdf) || wo.z == 0.0)
         return BSDF_NONE;
     vec3 weight = diffusetransmission_eval(m, wo, wi) / pdf;
     return BsdfSample(wi, weight, pdf, reflects ? BSDF_REFLECT : BSDF_TRANSMIT, 1.0);

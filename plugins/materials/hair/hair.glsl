@@ -181,7 +181,7 @@ BsdfSample hair_sample(hair_Params m, vec3 wo, vec3 u) {
         return BSDF_NONE;
     float pdf;
     vec3 f = hair_value(st, wi, pdf);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(wi, f / pdf, pdf, wi.z > 0.0 ? BSDF_REFLECT : BSDF_TRANSMIT, 1.0);
 }

@@ -122,7 +122,7 @@ BsdfSample measured_sample(measured_Params m, vec3 wo, vec3 u) {
     if (wi.z <= 0.0 || v.z <= 0.0)
         return BSDF_NONE;
     float pdf = measured_density(m, v, wi);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     vec3 f = measured_eval(m, v, wi);
     return BsdfSample(wo.z < 0.0 ? vec3(wi.xy, -wi.z) : wi, f / pdf, pdf, BSDF_REFLECT, 1.0);

@@ -85,8 +85,9 @@ static int read_entries(const RestageTableFile1* file, const int n[3], float* ou
             }
         }
     free(values);
-    snprintf(text, sizeof text, "%d x %d x %d entries, %.3g %% of them not measured", n[0], n[1], n[2],
-             100 * missing / total);
+    const int per_mille = (int)(1000 * missing / total + 0.5); /* in two parts: %g would obey the host's locale */
+    snprintf(text, sizeof text, "%d x %d x %d entries, %d.%d %% of them not measured", n[0], n[1], n[2], per_mille / 10,
+             per_mille % 10);
     file->note(file->ctx, text);
     if (broken > 0) {
         snprintf(text, sizeof text, "%.0f values are not finite numbers (taken as not measured)", broken);

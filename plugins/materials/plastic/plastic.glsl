@@ -48,7 +48,7 @@ BsdfSample plastic_sample(plastic_Params m, vec3 wo, vec3 u) {
     if (wo.z < 0.0)
         wi.z = -wi.z;
     float pdf = plastic_pdf(m, wo, wi);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(wi, plastic_eval(m, wo, wi) / pdf, pdf, BSDF_REFLECT, 1.0);
 }

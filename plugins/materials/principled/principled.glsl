@@ -308,7 +308,7 @@ BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
             return BSDF_NONE;
         if (delta) {
             float p = coat ? s.choice.z : s.choice.y * (reflects ? share : 1.0 - share);
-            if (!(p > 0.0))
+            if (!positive(p))
                 return BSDF_NONE;
             vec3 weight = (reflects ? reflected : through / (bent * bent)) / p;
             if (!coat)
@@ -318,7 +318,7 @@ BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
     }
     float pdf;
     vec3 f = principled_value(s, v, wi, pdf);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(wi, f / pdf, pdf, wi.z > 0.0 ? BSDF_REFLECT : BSDF_TRANSMIT, bent);
 }

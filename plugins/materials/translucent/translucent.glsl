@@ -63,7 +63,7 @@ BsdfSample translucent_sample(translucent_Params m, vec3 wo, vec3 u) {
     wi.z *= side;
     vec2 glossy = translucent_glossy(m, wo, wi);
     float pdf = translucent_density(m, wo, wi, glossy.y);
-    if (!(pdf > 0.0))
+    if (!positive(pdf))
         return BSDF_NONE;
     bool reflects = same_hemisphere(wo, wi);
     // The diffuse lobes are a sheet without an inside, so eta is 1: roulette must not undo a 1/eta^2 they do not carry.

@@ -63,7 +63,7 @@ BsdfSample uber_sample(uber_Params m, vec3 wo, vec3 u) {
             return BSDF_NONE;
         wi.z *= side;
         float pdf = uber_pdf(m, wo, wi);
-        if (!(pdf > 0.0))
+        if (!positive(pdf))
             return BSDF_NONE;
         return BsdfSample(wi, uber_eval(m, wo, wi) / pdf, pdf, BSDF_REFLECT, 1.0);
     }
@@ -77,7 +77,7 @@ BsdfSample uber_sample(uber_Params m, vec3 wo, vec3 u) {
         return BsdfSample(wi, weight, p.w, BSDF_TRANSMIT | BSDF_DELTA, eta);
     }
     float through = 1.0 - dot(p, vec4(1));
-    if (!(through > 1e-6))
+    if (is_nan(through) || through <= 1e-6)
         return BSDF_NONE;
     return BsdfSample(-wo, (1.0 - o) / through, through, BSDF_TRANSMIT | BSDF_DELTA, 1.0);
 }

@@ -35,7 +35,7 @@ BsdfSample velvet_sample(velvet_Params m, vec3 wo, vec3 u) {
     float share = velvet_share(m, v.z);
     vec3 wi = u.z < share ? sheen_sample(u.xy) : sample_cosine_hemisphere(u.xy);
     float pdf = mix(cosine_hemisphere_pdf(wi.z), SHEEN_PDF, share);
-    if (v.z <= 0.0 || wi.z <= 0.0 || !(pdf > 0.0))
+    if (v.z <= 0.0 || wi.z <= 0.0 || !positive(pdf))
         return BSDF_NONE;
     vec3 f = velvet_value(m, v, wi);
     return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, BSDF_REFLECT, 1.0);

@@ -13,7 +13,7 @@ float @NAME@_pdf(@NAME@_Params m, vec3 wo, vec3 wi) {
 BsdfSample @NAME@_sample(@NAME@_Params m, vec3 wo, vec3 u) {
     vec3 wi = sample_cosine_hemisphere(u.xy);
     float pdf = cosine_hemisphere_pdf(wi.z);
-    if (!(pdf > 0.0) || wo.z == 0.0)
+    if (!positive(pdf) || wo.z == 0.0)
         return BSDF_NONE;
     if (wo.z < 0.0)
         wi.z = -wi.z; // seen from the back: both sides are alike

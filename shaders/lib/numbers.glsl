@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a float is, asked of its bits (IEEE 754). Where a device does not promise to keep NaN and infinity, its compiler
+// may take every value for a number: isnan() is then false, and !(x > 0.0) the same as x <= 0.0.
+#ifndef RESTAGE_LIB_NUMBERS
+#define RESTAGE_LIB_NUMBERS
+
+const uint EXPONENT_BITS = 0x7f800000u;
+
+bool is_nan(float x) { return (floatBitsToUint(x) & 0x7fffffffu) > EXPONENT_BITS; }
+bool finite(float x) { return (floatBitsToUint(x) & EXPONENT_BITS) != EXPONENT_BITS; }
+bool finite(vec3 c) { return finite(c.x) && finite(c.y) && finite(c.z); }
+bool positive(float x) { return floatBitsToUint(x) - 1u < EXPONENT_BITS; } // infinity is; NaN, 0 and -0 are not
+
+#endif
