@@ -3,6 +3,7 @@
 // raygen loops over the path; the closest hit reports where; the callable of the hit's material type does the path step.
 #ifndef RESTAGE_TRACE_COMMON
 #define RESTAGE_TRACE_COMMON
+#include "lib/quadric.glsl"
 #include "path/film.glsl"
 
 layout(push_constant, scalar) uniform Push { TracePush push; };
@@ -14,6 +15,7 @@ uint launch_pixel(FrameData frame) { // of the crop window, row by row
 // Cull masks: what light meets, and the borders of media, which it passes. An instance with gaps may be both.
 const uint MASK_SURFACES = 1u;
 const uint MASK_BORDERS = 2u;
+const uint MASK_SHADOWS = 4u; // what stops shadow rays: surfaces but those of INSTANCE_PASSES
 
 // Of traceRayEXT, location 0. 20 bytes.
 struct HitPayload {
@@ -23,7 +25,7 @@ struct HitPayload {
     vec2 bary;
 };
 
-// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 148 bytes.
+// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 152 bytes.
 struct StepPayload {
     PathState path;    // in, out
     uint instance;     // in
@@ -31,7 +33,8 @@ struct StepPayload {
     uint prim;         // in
     float t;           // in: the hit's distance; out: > 0 when there is a next ray
     vec2 bary;         // in
-    vec3 origin;       // out: of the next ray
+    float tmin;        // in, out: where the ray begins
+    vec3 origin;       // in, out
     vec3 direction;    // in: of the ray that hit; out: of the next one
     vec3 shadow_origin;
     vec3 shadow_direction;
@@ -42,6 +45,15 @@ struct StepPayload {
 
 // The geometric normal by the rule of path/surface.glsl, not unit.
 vec3 outward_normal(InstanceData inst, uint prim, vec2 bary) {
+    if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u) {
+        QuadricData q = quadric_of(inst);
+        float phi = bary.x * q.phi_max, theta = mix(q.theta_min, q.theta_max, bary.y);
+        vec3 around = vec3(cos(phi), sin(phi), 0.0), s = around;
+        if (q.kind == QUADRIC_DISK) s = vec3(0, 0, 1);
+        if (q.kind == QUADRIC_SPHERE) s = vec3(sin(theta) * around.xy, cos(theta));
+        s = inst.normal_to_world * s;
+        return (inst.flags & INSTANCE_FLIP_NORMAL) != 0u ? -s : s;
+    }
     uvec3 tri = Uvec3Array(inst.indices).at[prim];
     Vec3Array positions = Vec3Array(inst.positions);
     vec3 p0 = positions.at[tri.x];

@@ -16,14 +16,15 @@ void main() {
     GuideSample guide;
     PathState path = io.path;
     bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
-    bool ok = path_step(scene, inst, material, io.prim, io.bary, io.t, io.direction, path, shadow, contribution, next, guide);
+    bool ok = path_step(scene, inst, material, io.prim, io.bary, io.t,
+                        StepRay(io.origin, io.direction, io.t, io.tmin, 0u), path, shadow, contribution, next, guide);
     if (!ok) {
         path.radiance = vec3(0);
         path.throughput = vec3(0);
         next.tmax = -1.0;
         atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }
-    if (HAS_GUIDES && guided) { // here, so that albedo and normal need not travel
+    if (HAS_GUIDES && guided && !(HAS_GLOW && guide.weight < 0.0)) { // here, so that albedo and normal need not travel
         uint pixel = launch_pixel(frame);
         GuidePixel g = GuidePixelArray(frame.film_guides).at[pixel];
         if (first) guide_add(g, guide);
@@ -32,6 +33,7 @@ void main() {
     }
     io.path = path;
     io.t = next.tmax;
+    io.tmin = next.tmin;
     io.origin = next.origin;
     io.direction = next.direction;
     io.shadow_origin = shadow.origin;

@@ -18,6 +18,7 @@ void main() {
     rays.at[i].origin = origin;
     rays.at[i].direction = direction;
     rays.at[i].tfar = INFINITE;
+    rays.at[i].tnear = 0.0;
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
     PathArray(frame.paths).at[i] = path;
     if (HAS_GUIDES) GuideArray(frame.guides).at[i] = GuideSample(vec3(0), vec3(0), 0.0, 0u, 0u, path.throughput.x, 0u);

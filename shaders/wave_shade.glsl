@@ -16,8 +16,8 @@ void main() {
     vec3 contribution;
     GuideSample guide;
     bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
-    bool ok = path_step(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar, ray.direction, path, shadow,
-                        contribution, next, guide);
+    bool ok = path_step(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar,
+                        StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u), path, shadow, contribution, next, guide);
     if (!ok) {
         path.radiance = vec3(0);
         path.throughput = vec3(0);
@@ -46,6 +46,7 @@ void main() {
     }
     RayArray rays = RayArray(push.rays);
     rays.at[i].tfar = next.tmax;
+    if (HAS_GLOW) rays.at[i].tnear = next.tmin;
     if (next.tmax > 0.0) {
         rays.at[i].origin = next.origin;
         rays.at[i].direction = next.direction;

@@ -2,6 +2,7 @@
 #include "gizmo.hpp"
 
 #include "editor.hpp"
+#include "scene/projection.hpp"
 #include "session/navigation.hpp"
 
 #include <ImGuizmo.h>
@@ -81,7 +82,8 @@ void ask_drag(Editor& e, const GizmoDrag& drag, const glm::dmat4& by, const char
 
 bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     GizmoDrag& drag = e.gizmo_drag;
-    if (e.selection.empty() || e.view.gizmo == GizmoMode::select) {
+    // Handles are straight; what a spherical camera sees is not. The camera's panel says so.
+    if (e.selection.empty() || e.view.gizmo == GizmoMode::select || scene::is_spherical(e.camera())) {
         drag = {};
         return false;
     }
@@ -106,18 +108,20 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     glm::dmat4 to_world = camera.camera_to_world;
     to_world[3] -= glm::dvec4(drag.pivot, 0);
     const glm::mat4 view(glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1)) * glm::affineInverse(to_world));
-    const glm::dvec4 window = session::film_window(camera, e.film_aspect());
+    const glm::dvec4 window = scene::film_window(camera, e.film_aspect());
     const double reach = glm::length(glm::dvec3(to_world[3])) + 1e-6;
     const double near = reach * 1e-3, far = reach * 1e3;
+    const bool parallel = camera.projection == RESTAGE_ORTHOGRAPHIC;
     const glm::mat4 projection(
-        glm::frustumRH_NO(window.x * near, window.y * near, window.z * near, window.w * near, near, far));
+        parallel ? glm::orthoRH_NO(window.x, window.y, window.z, window.w, near, far)
+                 : glm::frustumRH_NO(window.x * near, window.y * near, window.z * near, window.w * near, near, far));
 
     const ImGuiIO& io = ImGui::GetIO();
     // Its own highlight is the orange of our outlines, half transparent.
     ImGuizmo::GetStyle().Colors[ImGuizmo::SELECTION] = {1.f, 0.95f, 0.35f, 1.f};
     ImGuizmo::SetDrawlist();
     ImGuizmo::SetRect(corner.x, corner.y, size.x, size.y);
-    ImGuizmo::SetOrthographic(false);
+    ImGuizmo::SetOrthographic(parallel);
     ImGuizmo::AllowAxisFlip(false);
     const float handle_size = // of the picture's half width
         std::clamp(2 * handle_pixels * ImGui::GetStyle().FontScaleMain / size.x, 0.1f, 0.6f);

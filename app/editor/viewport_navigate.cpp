@@ -78,7 +78,7 @@ void Viewport::navigate(Editor& e, bool over) {
             break;
         case Navigation::dolly:
             if (moved) {
-                session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
+                session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9), aspect);
                 set_camera(e, camera, "navigate");
             }
             break;
@@ -103,7 +103,7 @@ void Viewport::navigate(Editor& e, bool over) {
     if (over && io.MouseWheel != 0 && navigation_ == Navigation::none) {
         // Towards what is under the mouse.
         const session::ViewRay ray = session::view_ray(camera, film_point(io.MousePos), aspect);
-        double distance = glm::length(pivot(e) - ray.origin);
+        double distance = glm::length(pivot(e) - ray.origin); // along the view, where rays are parallel
         if (const InstanceId id = instance_at(e, io.MousePos); id && drawn_) {
             const glm::dvec2 p = film_point(io.MousePos);
             const auto& image = drawn_->image;
@@ -112,7 +112,7 @@ void Viewport::navigate(Editor& e, bool over) {
             if (depth > 0 && std::isfinite(depth)) distance = depth;
         }
         session::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance,
-                       1 - std::pow(0.88, double(io.MouseWheel)));
+                       1 - std::pow(0.88, double(io.MouseWheel)), aspect);
         // Turns of the wheel that follow each other are one step.
         if (ImGui::GetTime() - wheel_time_ > 0.7) e.end_gesture();
         wheel_time_ = ImGui::GetTime();

@@ -23,10 +23,18 @@ VkAccelerationStructureGeometryKHR triangles_of(const BlasInput& input) {
                                    .maxVertex = input.vertex_count > 0 ? input.vertex_count - 1 : 0,
                                    .indexType = VK_INDEX_TYPE_UINT32,
                                    .indexData = {.deviceAddress = input.indices}};
+    if (input.boxes) {
+        geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
+        geometry.geometry.aabbs = {.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR,
+                                   .data = {.deviceAddress = input.boxes},
+                                   .stride = sizeof(VkAabbPositionsKHR)};
+    }
     // A candidate is then reported once: a cut-out that counts, or a stochastic one, needs that.
     geometry.flags = input.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
     return geometry;
 }
+
+std::uint32_t count_of(const BlasInput& input) { return input.boxes ? input.box_count : input.triangle_count; }
 
 VkAccelerationStructureBuildSizesInfoKHR sizes_of(Device& device,
                                                   const VkAccelerationStructureBuildGeometryInfoKHR& info,
@@ -93,7 +101,7 @@ class AccelBuilder {
         const std::size_t count = inputs_.size();
         geometries_.reserve(count);
         for (const BlasInput& input : inputs_) {
-            assert(input.triangle_count == 0 || (input.vertices && input.indices));
+            assert(input.triangle_count == 0 || input.boxes || (input.vertices && input.indices));
             geometries_.push_back(triangles_of(input));
         }
         const VkBuildAccelerationStructureFlagsKHR compaction =
@@ -107,7 +115,7 @@ class AccelBuilder {
                               .mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR,
                               .geometryCount = 1,
                               .pGeometries = &geometries_[i]});
-            sizes_.push_back(sizes_of(device_, infos_[i], inputs_[i].triangle_count));
+            sizes_.push_back(sizes_of(device_, infos_[i], count_of(inputs_[i])));
             RESTAGE_TRY(Blas blas, create(sizes_[i].accelerationStructureSize, inputs_[i].name));
             infos_[i].dstAccelerationStructure = blas.structure_.handle();
             blases_.push_back(std::move(blas));
@@ -145,7 +153,7 @@ class AccelBuilder {
         for (std::size_t i = begin; i < end; ++i) {
             infos_[i].scratchData.deviceAddress = address;
             address += scratch_of(i);
-            ranges.push_back({.primitiveCount = inputs_[i].triangle_count});
+            ranges.push_back({.primitiveCount = count_of(inputs_[i])});
         }
         std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> range_pointers;
         for (const auto& range : ranges)

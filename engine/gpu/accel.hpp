@@ -22,6 +22,8 @@ struct BlasInput {
     std::uint32_t vertex_count = 0;
     VkDeviceAddress indices = 0; // three uint32 a triangle
     std::uint32_t triangle_count = 0;
+    VkDeviceAddress boxes = 0; // VkAabbPositionsKHR, in place of triangles: intersection shaders say what is in them
+    std::uint32_t box_count = 0;
     bool opaque = true; // false: any-hit shaders run
     std::string name;
 };

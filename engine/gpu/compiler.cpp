@@ -33,6 +33,8 @@ EShLanguage language_of(ShaderStage stage) {
             return EShLangClosestHit;
         case ShaderStage::any_hit:
             return EShLangAnyHit;
+        case ShaderStage::intersection:
+            return EShLangIntersect;
         case ShaderStage::miss:
             return EShLangMiss;
         case ShaderStage::callable:

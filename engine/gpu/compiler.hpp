@@ -15,7 +15,7 @@
 
 namespace restage::gpu {
 
-enum class ShaderStage { compute, raygen, closest_hit, any_hit, miss, callable };
+enum class ShaderStage { compute, raygen, closest_hit, any_hit, intersection, miss, callable };
 
 struct ShaderSource {
     std::string name; // how errors call the text: "shaders/wave_generate.comp", "<composed for diffuse>"

@@ -189,12 +189,14 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     for (const HitGroup& group : shaders.hit_groups) {
         RESTAGE_TRY(const std::uint32_t closest, stage_of(group.closest_hit, VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR));
         RESTAGE_TRY(const std::uint32_t any, stage_of(group.any_hit, VK_SHADER_STAGE_ANY_HIT_BIT_KHR));
+        RESTAGE_TRY(const std::uint32_t in_box, stage_of(group.intersection, VK_SHADER_STAGE_INTERSECTION_BIT_KHR));
         groups.push_back({.sType = VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR,
-                          .type = VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR,
+                          .type = group.intersection ? VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR
+                                                     : VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR,
                           .generalShader = VK_SHADER_UNUSED_KHR,
                           .closestHitShader = closest,
                           .anyHitShader = any,
-                          .intersectionShader = VK_SHADER_UNUSED_KHR});
+                          .intersectionShader = in_box});
     }
     assert(shaders.callable_constants.empty() || shaders.callable_constants.size() == shaders.callables.size());
     for (std::size_t i = 0; i < shaders.callables.size(); ++i) {

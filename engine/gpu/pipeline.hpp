@@ -60,6 +60,7 @@ class ComputePipeline : public Pipeline {
 struct HitGroup {
     const Spirv* closest_hit = nullptr;
     const Spirv* any_hit = nullptr;
+    const Spirv* intersection = nullptr; // of boxes; nullptr: of triangles
 };
 
 struct RayTracingShaders {
@@ -80,6 +81,7 @@ class RayTracingPipeline : public Pipeline {
     // Push constants are visible to all of them.
     static constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
                                                  VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
+                                                 VK_SHADER_STAGE_INTERSECTION_BIT_KHR |
                                                  VK_SHADER_STAGE_CALLABLE_BIT_KHR;
 
   private:

@@ -79,7 +79,7 @@ Result<RayTracingPipeline> create(Device& device, const RayTracingRequest& reque
     for (std::size_t i : request.callables)
         callables.push_back(at(i));
     for (const auto& group : request.hit_groups)
-        groups.push_back({at(group.closest_hit), at(group.any_hit)});
+        groups.push_back({at(group.closest_hit), at(group.any_hit), at(group.intersection)});
     return RayTracingPipeline::create(device,
                                       {.raygen = at(request.raygen),
                                        .misses = misses,

@@ -30,7 +30,7 @@ struct ComputeRequest {
 struct RayTracingRequest {
     static constexpr std::size_t none = ~std::size_t{0};
     struct Group {
-        std::size_t closest_hit = none, any_hit = none; // indices into shaders
+        std::size_t closest_hit = none, any_hit = none, intersection = none; // indices into shaders
     };
     std::vector<ShaderSource> shaders; // each is compiled once, however many groups use it
     std::size_t raygen = 0;

@@ -113,12 +113,14 @@ class Describer {
     std::string instance(const Instance& i) {
         std::string text = mesh(i.mesh) + "; " + material(i.material);
         if (i.emission)
-            text += "; emits " + shown(i.emission->radiance) + (i.emission->two_sided ? " from both sides" : "");
+            text += "; emits " + shown(i.emission->radiance) + (i.emission->two_sided ? " from both sides" : "") +
+                    (i.emission->unseen ? " unseen" : "");
         if (i.media) text += "; media " + medium(i.media->interior) + " " + medium(i.media->exterior);
         if (i.alpha_texture)
             text += "; alpha " + texture(i.alpha_texture, 0);
         else if (i.alpha != 1)
             text += "; alpha " + shown(i.alpha);
+        if (i.alpha_mask && (i.alpha_texture || i.alpha != 1)) text += " as a mask";
         if (i.reverse_orientation) text += "; reversed";
         if (i.hidden) text += "; hidden";
         if (i.group && members_[i.group.value] > 1)
@@ -293,8 +295,9 @@ class Comparison {
             return;
         }
         const auto describe = [](const Camera& c) {
-            std::string text =
-                "fov " + shown(c.fov) + ", lens " + shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
+            std::string text = "projection " + std::to_string(c.projection) +
+                               (c.projection == RESTAGE_PERSPECTIVE ? ", fov " + shown(c.fov) : "") + ", lens " +
+                               shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
             if (c.lens_radius > 0) text += ", focus " + shown(c.focal_distance);
             if (c.screen_window)
                 text += ", window " + shown(glm::vec3(*c.screen_window)) + " " + shown(c.screen_window->w);

@@ -158,8 +158,10 @@ struct SceneReader::Calls {
                 .object_to_world = {}};
         if (i->reverse_orientation) out->flags |= RESTAGE_INSTANCE_REVERSE_ORIENTATION;
         if (i->hidden) out->flags |= RESTAGE_INSTANCE_HIDDEN;
+        if (i->alpha_mask) out->flags |= RESTAGE_INSTANCE_ALPHA_MASK;
         if (i->emission) {
             out->flags |= RESTAGE_INSTANCE_EMITS;
+            if (i->emission->unseen) out->flags |= RESTAGE_INSTANCE_EMITS_UNSEEN;
             if (i->emission->two_sided) out->flags |= RESTAGE_INSTANCE_TWO_SIDED;
             copy(i->emission->radiance, out->emission);
         } else if (const auto by_material = self(ctx).shine_.of(i->material)) {
@@ -210,7 +212,8 @@ struct SceneReader::Calls {
                 .screen_window = {},
                 .lens_radius = c->lens_radius,
                 .focal_distance = c->focal_distance,
-                .frame_aspect = c->frame_aspect};
+                .frame_aspect = c->frame_aspect,
+                .projection = static_cast<std::uint32_t>(c->projection)};
         if (c->screen_window)
             for (int i = 0; i < 4; ++i)
                 out->screen_window[i] = (*c->screen_window)[i];

@@ -79,9 +79,12 @@ RestageHandle SceneWriter::Calls::instance(void* ctx, const RestageInstance* in)
                           .alpha = in->alpha,
                           .reverse_orientation = (in->flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION) != 0,
                           .hidden = (in->flags & RESTAGE_INSTANCE_HIDDEN) != 0,
-                          .origin = w.origin(in->text)};
+                          .origin = w.origin(in->text),
+                          .alpha_mask = (in->flags & RESTAGE_INSTANCE_ALPHA_MASK) != 0};
         if (in->flags & RESTAGE_INSTANCE_EMITS)
-            instance.emission = Emission{vec3(in->emission), (in->flags & RESTAGE_INSTANCE_TWO_SIDED) != 0};
+            instance.emission = Emission{.radiance = vec3(in->emission),
+                                         .two_sided = (in->flags & RESTAGE_INSTANCE_TWO_SIDED) != 0,
+                                         .unseen = (in->flags & RESTAGE_INSTANCE_EMITS_UNSEEN) != 0};
         if (in->has_medium_interface) instance.media = MediumInterface{{in->interior}, {in->exterior}};
         return w.push(std::move(instance));
     });

@@ -56,6 +56,11 @@ RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
     return guarded(ctx, "camera", [&](SceneWriter& w) -> RestageHandle {
         const float* sw = in->screen_window;
         const glm::dmat4 to_world = matrix(in->camera_to_world);
+        if (in->projection > RESTAGE_SPHERICAL_EQUAL_AREA) {
+            w.refuse("camera \"" + text(in->text.name) + "\"",
+                     "there is no projection " + std::to_string(in->projection));
+            return 0;
+        }
         if (!affine(to_world) ||
             !finite(in->fov, sw[0], sw[1], sw[2], sw[3], in->lens_radius, in->focal_distance, in->frame_aspect)) {
             w.refuse("camera \"" + text(in->text.name) + "\"",
@@ -68,7 +73,8 @@ RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
                       .lens_radius = in->lens_radius,
                       .focal_distance = in->focal_distance,
                       .frame_aspect = in->frame_aspect,
-                      .origin = w.origin(in->text)};
+                      .origin = w.origin(in->text),
+                      .projection = static_cast<RestageProjection>(in->projection)};
         if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
             camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
         const RestageHandle handle = w.push(std::move(camera));

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace restage::render {
 
@@ -45,12 +46,58 @@ void init_context(Context& c) { rtcInitRayQueryContext(&c); }
 struct QueryContext {
     Context embree; // first: Embree knows this part
     bool borders;   // asks for borders of media, not for surfaces
+    bool shadow;    // asks for what stops light
+    glm::vec3 origin, direction; // of the ray in world space: Embree moves it into that of instances
 };
 
-// Cut-outs, and mixes with a share of no surface: called for candidate hits of meshes that some instance uses so.
+// What would hit_filter say of this hit of a ray in world space?
+bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance, glm::vec2 uv) {
+    const auto flags = scene.instances()[instance].flags;
+    if ((flags & INSTANCE_HAS_ALPHA) && !scene.alpha_passes(instance, 0, uv, &query.origin.x, &query.direction.x))
+        return false;
+    if ((flags & INSTANCE_PASSES) && query.shadow) return false;
+    return !(flags & INSTANCE_HAS_GAPS) ||
+           (scene.resolve_material(instance, 0, uv) == MATERIAL_NOTHING) == query.borders;
+}
+
+// Where the ray meets the quadric of the instance that Embree is in.
+std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, unsigned instance, glm::vec2 range) {
+    const auto& scene = **static_cast<const GpuScene* const*>(user);
+    const auto& query = *static_cast<const QueryContext*>(context);
+    GpuScene::QuadricHit hits[2];
+    const int n = scene.meet_quadric(instance, query.origin, query.direction, range, hits);
+    for (int i = 0; i < n; ++i) // the far one where the near one lets rays pass
+        if (passes_filter(scene, query, instance, hits[i].uv)) return hits[i];
+    return std::nullopt;
+}
+
+// One ray at a time: nobody here traces packets.
+void box_intersect(const RTCIntersectFunctionNArguments* args) {
+    if (args->valid[0] != -1) return;
+    auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+    const unsigned instance = args->context->instID[0];
+    const auto hit = meet(args->geometryUserPtr, args->context, instance, {ray.ray.tnear, ray.ray.tfar});
+    if (!hit) return;
+    ray.ray.tfar = hit->t;
+    ray.hit.u = hit->uv.x;
+    ray.hit.v = hit->uv.y;
+    ray.hit.primID = 0;
+    ray.hit.geomID = 0;
+    ray.hit.instID[0] = instance;
+}
+void box_occluded(const RTCOccludedFunctionNArguments* args) {
+    if (args->valid[0] != -1) return;
+    auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+    if (meet(args->geometryUserPtr, args->context, args->context->instID[0], {ray.tnear, ray.tfar}))
+        ray.tfar = -std::numeric_limits<float>::infinity();
+}
+void box_bounds(const RTCBoundsFunctionArguments* args) { *args->bounds_o = {-1, -1, -1, 0, 1, 1, 1, 0}; }
+
+// Cut-outs, lamps that are no surface, and mixes with a share of none: called for candidate hits of meshes that some instance uses so.
 void hit_filter(const RTCFilterFunctionNArguments* args) {
     const auto* scene = *static_cast<const GpuScene* const*>(args->geometryUserPtr);
-    const bool borders = reinterpret_cast<const QueryContext*>(args->context)->borders;
+    const auto& query = *reinterpret_cast<const QueryContext*>(args->context);
+    const bool borders = query.borders;
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         const unsigned n = args->N;
@@ -64,6 +111,7 @@ void hit_filter(const RTCFilterFunctionNArguments* args) {
                                 RTCRayN_dir_z(args->ray, n, i)};
             if (!scene->alpha_passes(instance, prim, bary, o, d)) args->valid[i] = 0;
         }
+        if ((flags & INSTANCE_PASSES) && query.shadow) args->valid[i] = 0;
         if ((flags & INSTANCE_HAS_GAPS) &&
             (scene->resolve_material(instance, prim, bary) == MATERIAL_NOTHING) != borders)
             args->valid[i] = 0;
@@ -90,6 +138,7 @@ EmbreeScene::~EmbreeScene() {
     for (Instances* instances : {&surfaces_, &borders_})
         if (instances->scene) rtcReleaseScene(instances->scene);
     meshes_.clear();
+    box_.reset();
     if (device_) rtcReleaseDevice(device_);
 }
 
@@ -99,6 +148,11 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
         const GpuMesh* g = scene.mesh(id);
         if (!g) {
             meshes_.erase(id.value); // instances of it hold a reference until they are detached below
+            continue;
+        }
+        if (g->quadric) {
+            if (!box_) RESTAGE_CHECK(make_box());
+            meshes_.erase(id.value);
             continue;
         }
         auto mesh = std::make_unique<Mesh>();
@@ -135,6 +189,28 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
     return {};
 }
 
+// The geometry of all quadrics: a box, which instances place around each.
+Result<void> EmbreeScene::make_box() {
+    box_ = std::make_unique<Mesh>();
+    box_->owner = this;
+    box_->filtered = true; // by itself
+    box_->scene = rtcNewScene(device_);
+    rtcSetSceneFlags(box_->scene, RTC_SCENE_FLAG_ROBUST);
+    box_->geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(box_->geometry, 1);
+    rtcSetGeometryUserData(box_->geometry, static_cast<void*>(&scene_));
+    rtcSetGeometryBoundsFunction(box_->geometry, box_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(box_->geometry, box_intersect);
+    rtcSetGeometryOccludedFunction(box_->geometry, box_occluded);
+    rtcCommitGeometry(box_->geometry);
+    rtcAttachGeometryByID(box_->scene, box_->geometry, 0);
+    rtcReleaseGeometry(box_->geometry);
+    rtcCommitScene(box_->scene);
+    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+        return fail(fmt::format("Embree could not build the box of quadrics (error {})", int(error)));
+    return {};
+}
+
 void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChanges& changes,
                          bool (GpuScene::*is_wanted)(std::uint32_t) const) {
     bool changed = false;
@@ -159,15 +235,16 @@ void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChang
             top.attached[i] = wanted;
             if (!wanted) continue;
             geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-            rtcSetGeometryInstancedScene(geometry, meshes_.at(wanted)->scene);
+            rtcSetGeometryInstancedScene(geometry, (scene.is_quadric(i) ? box_ : meshes_.at(wanted))->scene);
             rtcAttachGeometryByID(top.scene, geometry, i);
             rtcReleaseGeometry(geometry);
         }
         const shared::InstanceData& data = scene.instances()[i];
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &data.object_to_world);
+        const glm::mat4x3 placement = scene.placement(i);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &placement);
         rtcCommitGeometry(geometry);
-        Mesh& mesh = *meshes_.at(wanted);
-        if ((data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS)) && !mesh.filtered) {
+        Mesh& mesh = scene.is_quadric(i) ? *box_ : *meshes_.at(wanted);
+        if ((data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES)) && !mesh.filtered) {
             mesh.filtered = true;
             rtcSetGeometryIntersectFilterFunction(mesh.geometry, hit_filter);
             rtcSetGeometryOccludedFilterFunction(mesh.geometry, hit_filter);
@@ -182,6 +259,9 @@ void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray) const {
     QueryContext context;
     init_context(context.embree);
     context.borders = &top == &borders_;
+    context.shadow = false;
+    context.origin = ray.origin;
+    context.direction = ray.direction;
 #if RESTAGE_EMBREE_MAJOR == 3
     rtcIntersect1(top.scene, &context.embree, reinterpret_cast<RTCRayHit*>(&ray));
 #else
@@ -194,17 +274,18 @@ void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray) const {
 
 void EmbreeScene::intersect(shared::RayHit& ray) const { intersect(surfaces_, ray); }
 
-EmbreeScene::Passed EmbreeScene::pass_borders(const glm::vec3& origin, const glm::vec3& direction, float t_end,
-                                              std::uint32_t medium) const {
+EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint32_t medium) const {
+    const glm::vec3& direction = stretch.direction;
     glm::vec3 depth(0); // optical
-    float t = 0;
+    float t = stretch.t_start;
     std::uint32_t step = 4; // in units of the last place: past the border just met
     alignas(16) shared::RayHit ray{};
-    ray.origin = origin;
+    ray.origin = stretch.origin;
     ray.direction = direction;
+    ray.tnear = t;
     ray.mask = ~0u;
     for (;;) {
-        ray.tfar = t_end;
+        ray.tfar = stretch.t_end;
         ray.geom = ray.inst = NONE;
         intersect(borders_, ray);
         depth += scene_->absorption(medium) * (ray.tfar - t);
@@ -220,6 +301,9 @@ void EmbreeScene::occluded(shared::ShadowRay& shadow) const {
     QueryContext context;
     init_context(context.embree);
     context.borders = false;
+    context.shadow = true;
+    context.origin = shadow.origin;
+    context.direction = shadow.direction;
 #if RESTAGE_EMBREE_MAJOR == 3
     rtcOccluded1(surfaces_.scene, &context.embree, reinterpret_cast<RTCRay*>(&shadow));
 #else

@@ -28,13 +28,17 @@ class EmbreeScene {
     void intersect(shared::RayHit& ray) const;
     void occluded(shared::ShadowRay& shadow) const;
 
-    // What is left of light on its way from `origin` over `t_end`, and the medium there: Beer-Lambert between the
+    // What is left of light on its way along a ray from t_start to t_end, and the medium there: Beer-Lambert between the
     // borders of media that the ray passes, nearest first; what a border says behind it holds (pbrt 4ed, 11.4).
     struct Passed {
         glm::vec3 transmittance;
         std::uint32_t medium;
     };
-    Passed pass_borders(const glm::vec3& origin, const glm::vec3& direction, float t_end, std::uint32_t medium) const;
+    struct Stretch {
+        glm::vec3 origin, direction;
+        float t_start = 0, t_end = 0;
+    };
+    Passed pass_borders(const Stretch&, std::uint32_t medium) const;
 
   private:
     struct Mesh;
@@ -49,7 +53,9 @@ class EmbreeScene {
     RTCDeviceTy* device_ = nullptr;
     bool copies_ = false;
     Instances surfaces_, borders_; // what light meets; borders of media, which it passes
-    std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value
+    Result<void> make_box();
+    std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value; but for quadrics
+    std::unique_ptr<Mesh> box_; // of all quadrics; null until there is one
 };
 
 } // namespace restage::render

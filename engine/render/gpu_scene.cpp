@@ -16,6 +16,7 @@ using scene::Id;
 using scene::Scene;
 
 static_assert(sizeof(shared::InstanceData) == 168);
+static_assert(sizeof(shared::QuadricData) == 40);
 static_assert(sizeof(shared::MaterialData) == 32);
 static_assert(sizeof(shared::TextureOp) == 48);
 static_assert(sizeof(shared::LightData) == 68);
@@ -52,7 +53,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     if (materials || instances) // an instance may bring in a type
         RESTAGE_CHECK(sync_materials(scene, changes));
     if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
-    if (lights || !changes.instances.empty() || (textures && features_.emission_textures))
+    if (lights || !changes.instances.empty() || (textures && (features_.emission_textures || features_.light_alpha)))
         RESTAGE_CHECK(sync_lights(scene, changes));
     RESTAGE_CHECK(sync_root(scene, changes));
     changes.shaders |= plugins;
@@ -75,6 +76,26 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     return changes;
 }
 
+namespace {
+
+shared::QuadricData quadric_data(const scene::Quadric& q) {
+    const bool sphere = q.kind == scene::Quadric::Kind::sphere;
+    return {.kind = sphere                                  ? QUADRIC_SPHERE
+                    : q.kind == scene::Quadric::Kind::disk ? QUADRIC_DISK
+                                                           : QUADRIC_CYLINDER,
+            .whole = q.whole_sphere() ? 1u : 0u,
+            .radius = float(q.radius),
+            .z_min = float(q.z_min),
+            .z_max = float(q.z_max),
+            .inner = float(q.inner),
+            .phi_max = float(q.phi_max),
+            .theta_min = sphere ? float(std::acos(q.z_min / q.radius)) : 0,
+            .theta_max = sphere ? float(std::acos(q.z_max / q.radius)) : 0,
+            .area = float(q.area())};
+}
+
+} // namespace
+
 Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
     mesh_data_.resize(scene.meshes.size() + 1);
     for (std::uint32_t i = 1; i <= scene.meshes.size(); ++i) {
@@ -88,6 +109,17 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         if (mesh_data_[i] == mesh->data && meshes_.contains(i)) continue; // a rename is no new geometry
         const scene::MeshData& data = *mesh->data;
         GpuMesh g;
+        g.version = scene.meshes.version(id);
+        if ((g.quadric = scene::quadric_of(*mesh))) {
+            const shared::QuadricData q = quadric_data(*g.quadric);
+            RESTAGE_TRY(g.buffer, device_->create_buffer(sizeof q, gpu::BufferKind::host, mesh->name.c_str()));
+            RESTAGE_CHECK(device_->upload(g.buffer, 0, std::as_bytes(std::span(&q, 1))));
+            g.positions = g.buffer.address();
+            meshes_[i] = std::move(g);
+            mesh_data_[i] = mesh->data;
+            changes.meshes.push_back(id);
+            continue;
+        }
         std::size_t at = 0;
         const auto place = [&](std::size_t bytes) {
             const std::size_t here = at;
@@ -113,7 +145,6 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         g.indices_offset = indices;
         g.vertex_count = std::uint32_t(data.positions.size());
         g.triangle_count = std::uint32_t(data.triangles.size());
-        g.version = scene.meshes.version(id);
         meshes_[i] = std::move(g);
         mesh_data_[i] = mesh->data;
         changes.meshes.push_back(id);
@@ -220,14 +251,19 @@ float hash_unit(std::initializer_list<float> values) {
 }
 } // namespace
 
-bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const float* o,
-                            const float* d) const {
-    const auto& instance = instances_[id];
+// hit_alpha of shaders/lib/texture.glsl.
+float GpuScene::alpha_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
+                         glm::vec2 bary) const {
     float alpha = instance.alpha;
     if (instance.alpha_texture)
-        alpha = evaluate_texture(textures_, cpu_images_, instance.alpha_texture,
-                                 uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary))
-                    .x;
+        alpha = evaluate_texture(textures_, cpu_images_, instance.alpha_texture, uv_at(instance, mesh, prim, bary)).x;
+    if (instance.flags & INSTANCE_ALPHA_MASK) return alpha > 0 ? 1.f : 0.f;
+    return alpha > 0 ? std::min(alpha, 1.f) : 0.f;
+}
+
+bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const float* o,
+                            const float* d) const {
+    const float alpha = alpha_at(instances_[id], *mesh_data_[mesh_of_[id].value], prim, bary);
     if (alpha >= 1) return true;
     return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2]}) < alpha; // pbrt 4ed, 7.1.1
 }
@@ -252,6 +288,12 @@ std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, g
 std::uint32_t GpuScene::medium_behind(std::uint32_t id, std::uint32_t prim, glm::vec2 b,
                                       const glm::vec3& direction) const {
     const auto& instance = instances_[id];
+    if (is_quadric(id)) {
+        const auto& q = *mesh(mesh_of_[id])->quadric;
+        const glm::vec3 n = instance.normal_to_world * glm::vec3(q.normal(q.at(b)));
+        const bool out = glm::dot(direction, n) > 0;
+        return out == !(instance.flags & INSTANCE_FLIP_NORMAL) ? instance.exterior : instance.interior;
+    }
     const auto& mesh = *mesh_data_[mesh_of_[id].value];
     const auto t = mesh.triangles[prim];
     const glm::vec3 p0 = mesh.positions[t.x];

@@ -13,6 +13,7 @@
 #include "render/table_store.hpp"
 #include "render/texture_program.hpp"
 #include "scene/emission.hpp"
+#include "scene/quadric.hpp"
 #include "scene/scene.hpp"
 
 #include <map>
@@ -27,6 +28,7 @@ struct GpuMesh {
     std::uint64_t positions = 0, normals = 0, uvs = 0, indices = 0; // addresses; 0 = has none
     std::size_t positions_offset = 0, indices_offset = 0;           // in the buffer, for Embree
     std::uint32_t vertex_count = 0, triangle_count = 0;
+    std::optional<scene::Quadric> quadric; // then there are no triangles: `positions` is a QuadricData
     scene::Version version = 0;
 };
 
@@ -60,9 +62,25 @@ class GpuScene {
     const scene::MeshData* mesh_data(scene::Id<scene::Mesh> id) const { return mesh_data_[id.value].get(); }
     // Is this instance something rays can hit?
     bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
+    // Does it stop shadow rays? So does what rays can hit, but for lamps without a surface.
+    bool opaque(std::uint32_t instance) const {
+        return traced(instance) && !(instances()[instance].flags & INSTANCE_PASSES);
+    }
     // Is it, or part of it, a border of media that rays pass?
     bool border(std::uint32_t instance) const { return border_[instance] != 0; }
     scene::Id<scene::Mesh> mesh_of(std::uint32_t instance) const { return mesh_of_[instance]; }
+    bool is_quadric(std::uint32_t instance) const { return instances()[instance].flags & INSTANCE_QUADRIC; }
+    // Where its geometry stands: that of the mesh, or for a quadric the box [-1, 1]^3, around it with some room.
+    glm::mat4x3 placement(std::uint32_t instance) const;
+
+    // Where a ray meets a quadric, in double precision, with the matrices that shaders have: hits within (t_min, t_max)
+    // and their (u, v), nearest first. Returns how many.
+    struct QuadricHit {
+        float t = 0;
+        glm::vec2 uv{0};
+    };
+    int meet_quadric(std::uint32_t instance, const glm::vec3& origin, const glm::vec3& direction, glm::vec2 range,
+                     QuadricHit (&hits)[2]) const;
 
     // What the CPU resolves at a hit (thread-safe).
     bool alpha_passes(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const float* org,
@@ -96,6 +114,8 @@ class GpuScene {
     // What an instance shines by: its own emission, else its material's.
     std::optional<scene::MaterialEmission> emission_of(const scene::Scene&, const scene::Instance&) const;
     double mean_emission(std::uint32_t instance, std::uint32_t triangle, int points) const; // luminance
+    float alpha_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
+    std::optional<Emitter> emitter_of(const scene::Scene&, scene::Id<scene::Instance>) const;
     shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
     glm::vec2 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
 
@@ -140,6 +160,7 @@ class GpuScene {
     double radius_ = 1; // of what is visible
     glm::vec2 filter_weight_{1};
     std::uint32_t filter_entries_ = 0;
+    bool light_alpha_ = false, glow_ = false, quadrics_ = false; // of SceneFeatures
 
     struct Versions {
         scene::Version meshes = 0, images = 0, textures = 0, materials = 0, instances = 0, lights = 0, media = 0,

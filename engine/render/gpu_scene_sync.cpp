@@ -2,6 +2,7 @@
 // GpuScene's derivation of materials, instances, lights and the root record.
 #include "render/filter_table.hpp"
 #include "render/gpu_scene.hpp"
+#include "scene/projection.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,6 +14,10 @@ namespace restage::render {
 
 using scene::Id;
 using scene::Scene;
+
+static_assert(CAMERA_ORTHOGRAPHIC == std::uint32_t(RESTAGE_ORTHOGRAPHIC) &&
+              CAMERA_SPHERICAL == std::uint32_t(RESTAGE_SPHERICAL) &&
+              CAMERA_EQUAL_AREA == std::uint32_t(RESTAGE_SPHERICAL_EQUAL_AREA));
 
 std::uint32_t GpuScene::type_index(const std::string& type) {
     for (std::uint32_t i = 0; i < types_.size(); ++i)
@@ -168,17 +173,21 @@ std::optional<scene::MaterialEmission> GpuScene::emission_of(const Scene& scene,
     return scene.materials.find(in.material) ? emission_[in.material.value] : std::nullopt;
 }
 
-// At points that are spread over the triangle: a lattice of Kronecker's by the plastic number (Roberts 2018).
+// At points that are spread over the triangle: a lattice of Kronecker's by the plastic number (Roberts 2018). What alpha
+// takes away does not shine.
 double GpuScene::mean_emission(std::uint32_t id, std::uint32_t triangle, int points) const {
     const auto& instance = instances_[id];
     const auto& mesh = *mesh_data_[mesh_of_[id].value];
     double sum = 0;
     for (int i = 0; i < points; ++i) {
         glm::vec2 b = glm::fract(glm::vec2(0.5) + float(i) * glm::vec2(0.7548777f, 0.5698403f));
-        if (b.x + b.y > 1) b = 1.f - b;
-        const glm::vec3 texture =
-            evaluate_texture(textures_, cpu_images_, instance.emission_texture, uv_at(instance, mesh, triangle, b));
-        const glm::vec3 c = instance.emission * glm::max(texture, glm::vec3(0));
+        if (!(instance.flags & INSTANCE_QUADRIC) && b.x + b.y > 1) b = 1.f - b;
+        glm::vec3 c = instance.emission;
+        if (instance.emission_texture)
+            c *= glm::max(glm::vec3(0), evaluate_texture(textures_, cpu_images_, instance.emission_texture,
+                                                         uv_at(instance, mesh, triangle, b)));
+        if ((instance.flags & INSTANCE_HAS_ALPHA) && !(instance.flags & INSTANCE_EMITS_UNSEEN))
+            c *= alpha_at(instance, mesh, triangle, b);
         sum += 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
     }
     return sum / points;
@@ -198,7 +207,12 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     out.alpha_texture = scene.textures.find(in.alpha_texture) ? in.alpha_texture.value : 0;
     out.alpha = in.alpha;
     if (in.reverse_orientation) out.flags |= INSTANCE_FLIP_NORMAL;
-    if (out.alpha_texture || in.alpha < 1) out.flags |= INSTANCE_HAS_ALPHA;
+    if (out.alpha_texture || !(in.alpha >= 1)) out.flags |= INSTANCE_HAS_ALPHA;
+    if (in.alpha_mask) {
+        out.flags |= INSTANCE_ALPHA_MASK;
+        if (!out.alpha_texture && in.alpha > 0) out.flags &= ~INSTANCE_HAS_ALPHA;
+    }
+    if (in.emission && in.emission->unseen) out.flags |= INSTANCE_EMITS_UNSEEN;
     if (const auto emission = emission_of(scene, in)) {
         out.flags |= INSTANCE_EMITS | (emission->two_sided ? INSTANCE_TWO_SIDED : 0);
         out.emission = emission->radiance;
@@ -210,6 +224,7 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
         out.exterior = in.media->exterior.value;
     }
     if (const GpuMesh* g = mesh(in.mesh)) {
+        if (g->quadric) out.flags |= INSTANCE_QUADRIC;
         out.positions = g->positions;
         out.normals = g->normals;
         out.uvs = g->uvs;
@@ -228,6 +243,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         border_.resize(n, 0);
         mesh_of_.resize(n);
     }
+    quadrics_ = false;
     std::vector<char> replaced(scene.meshes.size() + 1);
     for (auto id : changes.meshes)
         replaced[id.value] = 1;
@@ -235,12 +251,14 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         const Id<scene::Instance> id{i};
         const auto* in = scene.instances.find(id);
         const auto* material = in ? scene.materials.find(in->material) : nullptr;
-        // `interface`: rays pass, and it does not shine, as in pbrt; what it may be is a border of media
+        // `interface`: rays pass; what it may be is a border of media, or a lamp (pbrt-v3's; pbrt-v4 has none)
         const std::uint32_t m = material ? in->material.value : 0;
         const bool nothing = types_[materials_[m].type].null_surface(), gaps = has_gaps_[m] != 0;
         const bool there = in && !in->hidden && mesh(in->mesh);
-        const bool traced = there && !nothing;
-        const bool border = there && (gaps || !traced) && in->media && in->media->interior != in->media->exterior;
+        quadrics_ |= there && mesh(in->mesh)->quadric;
+        const bool invisible = in && !scene.textures.find(in->alpha_texture) && !(in->alpha > 0);
+        const bool traced = there && !invisible && (!nothing || in->emission);
+        const bool border = there && (gaps || nothing) && in->media && in->media->interior != in->media->exterior;
         const bool moved_in_or_out =
             i >= old || traced != (traced_[i] != 0) || border != (border_[i] != 0) || (in && replaced[in->mesh.value]);
         if (!moved_in_or_out && scene.instances.version(id) <= seen_.instances &&
@@ -248,6 +266,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
             gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
             continue; // the usual case, cheaply
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
+        if (traced && nothing) record.flags |= INSTANCE_PASSES;
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; another zero is uploaded, no harm
@@ -260,6 +279,27 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         changes.instances.push_back(id);
     }
     return instances_.flush(*device_);
+}
+
+// What cannot be hit (alpha 0) may shine all the same.
+std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instance> id) const {
+    const auto* in = scene.instances.find(id);
+    const auto& instance = instances_[id.value];
+    const auto flags = instance.flags;
+    if (!in || in->hidden || !mesh(in->mesh)) return std::nullopt;
+    if (!(flags & INSTANCE_EMITS) || (flags & INSTANCE_HAS_GAPS)) return std::nullopt;
+    const bool alpha = (flags & INSTANCE_HAS_ALPHA) != 0, unseen = (flags & INSTANCE_EMITS_UNSEEN) != 0;
+    if (alpha && !unseen && !instance.alpha_texture && !(instance.alpha > 0)) return std::nullopt;
+    Emitter out{.radiance = instance.emission,
+                .two_sided = (flags & INSTANCE_TWO_SIDED) != 0,
+                .varies = instance.emission_texture || alpha,
+                .mean = {}};
+    if (instance.emission_texture || (alpha && !unseen)) { // 16,384 lookups at most, unless there are more triangles
+        const auto triangles = is_quadric(id.value) ? 64 : mesh_data_[mesh_of_[id.value].value]->triangles.size();
+        const int points = int(std::clamp<std::size_t>(16384 / triangles, 1, 32));
+        out.mean = [this, id, points](std::uint32_t t) { return mean_emission(id.value, t, points); };
+    }
+    return out;
 }
 
 Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
@@ -291,16 +331,12 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
     });
     radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
 
-    const auto emitter = [&](Id<scene::Instance> id) -> std::optional<Emitter> {
-        const auto& instance = instances_[id.value];
-        const bool whole = !(instance.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS));
-        if (!traced_[id.value] || !whole || !(instance.flags & INSTANCE_EMITS)) return std::nullopt;
-        Emitter out{.radiance = instance.emission, .two_sided = (instance.flags & INSTANCE_TWO_SIDED) != 0, .mean = {}};
-        if (instance.emission_texture) { // 16,384 lookups at most, unless there are more triangles
-            const auto triangles = mesh_data_[mesh_of_[id.value].value]->triangles.size();
-            const int points = int(std::clamp<std::size_t>(16384 / triangles, 1, 32));
-            out.mean = [this, id, points](std::uint32_t t) { return mean_emission(id.value, t, points); };
-        }
+    light_alpha_ = glow_ = false;
+    for (std::uint32_t i = 1; i < instances_.size(); ++i)
+        glow_ |= traced_[i] && (instances_[i].flags & INSTANCE_PASSES);
+    const auto emitter = [&](Id<scene::Instance> id) {
+        auto out = emitter_of(scene, id);
+        light_alpha_ |= out && (instances_[id.value].flags & INSTANCE_HAS_ALPHA);
         return out;
     };
     light_table_ =
@@ -320,7 +356,6 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
 
 namespace {
 
-// pbrt 4ed, 5.2: the screen window at z = 1, `fov` on the shorter side.
 void set_camera(const Scene& scene, const glm::dvec3& origin, shared::CameraData& out) {
     const scene::Film& film = scene.film.value;
     out.width = film.width;
@@ -330,10 +365,7 @@ void set_camera(const Scene& scene, const glm::dvec3& origin, shared::CameraData
     glm::dmat4 m = camera.camera_to_world;
     m[3] -= glm::dvec4(origin, 0);
     out.camera_to_world = glm::mat4x3(m);
-    const double aspect = camera.frame_aspect > 0 ? camera.frame_aspect : double(film.width) / film.height;
-    glm::dvec4 window = aspect > 1 ? glm::dvec4(-aspect, aspect, -1, 1) : glm::dvec4(-1, 1, -1 / aspect, 1 / aspect);
-    if (camera.screen_window) window = *camera.screen_window;
-    window *= std::tan(glm::radians(double(camera.fov)) / 2);
+    const glm::dvec4 window = scene::film_window(camera, double(film.width) / film.height);
     out.screen_min = {window.x, window.w};
     out.screen_max = {window.y, window.z};
     out.lens_radius = camera.lens_radius;
@@ -406,10 +438,15 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
 
     SceneFeatures f;
     f.environment = d.environment.light != NONE;
-    f.lens = d.camera.lens_radius > 0;
+    f.lens = d.camera.lens_radius > 0; // spherical cameras have none
     f.media = scene.media.live() > 0;
     f.filter_table = d.filter_.kind == FILTER_TABLE;
     f.emission_textures = std::ranges::any_of(emission_, [](const auto& e) { return e && e->texture; });
+    f.light_alpha = light_alpha_;
+    f.glow = glow_;
+    f.quadrics = quadrics_;
+    const auto* camera = scene.cameras.find(scene.active_camera.value);
+    f.camera = camera ? std::uint32_t(camera->projection) : CAMERA_PERSPECTIVE;
     f.borders = std::ranges::find(border_, 1) != border_.end();
     changes.shaders |= f != features_ || first_;
     features_ = f;

@@ -2,6 +2,7 @@
 #include "render/light_table.hpp"
 
 #include "render/alias_table.hpp"
+#include "scene/quadric.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -60,6 +61,46 @@ Rounding light_rounding(const glm::dmat4& object_to_render, const scene::MeshDat
         std::max({spread.x, spread.y, spread.z, 1.0})};
 }
 
+LightData quadric_light(const scene::Quadric& q, const glm::dmat4& place, const Emitter& emits) {
+    // Bounds as of triangles, but along whatever normal, and with the quadric's own: the point that was sampled, and
+    // what solving for it loses, are each some ulps of its size.
+    constexpr double eps = 0x1p-24;
+    const glm::dmat3 m(place);
+    glm::dmat3 scale(0), inverse(0);
+    const glm::dmat3 back = glm::inverse(m);
+    for (int i = 0; i < 3; ++i) {
+        scale[i] = glm::abs(m[i]);
+        inverse[i] = glm::abs(back[i]);
+    }
+    const glm::dvec3 ones(1), corner(q.radius, q.radius, std::max(std::abs(q.z_min), std::abs(q.z_max)));
+    const glm::dvec3 spread = ones * scale * inverse, move = glm::abs(glm::dvec3(place[3]));
+    const double size = glm::length(scale * corner);
+    const double offset = eps * (3 * glm::length(move) + 20 * size + 6 * glm::dot(spread, move));
+    const double condition = 1.5 * std::max({spread.x, spread.y, spread.z, 1.0});
+    LightData light{};
+    const double sixteenths = std::isfinite(condition) ? std::min(condition * 16, 65535.0) : 16.0;
+    light.kind = LIGHT_QUADRIC | (emits.two_sided ? LIGHT_TWO_SIDED : 0) | std::uint32_t(std::ceil(sixteenths)) << 16;
+    light.offset = std::isfinite(offset) ? float(offset) : 0.f;
+    light.area = float(q.area());
+    light.value = emits.radiance;
+    return light;
+}
+
+// Of an affine image: areas grow by |det m| |m^-T n|. Over a lattice: it only chooses among lights.
+double world_area(const scene::Quadric& q, const glm::dmat3& m) {
+    const glm::dmat3 normals = glm::transpose(glm::inverse(m));
+    double sum = 0, weights = 0;
+    for (int i = 0; i < 16; ++i)
+        for (int j = 0; j < 16; ++j) {
+            const glm::dvec3 p = q.at({(i + 0.5) / 16, (j + 0.5) / 16});
+            const double weight = q.kind == scene::Quadric::Kind::cylinder ? 1 : std::hypot(p.x, p.y);
+            sum += weight * glm::length(normals * q.normal(p));
+            weights += weight;
+        }
+    const double area = q.area() * std::abs(glm::determinant(m)) * sum / weights;
+    return std::isfinite(area) ? area : 0;
+}
+
 } // namespace
 
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
@@ -72,6 +113,16 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         const auto emits = emitter(id);
         if (!emits || luminance(emits->radiance) <= 0) return;
         const auto& mesh = *scene.meshes[instance.mesh].data;
+        if (const auto quadric = scene::quadric_of(scene.meshes[instance.mesh])) {
+            table.light_base[id.value] = std::uint32_t(table.lights.size());
+            glm::dmat4 place = instance.object_to_world;
+            place[3] -= glm::dvec4(origin, 0);
+            table.lights.push_back(quadric_light(*quadric, place, *emits));
+            table.lights.back().instance = id.value;
+            const double mean = emits->mean ? emits->mean(0) : luminance(emits->radiance);
+            power.push_back(pi * mean * (emits->two_sided ? 2 : 1) * world_area(*quadric, glm::dmat3(place)));
+            return;
+        }
         table.light_base[id.value] = std::uint32_t(table.lights.size());
         const double exitance = pi * luminance(emits->radiance) * (emits->two_sided ? 2 : 1);
         glm::dmat4 place = instance.object_to_world;
@@ -96,7 +147,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
             light.c = c;
             light.area = float(area);
             light.value = emits->radiance;
-            light.instance = emits->mean ? id.value : NONE;
+            light.instance = emits->varies ? id.value : NONE;
             table.lights.push_back(light);
             const double mean = emits->mean ? emits->mean(k) / luminance(emits->radiance) : 1;
             power.push_back(std::isfinite(area * mean) ? exitance * mean * area : 0);

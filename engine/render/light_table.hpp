@@ -23,16 +23,16 @@ struct LightTable {
 struct Emitter {
     glm::vec3 radiance{0}; // [W/(m^2 sr)]
     bool two_sided = false;
-    // Of a texture that multiplies the radiance: the mean of the product's luminance over a triangle, approximate: it
-    // only chooses among lights. null: there is none
+    bool varies = false; // by a texture of emission or by alpha: looked up at the point that is sampled
+    // The mean luminance over a triangle, of what is not the same everywhere; approximate: it only chooses among
+    // lights. null: that of `radiance`
     std::function<double(std::uint32_t triangle)> mean;
 };
 
 // environment_mean: mean radiance of the environment over the sphere, scale applied (0 = none).
 // radius: of the scene's bounds, for what shines from infinitely far.
-// emitter: asked of each instance once; nullopt = it is no entry. So are those of whose surface parts are missing
-// (cut-outs, mixes with a share of nothing): paths find them by BSDF sampling alone, since a point chosen on them may
-// be a hole.
+// emitter: asked of each instance once; nullopt = it is no entry. So are mixes with a share of nothing: paths find them
+// by BSDF sampling alone.
 LightTable make_light_table(const scene::Scene&, const glm::dvec3& origin, const glm::vec3& environment_mean,
                             double radius,
                             const std::function<std::optional<Emitter>(scene::Id<scene::Instance>)>& emitter);

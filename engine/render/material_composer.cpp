@@ -160,7 +160,11 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
             {7, tangents},
             {8, f.filter_table},
             {10, f.borders},
-            {11, f.emission_textures}};
+            {11, f.emission_textures},
+            {12, f.light_alpha},
+            {13, f.glow},
+            {14, f.camera},
+            {15, f.quadrics}};
 }
 
 } // namespace restage::render

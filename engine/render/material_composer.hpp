@@ -19,6 +19,10 @@ struct SceneFeatures {
     bool filter_table = false;
     bool borders = false; // of media, at surfaces that rays pass
     bool emission_textures = false;
+    bool light_alpha = false; // some lamp has alpha below 1
+    bool glow = false;        // some lamp is no surface
+    bool quadrics = false;    // spheres, disks, cylinders
+    std::uint32_t camera = 0; // CAMERA_*
     bool operator==(const SceneFeatures&) const = default;
 };
 enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };

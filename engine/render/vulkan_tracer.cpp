@@ -23,8 +23,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr double submit_seconds = 0.02; // aimed at; the window stays alive
 constexpr std::uint32_t least_side = 8; // of a rectangle, in pixels: coherent rays
 
-constexpr std::uint32_t group_opaque = 0, group_cut_out = 1;
-constexpr unsigned mask_surfaces = 1, mask_borders = 2; // of shaders/trace_common.glsl
+constexpr std::uint32_t group_opaque = 0, group_cut_out = 1, group_quadrics = 2; // then the same two of quadrics
+constexpr unsigned mask_surfaces = 1, mask_borders = 2, mask_shadows = 4; // of shaders/trace_common.glsl
 
 // Callables of a pipeline for so many types: room for more that come to the scene while it still renders.
 std::size_t callable_slots(std::size_t types) { return (types / 32 + 1) * 32; }
@@ -124,6 +124,11 @@ class VulkanTracer final : public Tracer {
         for (const auto id : changes.meshes) {
             const GpuMesh* mesh = scene.mesh(id);
             if (!mesh) continue;
+            if (mesh->quadric) {
+                blas_.erase(id.value);
+                if (!box_) RESTAGE_CHECK(build_box());
+                continue;
+            }
             inputs.push_back({.vertices = mesh->positions,
                               .vertex_count = mesh->vertex_count,
                               .indices = mesh->indices,
@@ -137,18 +142,33 @@ class VulkanTracer final : public Tracer {
         return {};
     }
 
+    // The geometry of all quadrics: a box, which instances place around each.
+    Result<void> build_box() {
+        const VkAabbPositionsKHR unit{-1, -1, -1, 1, 1, 1};
+        RESTAGE_TRY(gpu::Buffer buffer,
+                    c_.device.create_buffer(sizeof unit, gpu::BufferKind::host, "box of quadrics"));
+        RESTAGE_CHECK(c_.device.upload(buffer, 0, std::as_bytes(std::span(&unit, 1))));
+        const gpu::BlasInput input{.boxes = buffer.address(), .box_count = 1, .name = "box of quadrics"};
+        RESTAGE_TRY(auto built, gpu::build_blas(c_.device, std::span(&input, 1)));
+        box_ = std::move(built[0]);
+        return {};
+    }
+
     gpu::TlasInstance tlas_instance(const GpuScene& scene, std::uint32_t i) const {
         gpu::TlasInstance out;
         if (!scene.traced(i) && !scene.border(i)) return out; // nothing is there
         const shared::InstanceData& data = scene.instances()[i];
+        const glm::mat4x3 placement = scene.placement(i);
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column)
-                out.transform[std::size_t(row * 4 + column)] = data.object_to_world[column][row];
-        out.blas = blas_.at(scene.mesh_of(i).value).address();
+                out.transform[std::size_t(row * 4 + column)] = placement[column][row];
+        const bool quadric = scene.is_quadric(i);
+        out.blas = quadric ? box_.address() : blas_.at(scene.mesh_of(i).value).address();
         out.custom_index = i;
-        out.mask = std::uint8_t((scene.traced(i) ? mask_surfaces : 0) | (scene.border(i) ? mask_borders : 0));
+        out.mask = std::uint8_t((scene.traced(i) ? mask_surfaces : 0) | (scene.border(i) ? mask_borders : 0) |
+                                (scene.opaque(i) ? mask_shadows : 0));
         const bool cut_out = data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS);
-        out.hit_group = cut_out ? group_cut_out : group_opaque;
+        out.hit_group = (cut_out ? group_cut_out : group_opaque) + (quadric ? group_quadrics : 0);
         out.force_any_hit = cut_out;
         return out;
     }
@@ -159,10 +179,15 @@ class VulkanTracer final : public Tracer {
                                  .hit_groups = {{2, gpu::RayTracingRequest::none}, {2, 3}},
                                  .push_constant_bytes = sizeof(shared::TracePush),
                                  .name = "path tracer"};
-        const std::pair<const char*, gpu::ShaderStage> files[] = {{"trace.rgen", gpu::ShaderStage::raygen},
+        std::vector<std::pair<const char*, gpu::ShaderStage>> files = {{"trace.rgen", gpu::ShaderStage::raygen},
                                                                   {"trace.rmiss", gpu::ShaderStage::miss},
                                                                   {"trace.rchit", gpu::ShaderStage::closest_hit},
                                                                   {"trace.rahit", gpu::ShaderStage::any_hit}};
+        if (scene.features().quadrics) {
+            r.hit_groups.push_back({2, gpu::RayTracingRequest::none, 4});
+            r.hit_groups.push_back({2, 3, 4});
+            files.emplace_back("trace.rint", gpu::ShaderStage::intersection);
+        }
         for (const auto& [name, stage] : files) {
             const auto path = c_.shader_dir / name;
             RESTAGE_TRY(auto text, read_file(path));
@@ -294,6 +319,7 @@ class VulkanTracer final : public Tracer {
 
     TracerContext c_;
     std::map<std::uint32_t, gpu::Blas> blas_; // by Id<Mesh>::value
+    gpu::Blas box_;
     gpu::Tlas tlas_; // index = InstanceData index
     PipelineStore<gpu::RayTracingPipeline> store_;
     std::shared_ptr<const gpu::RayTracingPipeline> pipeline_;

@@ -94,6 +94,7 @@ struct Group {
 struct Emission {
     glm::vec3 radiance{0}; // [W/(m^2 sr)]
     bool two_sided = false;
+    bool unseen = false; // shines also where alpha lets rays pass: lights, and is not seen there
     bool operator==(const Emission&) const = default;
 };
 
@@ -115,6 +116,7 @@ struct Instance {
     bool reverse_orientation = false;
     bool hidden = false;
     Origin origin;
+    bool alpha_mask = false; // alpha above 0 stops every ray; else it is the share that is stopped
     bool operator==(const Instance&) const = default;
 };
 
@@ -147,6 +149,7 @@ struct Camera {
     float lens_radius = 0, focal_distance = 1; // 0 = pinhole
     float frame_aspect = 0; // 0 = width/height
     Origin origin;
+    RestageProjection projection = RESTAGE_PERSPECTIVE;
     bool operator==(const Camera&) const = default;
 };
 

@@ -170,7 +170,7 @@ void check_things(const Scene& scene, Findings& out) {
     });
     scene.cameras.each([&](auto, const Camera& c) {
         check_transform(called(c), c.camera_to_world, out);
-        if (!(c.fov > 0 && c.fov < 180))
+        if (c.projection == RESTAGE_PERSPECTIVE && !(c.fov > 0 && c.fov < 180))
             out.error("camera", called(c) + fmt::format(": a field of view of {:f}", c.fov) +
                                     " degrees; it must be between 0 and 180");
         if (!(c.lens_radius >= 0) || !finite(c.lens_radius) || !(c.focal_distance > 0) || !(c.frame_aspect >= 0))

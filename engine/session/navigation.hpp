@@ -23,21 +23,21 @@ void translate_local(scene::Camera&, const glm::dvec3& by);
 // Moves so that what is under `pixel` at `distance` along the view follows a drag of `delta` (in units of the film's
 // height; +y down).
 void pan(scene::Camera&, glm::dvec2 delta, double distance, double aspect);
-// Moves towards the world point by this part of the distance (negative = away).
-void dolly(scene::Camera&, const glm::dvec3& towards, double part);
-// Steps back along the view until the sphere around the bounds fits; keeps the direction.
+// Moves towards the world point by this part of the distance (negative = away). An orthographic camera moves across the
+// view only, and its window shrinks by that part: the point stays where it is on the film.
+void dolly(scene::Camera&, const glm::dvec3& towards, double part, double aspect);
+// Steps back along the view until the sphere around the bounds fits; keeps the direction. An orthographic camera's
+// window is fitted; a spherical one goes to the middle.
 void frame(scene::Camera&, const scene::Bounds&, double aspect);
 
 // The pinhole ray through a point of the film: (0,0) top left, (1,1) bottom right. `direction` has z = 1 in camera
-// space, so a camera-space depth times it is a displacement.
+// space, so a camera-space depth times it is a displacement; of spherical cameras it has length 1 there.
 struct ViewRay {
     glm::dvec3 origin, direction;
 };
 ViewRay view_ray(const scene::Camera&, glm::dvec2 film, double aspect);
-// Where a world point falls on the film, and its camera-space depth in z (behind the camera: <= 0).
+// Where a world point falls on the film, and its camera-space depth in z (behind the camera: <= 0); its distance for a
+// spherical camera, which sees what is behind it, too.
 glm::dvec3 project(const scene::Camera&, const glm::dvec3& world, double aspect);
-
-// The window of the film at camera-space z = 1: x0 x1 y0 y1, y up. pbrt 4ed, 5.2.2: fov is of the shorter side.
-glm::dvec4 film_window(const scene::Camera&, double aspect);
 
 } // namespace restage::session

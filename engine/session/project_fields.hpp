@@ -63,6 +63,7 @@ template <class V>
 void fields(V& v, scene::Emission& e) {
     v("radiance", e.radiance);
     v("two_sided", e.two_sided);
+    v("unseen", e.unseen);
 }
 template <class V>
 void fields(V& v, scene::MediumInterface& m) {
@@ -82,6 +83,7 @@ void fields(V& v, scene::Instance& i) {
     v("alpha", i.alpha);
     v("reverse_orientation", i.reverse_orientation);
     v("hidden", i.hidden);
+    v("alpha_mask", i.alpha_mask);
     v("origin", i.origin);
 }
 template <class V>
@@ -113,6 +115,7 @@ void fields(V& v, scene::Camera& c) {
     v("lens_radius", c.lens_radius);
     v("focal_distance", c.focal_distance);
     v("frame_aspect", c.frame_aspect);
+    v("projection", c.projection);
     v("origin", c.origin);
 }
 template <class V>
@@ -178,6 +181,11 @@ template <>
 struct Names<RestageMapping> {
     static constexpr const char* list[] = {"equirect", "octahedral"};
     static constexpr int first = RESTAGE_EQUIRECT;
+};
+template <>
+struct Names<RestageProjection> {
+    static constexpr const char* list[] = {"perspective", "orthographic", "spherical", "spherical_equal_area"};
+    static constexpr int first = RESTAGE_PERSPECTIVE;
 };
 template <>
 struct Names<scene::FilterKind> {

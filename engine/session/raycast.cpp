@@ -2,6 +2,7 @@
 #include "session/raycast.hpp"
 
 #include "scene/bounds.hpp"
+#include "scene/quadric_hit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,18 @@ std::vector<RayHit> raycast_all(const scene::Scene& scene, const glm::dvec3& ori
         const glm::dvec3 slack(1e-6 * glm::length(upper - lower));
         if (!hits_box(lower - slack, upper + slack, o, d)) return;
         double nearest = std::numeric_limits<double>::infinity();
+        if (const auto quadric = scene::quadric_of(*mesh)) { // its triangles only stand for it
+            double t[2];
+            const int n = scene::meet(*quadric, o, d, t);
+            for (int i = n; i-- > 0;)
+                if (t[i] > 0) nearest = t[i];
+            if (!std::isfinite(nearest)) return;
+            glm::dvec3 normal = glm::normalize(glm::inverseTranspose(glm::dmat3(instance.object_to_world)) *
+                                               quadric->normal(o + nearest * d));
+            if (glm::dot(normal, direction) > 0) normal = -normal;
+            hits.push_back({id, nearest, origin + nearest * direction, normal});
+            return;
+        }
         glm::uvec3 which(0);
         for (const glm::uvec3& t : data.triangles) {
             const double hit = hit_triangle(data.positions[t.x], data.positions[t.y], data.positions[t.z], o, d);

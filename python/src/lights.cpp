@@ -92,6 +92,18 @@ void bind_light(nb::module_& m) {
     c.def("remove", [](const LightHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); }, "Removes it.");
 }
 
+constexpr const char* projections[] = {"perspective", "orthographic", "spherical", "spherical_equal_area"};
+
+RestageProjection projection_of(const std::string& name) {
+    for (int i = 0; i < 4; ++i)
+        if (name == projections[i]) return RestageProjection(i);
+    throw nb::value_error(
+        ("there is no projection \"" + name + "\"; it is perspective, orthographic, spherical or spherical_equal_area")
+            .c_str());
+}
+
+using Four = std::array<double, 4>;
+
 void bind_camera(nb::module_& m) {
     nb::class_<CameraHandle> c(m, "Camera", "A camera; Session.camera is the one that is rendered from.");
     bind_handle(c, "Camera");
@@ -106,6 +118,26 @@ void bind_camera(nb::module_& m) {
         c, "focal_distance", "Change camera", "Distance of what is sharp [scene units].",
         [](const Camera& v) { return exact(v.focal_distance); },
         [](Camera& v, double x) { v.focal_distance = float(x); });
+    field<Camera>(
+        c, "projection", "Change camera",
+        "perspective, orthographic, spherical (all directions, equirectangular) or spherical_equal_area.",
+        [](const Camera& v) { return std::string(projections[v.projection]); },
+        [](Camera& v, const std::string& x) { v.projection = projection_of(x); });
+    field<Camera>(
+        c, "screen_window", "Change camera",
+        "What the film shows, x0 x1 y0 y1: of an orthographic camera in scene units, else in units of what fov gives. "
+        "None: from the picture's aspect; then the shorter side of an orthographic camera is 2.",
+        [](const Camera& v) {
+            return v.screen_window ? std::optional(Four{exact(v.screen_window->x), exact(v.screen_window->y),
+                                                        exact(v.screen_window->z), exact(v.screen_window->w)})
+                                   : std::nullopt;
+        },
+        [](Camera& v, const std::optional<Four>& x) {
+            if (x && !((*x)[0] < (*x)[1] && (*x)[2] < (*x)[3]))
+                throw nb::value_error("screen_window needs x0 < x1 and y0 < y1");
+            v.screen_window.reset();
+            if (x) v.screen_window = glm::vec4((*x)[0], (*x)[1], (*x)[2], (*x)[3]);
+        });
     c.def(
         "remove", [](const CameraHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
         "Removes it; refused for the active one.");

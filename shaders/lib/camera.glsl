@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera rays: pixel filter by importance sampling (Ernst et al. 2006; pbrt 4ed, 8.8.1), thin lens (pbrt 4ed, 5.2.3).
+// Camera rays: pixel filter by importance sampling (Ernst et al. 2006; pbrt 4ed, 8.8.1), thin lens (pbrt 4ed, 5.2.3),
+// orthographic and spherical cameras (5.2.1, 5.3).
 #ifndef RESTAGE_LIB_CAMERA
 #define RESTAGE_LIB_CAMERA
 #include "lib/bsdf.glsl"
+#include "lib/octahedral.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
 
@@ -47,11 +49,21 @@ vec2 concentric_disk(vec2 u) {
 }
 
 void camera_ray(CameraData camera, vec2 film_point, vec2 u_lens, out vec3 origin, out vec3 direction) {
+    if (CAMERA_KIND >= CAMERA_SPHERICAL) { // +y up; a wide pixel filter may reach beyond the film's edge
+        vec2 uv = film_point / vec2(camera.width, camera.height);
+        float theta = uv.y * PI, phi = uv.x * TWO_PI;
+        vec3 w = CAMERA_KIND == CAMERA_EQUAL_AREA ? octahedral_to_direction(octahedral_wrap(uv)).xzy
+                                                  : vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
+        origin = camera.camera_to_world[3];
+        direction = normalize(camera.camera_to_world * vec4(w, 0.0));
+        return;
+    }
     vec2 s = mix(camera.screen_min, camera.screen_max, film_point / vec2(camera.width, camera.height));
-    vec3 d = vec3(s, 1.0);
-    vec3 o = vec3(0);
+    bool parallel = CAMERA_KIND == CAMERA_ORTHOGRAPHIC;
+    vec3 d = parallel ? vec3(0, 0, 1) : vec3(s, 1.0);
+    vec3 o = parallel ? vec3(s, 0.0) : vec3(0);
     if (HAS_LENS && camera.lens_radius > 0.0) {
-        vec3 focus = d * camera.focal_distance;
+        vec3 focus = o + d * camera.focal_distance; // rays leave the lens around the axis, orthographic ones too
         o = vec3(camera.lens_radius * concentric_disk(u_lens), 0.0);
         d = focus - o;
     }

@@ -3,6 +3,8 @@
 #ifndef RESTAGE_LIB_LIGHT
 #define RESTAGE_LIB_LIGHT
 #include "lib/bsdf.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/quadric.glsl"
 #include "lib/ray_offset.glsl"
 #include "lib/sampler.glsl"
 #include "lib/sampling.glsl"
@@ -16,6 +18,7 @@ struct LightSample {
     vec3 radiance; // arriving, unoccluded; of delta lights divided by nothing but distance
     float pdf;     // solid angle, times the probability of choosing this light; 0 = no sample
     bool delta;    // point, spot, distant: cannot be hit, no MIS
+    float unseen;  // the share of the radiance that rays pass without a hit: only this sampling finds it, no MIS
 };
 
 uint scaled_index(uint bits, uint count) { // 32 random bits to [0, count)
@@ -34,33 +37,6 @@ uint alias_pick(address table, uint count, uint bits, inout float u_keep) {
     bool keep = u_keep < e.q;
     u_keep = min(keep ? u_keep / e.q : (u_keep - e.q) / (1.0 - e.q), 0.99999994);
     return keep ? i : e.alias;
-}
-
-// ---- equal-area octahedral map of the sphere: Clarberg 2008; pbrt 4ed, 3.8.3 --------------------------------------
-vec3 octahedral_to_direction(vec2 p) {
-    vec2 uv = 2.0 * p - 1.0;
-    vec2 a = abs(uv);
-    float d = 1.0 - (a.x + a.y);
-    float r = 1.0 - abs(d);
-    float phi = r == 0.0 ? PI * 0.25 : ((a.y - a.x) / r + 1.0) * PI * 0.25;
-    float z = (d < 0.0 ? -1.0 : 1.0) * (1.0 - r * r);
-    float s = r * sqrt(max(0.0, 2.0 - r * r));
-    return vec3((uv.x < 0.0 ? -1.0 : 1.0) * cos(phi) * s, (uv.y < 0.0 ? -1.0 : 1.0) * sin(phi) * s, z);
-}
-vec2 direction_to_octahedral(vec3 w) {
-    vec3 a = abs(w);
-    float r = sqrt(max(0.0, 1.0 - a.z));
-    float hi = max(a.x, a.y), lo = min(a.x, a.y);
-    float phi = (hi == 0.0 ? 0.0 : atan(lo / hi)) * (2.0 / PI);
-    if (a.x < a.y) phi = 1.0 - phi;
-    float v = phi * r;
-    float u = r - v;
-    if (w.z < 0.0) {
-        float t = u;
-        u = 1.0 - v;
-        v = 1.0 - t;
-    }
-    return 0.5 * (vec2(w.x < 0.0 ? -u : u, w.y < 0.0 ? -v : v) + 1.0);
 }
 
 // ---- environment: bilinear between the texels' centres, and so is its density: a texel's tent is chosen by the alias
@@ -121,7 +97,7 @@ vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
     return env.scale * le.xyz;
 }
 LightSample environment_sample(EnvironmentData env, uvec2 bits, float u_keep) {
-    LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), env.scale, 0.25 * INV_PI, false);
+    LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), env.scale, 0.25 * INV_PI, false, 0.0);
     vec2 u = vec2(to_unit(bits.x), to_unit(bits.y));
     if (env.mapping == ENV_CONSTANT) {
         float z = 1.0 - 2.0 * u.x;
@@ -171,7 +147,7 @@ vec3 emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
 }
 
 LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2 bits) {
-    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false);
+    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false, 0.0);
     uint index = alias_pick(scene.light_alias, scene.light_count, pick, u_keep);
     LightData light = LightArray(scene.lights).at[index];
     uint kind = light.kind & 255u;
@@ -180,10 +156,25 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
         s.pdf *= light.pmf;
         return s;
     }
-    if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, vec3(0), light.value, light.pmf, true);
+    if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, vec3(0), light.value, light.pmf, true, 0.0);
     vec3 q = light.a;
     vec2 bary = vec2(0);
-    if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
+    InstanceData lamp;
+    QuadricData quadric;
+    vec3 n = vec3(0); // of surfaces, the emitting side
+    bool surface = kind == LIGHT_TRIANGLE;
+    if (HAS_QUADRICS && kind == LIGHT_QUADRIC) {
+        surface = true;
+        lamp = InstanceArray(scene.instances).at[light.instance];
+        quadric = quadric_of(lamp);
+        vec3 from = to_object(lamp, p);
+        vec2 u = vec2(to_unit(bits.x), to_unit(bits.y));
+        vec3 at = quadric_by_cone(quadric, from) ? quadric_sample_cone(quadric, from, u) : quadric_sample_area(quadric, u);
+        bary = quadric_uv(quadric, at);
+        n = normalize(lamp.normal_to_world * quadric_normal(quadric, at));
+        if ((lamp.flags & INSTANCE_FLIP_NORMAL) != 0u) n = -n;
+        q = lamp.object_to_world * vec4(at, 1.0);
+    } else if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
         float x = to_unit(bits.x), y = to_unit(bits.y);
         if (y > x) {
             x *= 0.5;
@@ -194,6 +185,7 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
         }
         q += x * light.b + y * light.c;
         bary = (light.kind & LIGHT_SWAPPED) != 0u ? vec2(y, x) : vec2(x, y);
+        n = normalize(cross(light.b, light.c)); // set when the light table is built
     }
     vec3 d = q - p;
     float d2 = dot(d, d);
@@ -201,18 +193,24 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
     s.dist = sqrt(d2);
     s.end = q;
     s.wi = d / s.dist;
-    if (kind == LIGHT_TRIANGLE) {
-        vec3 n = normalize(cross(light.b, light.c)); // the emitting side, set when the light table is built
+    if (surface) {
         float c = -dot(n, s.wi);
         if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
         if (c <= 0.0) return s;
         s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
         s.radiance = light.value;
-        if (HAS_EMISSION_TEXTURES && light.instance != NONE) {
+        if ((HAS_EMISSION_TEXTURES || HAS_LIGHT_ALPHA) && light.instance != NONE) {
             InstanceData inst = InstanceArray(scene.instances).at[light.instance];
-            s.radiance = emitted(scene, inst, index - inst.light_base, bary);
+            uint prim = index - inst.light_base;
+            s.radiance = emitted(scene, inst, prim, bary);
+            if (HAS_LIGHT_ALPHA && (inst.flags & INSTANCE_HAS_ALPHA) != 0u) {
+                float there = hit_alpha(scene, inst, prim, bary);
+                if ((inst.flags & INSTANCE_EMITS_UNSEEN) != 0u) s.unseen = 1.0 - there;
+                else s.radiance *= there;
+            }
         }
-        s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
+        if (HAS_QUADRICS && kind == LIGHT_QUADRIC) s.pdf = light.pmf * quadric_density(lamp, quadric, p, q, c);
+        else s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
     } else {
         s.delta = true;
         s.radiance = light.value / d2;

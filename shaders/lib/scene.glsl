@@ -36,6 +36,10 @@ layout(constant_id = 7) const bool HAS_TANGENTS = true; // anisotropic materials
 layout(constant_id = 8) const bool HAS_FILTER_TABLE = true;
 layout(constant_id = 10) const bool HAS_BORDERS = false; // media end at surfaces that rays pass; the tracer absorbs
 layout(constant_id = 11) const bool HAS_EMISSION_TEXTURES = false;
+layout(constant_id = 12) const bool HAS_LIGHT_ALPHA = false; // some lamp has alpha below 1
+layout(constant_id = 13) const bool HAS_GLOW = false;        // some lamp is no surface: INSTANCE_PASSES
+layout(constant_id = 15) const bool HAS_QUADRICS = false;
+layout(constant_id = 14) const uint CAMERA_KIND = 0u;        // CAMERA_*
 
 // What the shading of a hit takes as uv: the mesh's, or barycentrics where it has none.
 vec2 hit_uv(InstanceData inst, uint prim, vec2 bary) {

@@ -66,4 +66,12 @@ vec3 texture_eval(SceneData scene, uint texture_id, vec2 uv) {
     return a;
 }
 
+// The share of rays that a point of a surface stops.
+float hit_alpha(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
+    float alpha = inst.alpha;
+    if (inst.alpha_texture != 0u) alpha = texture_eval(scene, inst.alpha_texture, hit_uv(inst, prim, bary)).x;
+    if ((inst.flags & INSTANCE_ALPHA_MASK) != 0u) return alpha > 0.0 ? 1.0 : 0.0; // as pbrt-v3, in Triangle::Intersect
+    return clamp(alpha, 0.0, 1.0);
+}
+
 #endif

@@ -18,23 +18,30 @@ struct StepRay {
     vec3 origin;
     vec3 direction;
     float tmax; // < 0: there is none
+    float tmin; // of path rays: where it goes on beyond a lamp that is no surface, else 0
     uint medium; // at the origin; of shadow rays
 };
 
-// From a hit to the next rays. Returns false when something was not finite: the path then ends, and carries nothing on.
+// From a hit, of `ray` at t, to the next rays. Returns false when something was not finite: the path then ends, and
+// carries nothing on.
 bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, uint prim, vec2 bary, float t,
-               vec3 ray_direction, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
+               StepRay ray, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
                out StepRay next, out GuideSample guide) {
     shadow.tmax = -1.0;
     next.tmax = -1.0;
+    next.tmin = 0.0;
     shadow_contribution = vec3(0);
     guide = GuideSample(vec3(0), vec3(0), 0.0, 0u, 0u, 1.0, 0u);
-    vec3 wo_world = -ray_direction;
+    vec3 wo_world = -ray.direction;
     uint depth = path.flags & PATH_DEPTH_MASK;
     bool specular = (path.flags & PATH_SPECULAR) != 0u;
 
-    Surface s = make_surface(scene, inst, material_data, prim, bary, wo_world);
-    if (HAS_MEDIA) path.throughput *= absorb(scene, path.medium, t);
+    Surface s;
+    if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
+        s = quadric_surface(scene, inst, material_data, bary, ray.origin, ray.direction, t);
+    else
+        s = make_surface(scene, inst, material_data, prim, bary, wo_world);
+    if (HAS_MEDIA) path.throughput *= absorb(scene, path.medium, HAS_GLOW ? t - ray.tmin : t);
 
     // Emission
     if ((inst.flags & INSTANCE_EMITS) != 0u) {
@@ -44,11 +51,25 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
             float w = 1.0;
             if (!specular && STRATEGY != 2 && inst.light_base != NONE) {
                 LightData light = LightArray(scene.lights).at[inst.light_base + prim];
-                float pdf_light = light.pmf * triangle_density(light.area, t, c);
+                float pdf_light = light.pmf;
+                if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
+                    pdf_light *= quadric_density(inst, quadric_of(inst), ray.origin, s.p, c);
+                else
+                    pdf_light *= triangle_density(light.area, t, c);
                 w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
             }
             path.radiance += clamp_contribution(scene, path.throughput * emitted(scene, inst, prim, bary) * w, depth);
         }
+    }
+
+    // A lamp without a surface: the ray goes on from where it came, so that distances stay those to the last vertex.
+    if (HAS_GLOW && (inst.flags & INSTANCE_PASSES) != 0u) {
+        float away = s.offset + EPS * (6.0 * dot(abs(ray.origin), vec3(1)) + 15.0 * t); // as light_offset
+        next = ray;
+        next.tmin = t * (1.0 + 4.0 * EPS) + away / max(abs(dot(wo_world, s.ng)), 1e-4);
+        next.tmax = 1e30;
+        guide.weight = -1.0; // guides nobody
+        return finite(path.radiance);
     }
 
     Material m = material_fetch(scene, material_data.params, s.uv);
@@ -72,14 +93,15 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     if (scene.light_count > 0u) {
         LightSample light = light_sample(scene, s.p, pick.x, u_lobe.y,
                                          sample_bits(path.seed, path.sample_index, pair_light(depth)));
-        if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta)) {
+        if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
             vec3 f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : vec3(0);
             ok = finite(f);
             if (max_component(f) > 0.0) {
-                float w = light.delta ? 1.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
+                float w = light.delta ? 1.0 : STRATEGY == 2 ? 0.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
+                if (HAS_LIGHT_ALPHA) w = mix(w, 1.0, light.unseen);
                 vec3 c = path.throughput * f * light.radiance * (w / light.pdf);
                 uint medium = path.medium;
                 if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)

@@ -4,6 +4,7 @@
 #ifndef RESTAGE_PATH_SURFACE
 #define RESTAGE_PATH_SURFACE
 #include "lib/bsdf.glsl"
+#include "lib/quadric.glsl"
 #include "lib/ray_offset.glsl"
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
@@ -81,6 +82,32 @@ void adapt_shading_normal(vec3 wo, inout Surface s) {
     } else {
         orthonormal_basis(n, s.ss, s.ts);
     }
+}
+
+// Of a quadric that the ray from `origin` meets at t * direction.
+Surface quadric_surface(SceneData scene, InstanceData inst, MaterialData material, vec2 uv, vec3 origin, vec3 direction, float t) {
+    Surface s;
+    QuadricData q = quadric_of(inst);
+    vec3 p = quadric_refine(q, to_object(inst, origin) + t * to_object_direction(inst, direction));
+    s.p = inst.object_to_world * vec4(p, 1.0);
+    s.ng = normalize(inst.normal_to_world * quadric_normal(q, p));
+    if ((inst.flags & INSTANCE_FLIP_NORMAL) != 0u) s.ng = -s.ng;
+    s.ns = s.ng;
+    s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon : quadric_offset(inst, q, p, s.p, s.ng);
+    s.uv = uv;
+    if (HAS_TANGENTS) {
+        vec3 dpdu, dpdv;
+        quadric_tangents(q, p, dpdu, dpdv);
+        dpdu = linear_part(inst) * dpdu;
+        dpdv = linear_part(inst) * dpdv;
+        set_frame(s, dpdu);
+        if (HAS_BUMP && material.bump != 0u) apply_bump(scene, material.bump, dpdu, dpdv, s);
+        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, dpdu, s);
+    } else {
+        orthonormal_basis(s.ns, s.ss, s.ts);
+    }
+    adapt_shading_normal(-direction, s);
+    return s;
 }
 
 Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, uint prim, vec2 bary, vec3 wo) {

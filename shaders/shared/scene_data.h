@@ -16,6 +16,10 @@ RESTAGE_UINT(INSTANCE_HAS_UVS, 16u);
 RESTAGE_UINT(INSTANCE_HAS_ALPHA, 32u);
 RESTAGE_UINT(INSTANCE_HAS_MEDIA, 64u);
 RESTAGE_UINT(INSTANCE_HAS_GAPS, 128u); // its material is a mix with a share of no surface: rays pass there
+RESTAGE_UINT(INSTANCE_ALPHA_MASK, 256u); // alpha above 0 stops every ray
+RESTAGE_UINT(INSTANCE_EMITS_UNSEEN, 512u); // shines also where alpha lets rays pass
+RESTAGE_UINT(INSTANCE_PASSES, 1024u); // no surface, but it shines: rays see its light and go on
+RESTAGE_UINT(INSTANCE_QUADRIC, 2048u); // `positions` is the address of a QuadricData; prim is 0, bary is pbrt's (u, v)
 RESTAGE_UINT(MATERIAL_NOTHING, 0xfffffffeu); // in place of a MaterialData index: no surface, rays pass
 RESTAGE_UINT(MATERIAL_MIX, 1u);
 RESTAGE_UINT(OP_CONSTANT, 0u);
@@ -33,11 +37,19 @@ RESTAGE_UINT(LIGHT_POINT, 1u); // a = position
 RESTAGE_UINT(LIGHT_SPOT, 2u); // a = position, b = axis, c = (cos total, cos falloff start, 0)
 RESTAGE_UINT(LIGHT_DISTANT, 3u); // b = direction towards the light
 RESTAGE_UINT(LIGHT_ENVIRONMENT, 4u);
+RESTAGE_UINT(LIGHT_QUADRIC, 5u); // of `instance`; area is that in object space
 RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
 RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the side that shines
 RESTAGE_UINT(ENV_CONSTANT, 0u);
 RESTAGE_UINT(ENV_EQUIRECT, 1u);
 RESTAGE_UINT(ENV_OCTAHEDRAL, 2u);
+RESTAGE_UINT(QUADRIC_SPHERE, 0u);
+RESTAGE_UINT(QUADRIC_DISK, 1u);
+RESTAGE_UINT(QUADRIC_CYLINDER, 2u);
+RESTAGE_UINT(CAMERA_PERSPECTIVE, 0u);
+RESTAGE_UINT(CAMERA_ORTHOGRAPHIC, 1u);
+RESTAGE_UINT(CAMERA_SPHERICAL, 2u); // equirectangular, +y up
+RESTAGE_UINT(CAMERA_EQUAL_AREA, 3u); // the sphere by the octahedral map
 RESTAGE_UINT(FILTER_BOX, 0u);
 RESTAGE_UINT(FILTER_TRIANGLE, 1u);
 RESTAGE_UINT(FILTER_TABLE, 2u);
@@ -62,6 +74,17 @@ struct InstanceData { // 168 bytes
     uint object_id;          // Id<Instance>
     uint emission_texture;   // 0 = none
     uint pad0;
+};
+
+struct QuadricData { // 40 bytes; scene/quadric.hpp
+    uint kind;
+    uint whole; // 1: a sphere without zmin, zmax, phimax
+    float radius;
+    float z_min, z_max; // a disk's height is both
+    float inner;
+    float phi_max; // [rad]
+    float theta_min, theta_max; // of a sphere, at z_min and z_max
+    float area; // in object space
 };
 
 struct MaterialData { // 32 bytes
@@ -105,7 +128,7 @@ struct LightData { // 68 bytes
     float area;
     vec3 value; // radiance, intensity or irradiance
     float offset; // of a triangle: that part of light_offset which does not depend on the ray
-    uint instance; // of a triangle with a texture of emission, else NONE
+    uint instance; // of a quadric, or of a triangle with a texture of emission or with alpha; else NONE
 };
 
 struct AliasEntry { // Vose 1991
@@ -128,7 +151,8 @@ struct EnvironmentData {
 
 struct CameraData {
     mat4x3 camera_to_world;
-    vec2 screen_min, screen_max; // at z = 1, of the whole film: min is the top left corner
+    // Of the whole film, min is the top left corner: at z = 1; orthographic: where rays begin
+    vec2 screen_min, screen_max;
     float lens_radius, focal_distance;
     uint width, height; // of the whole film
 };

@@ -3,6 +3,9 @@
 // the same code (shaders/path/begin.glsl), so one of them is enough here.
 #include "render/checks.hpp"
 #include "render/filter_table.hpp"
+#include "session/navigation.hpp"
+
+#include <catch2/generators/catch_generators.hpp>
 
 using namespace restage;
 using namespace restage::tests;
@@ -201,5 +204,144 @@ TEST_CASE("pixel filters: a constant stays itself, and a dot takes the filter's 
         CHECK(chi < pixels + 4 * std::sqrt(2.0 * pixels)); // stratified: usually much less
         CHECK(worst < 5);
         CHECK(pixels >= 1);
+    }
+}
+
+TEST_CASE("camera: an orthographic one shows the world at its scale, wherever it is") {
+    const auto renderer = make_renderer("embree");
+    const glm::dvec4 patch(-0.101, 0.253, -0.057, 0.212);
+    struct Case {
+        glm::uvec2 size;
+        glm::dvec4 window;
+        bool explicit_window;
+    };
+    for (const Case& c : {Case{{24, 24}, {-1, 1, -1, 1}, false},
+                          {{36, 24}, {-1.5, 1.5, -1, 1}, false},
+                          {{24, 24}, {-0.4, 0.8, -0.2, 1}, true}})
+        for (const double distance : {0.5, 40.0}) {
+            SceneBuilder b;
+            b.set_film(c.size.x, c.size.y);
+            look_ahead(b, 13); // which does not matter
+            change_camera(b, [&](auto& camera) {
+                camera.projection = RESTAGE_ORTHOGRAPHIC;
+                if (c.explicit_window) camera.screen_window = glm::vec4(c.window);
+            });
+            card(b, distance, patch / distance); // the same size at any distance
+            renderer->forget_scene();
+            INFO(c.size.x << " x " << c.size.y << " at " << distance);
+            check_coverage(render_image(*renderer, b.scene, 256), c.window, patch);
+        }
+}
+
+TEST_CASE("camera: an orthographic one with a lens is sharp at its focus and spreads as pbrt's beyond") {
+    // pbrt 4ed, 5.2.3, as its OrthographicCamera has it: rays leave the lens around the axis for the point in focus.
+    const auto renderer = make_renderer("embree");
+    const auto look_at = [&](double distance, glm::dvec4 patch, glm::dvec4 seen) {
+        SceneBuilder b;
+        b.set_film(24, 24);
+        look_ahead(b, 13);
+        change_camera(b, [](auto& camera) {
+            camera.projection = RESTAGE_ORTHOGRAPHIC;
+            camera.lens_radius = 1e-4f;
+            camera.focal_distance = 4;
+        });
+        card(b, distance, patch / distance);
+        renderer->forget_scene();
+        INFO("at " << distance);
+        check_coverage(render_image(*renderer, b.scene, 256), {-1, 1, -1, 1}, seen);
+    };
+    const glm::dvec4 patch(-0.101, 0.253, -0.057, 0.212);
+    look_at(4, patch, patch);
+    look_at(8, 2.0 * patch, patch); // twice as far from the lens, twice as wide
+}
+
+TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const RestageProjection projection = GENERATE(RESTAGE_SPHERICAL, RESTAGE_SPHERICAL_EQUAL_AREA);
+    SceneBuilder b;
+    b.set_film(32, 24);
+    b.set_camera({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 45);
+    change_camera(b, [&](auto& camera) {
+        camera.camera_to_world = glm::dmat4(1);
+        camera.projection = projection;
+    });
+    b.scene.settings.value.max_depth = 0;
+    // A box around the camera; each of its sides has a radiance of its own, 1 + its number: +x +y +z -x -y -z.
+    for (int side = 0; side < 6; ++side) {
+        const auto corner = [&](float u, float v) {
+            glm::vec3 p;
+            p[side % 3] = side < 3 ? 1.f : -1.f;
+            p[(side + 1) % 3] = u;
+            p[(side + 2) % 3] = v;
+            return p;
+        };
+        b.instance(b.quad(corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)), b.diffuse(0, 0, 0),
+                   glm::dmat4(1), scene::Emission{glm::vec3(float(1 + side)), true});
+    }
+    const auto image = render_image(*make_renderer(tracer), b.scene, 16);
+    const scene::Camera& camera = b.scene.cameras[b.scene.active_camera.value];
+    const auto side_of = [&](double x, double y) {
+        const glm::dvec3 d = session::view_ray(camera, {x / 32, y / 24}, 4.0 / 3).direction;
+        const glm::dvec3 a = glm::abs(d);
+        const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+        return axis + (d[axis] < 0 ? 3 : 0);
+    };
+    std::size_t whole = 0, off = 0;
+    double up = 0, weights = 0; // the share of the sphere that the upper side covers
+    for (std::uint32_t y = 0; y < 24; ++y)
+        for (std::uint32_t x = 0; x < 32; ++x) {
+            const float got = image.color[y * 32 + x].y;
+            const double weight =
+                projection == RESTAGE_SPHERICAL ? std::sin((y + 0.5) / 24 * std::numbers::pi) : 1.0;
+            const int side = side_of(x + 0.5, y + 0.5);
+            weights += weight;
+            up += side == 1 ? weight : 0;
+            bool one = true;
+            for (const auto& [dx, dy] : {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}})
+                one &= side_of(x + dx, y + dy) == side;
+            if (!one) continue;
+            ++whole;
+            off += std::abs(got - float(1 + side)) > 1e-4f;
+        }
+    CHECK(whole > 500);
+    CHECK(off == 0);
+    CHECK(std::abs(up / weights - 1.0 / 6) < 0.02);
+    // pbrt-v4's conventions at one place each: the middle of the upper edge looks up, or +x is at the left edge.
+    const auto at = [&](double u, double v) { return glm::normalize(session::view_ray(camera, {u, v}, 1).direction); };
+    if (projection == RESTAGE_SPHERICAL) {
+        CHECK(glm::length(at(0, 0.5) - glm::dvec3(1, 0, 0)) < 1e-9);
+        CHECK(glm::length(at(0.25, 0.5) - glm::dvec3(0, 0, 1)) < 1e-9);
+        CHECK(glm::length(at(0.3, 0) - glm::dvec3(0, 1, 0)) < 1e-9);
+    } else {
+        CHECK(glm::length(at(0.5, 0.5) - glm::dvec3(0, 1, 0)) < 1e-9);
+        CHECK(glm::length(at(1, 0.5) - glm::dvec3(1, 0, 0)) < 1e-9);
+        CHECK(glm::length(at(0, 0) - glm::dvec3(0, -1, 0)) < 1e-9);
+    }
+}
+
+TEST_CASE("camera: what is projected to the film is seen there") {
+    for (const auto projection :
+         {RESTAGE_PERSPECTIVE, RESTAGE_ORTHOGRAPHIC, RESTAGE_SPHERICAL, RESTAGE_SPHERICAL_EQUAL_AREA}) {
+        SceneBuilder b;
+        b.set_camera({1, 2, 3}, {-2, 5, 1}, {0, 0, 1}, 50);
+        scene::Camera camera = b.scene.cameras[b.scene.active_camera.value];
+        camera.projection = projection;
+        for (const glm::dvec2 film : {glm::dvec2(0.3, 0.6), {0.81, 0.13}, {0.5, 0.5}, {0.02, 0.97}}) {
+            const auto ray = session::view_ray(camera, film, 1.5);
+            const auto p = session::project(camera, ray.origin + 7.0 * ray.direction, 1.5);
+            INFO("projection " << int(projection));
+            CHECK(glm::length(glm::dvec2(p) - film) < 1e-9);
+            CHECK(std::abs(p.z - 7) < 1e-9);
+        }
+        if (projection != RESTAGE_ORTHOGRAPHIC) continue;
+        // The wheel enlarges around the point under the mouse, and framing fits.
+        const auto ray = session::view_ray(camera, {0.7, 0.4}, 1.5);
+        const glm::dvec3 there = ray.origin + 3.0 * ray.direction;
+        session::dolly(camera, there, 0.25, 1.5);
+        CHECK(glm::length(glm::dvec2(session::project(camera, there, 1.5)) - glm::dvec2(0.7, 0.4)) < 1e-6);
+        CHECK(std::abs(double(camera.screen_window->w - camera.screen_window->z) - 1.5) < 1e-6);
+        session::frame(camera, scene::Bounds{{-1, -1, -1}, {1, 1, 1}}, 1.5);
+        CHECK(std::abs(double(camera.screen_window->w) - std::sqrt(3.0)) < 1e-6);
+        CHECK(session::project(camera, {0, 0, 0}, 1.5).z > 2);
     }
 }

@@ -363,7 +363,7 @@ TEST_CASE("pbrt camera, film and settings", "[pbrt]") {
     CHECK(r.raw_cameras.at(0).fov == 40);
     CHECK(r.settings.samples == 4);
     CHECK(loaded("Film \"image\" WorldBegin WorldEnd").film_filter == "box");
-    for (const char* kind : {"orthographic", "spherical", "realistic", "fisheye"})
+    for (const char* kind : {"realistic", "fisheye"})
         CHECK(
             loaded("Camera \"" + std::string(kind) + "\" WorldBegin").reports("Camera \"" + std::string(kind) + "\""));
 }
@@ -406,4 +406,41 @@ TEST_CASE("pbrt report: the same thing is one line with a count and the first pl
             CHECK(line.note.find("5 times") != std::string::npos);
         }
     CHECK(teapots == 1);
+}
+
+TEST_CASE("pbrt camera: orthographic and spherical ones are what they are", "[pbrt]") {
+    const auto camera = [](const std::string& text) {
+        const Recorder r = loaded(text + " WorldBegin");
+        CHECK_FALSE(r.reports("Camera"));
+        return r.raw_cameras.at(0);
+    };
+    const RestageCamera flat = camera("LookAt 0 0 5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [ -5 5 -4 4 ]");
+    CHECK(flat.projection == RESTAGE_ORTHOGRAPHIC);
+    CHECK(flat.screen_window[1] == 5);
+    CHECK(flat.camera_to_world[14] == 5); // where the file puts it
+    CHECK(camera("Camera \"spherical\"").projection == RESTAGE_SPHERICAL_EQUAL_AREA);
+    CHECK(camera("Camera \"spherical\" \"string mapping\" \"equirectangular\"").projection == RESTAGE_SPHERICAL);
+    CHECK(camera("Film \"image\" Camera \"environment\"").projection == RESTAGE_SPHERICAL);
+}
+
+TEST_CASE("pbrt lamps: alpha means what the version means by it", "[pbrt]") {
+    const auto lamp = [](const std::string& head, const std::string& alpha, const std::string& shape) {
+        const Recorder r = loaded(head + " WorldBegin AreaLightSource \"diffuse\" Texture \"zero\" \"float\" \"constant\" "
+                                         "\"float value\" 0 Texture \"half\" \"float\" \"constant\" \"float value\" 0.5 Shape " +
+                                  shape + " " + alpha);
+        REQUIRE(r.instances.size() == 1);
+        return r.instances[0].raw;
+    };
+    const std::string v3 = "Film \"image\"", v4 = "Film \"rgb\"", ball = "\"sphere\"",
+                      card = "\"trianglemesh\" \"point P\" [ 0 0 0 1 0 0 0 1 0 ] \"integer indices\" [ 0 1 2 ]",
+                      card4 = "\"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"integer indices\" [ 0 1 2 ]";
+    constexpr std::uint32_t unseen = RESTAGE_INSTANCE_EMITS_UNSEEN, mask = RESTAGE_INSTANCE_ALPHA_MASK;
+    const auto flags = [&](const RestageInstance& i) { return i.flags & (unseen | mask); };
+    CHECK(flags(lamp(v4, "\"float alpha\" 0", ball)) == unseen);
+    CHECK(flags(lamp(v4, "\"texture alpha\" \"zero\"", ball)) == unseen);
+    CHECK(flags(lamp(v4, "\"texture alpha\" \"half\"", ball)) == 0);
+    CHECK(flags(lamp(v4, "\"float alpha\" 0.5", card4)) == 0);
+    CHECK(flags(lamp(v3, "\"float alpha\" 0.5", card)) == (mask | unseen));
+    CHECK(flags(lamp(v3, "\"texture alpha\" \"zero\"", card)) == (mask | unseen));
+    CHECK(lamp(v3, "\"float alpha\" 0", ball).alpha == 1); // v3 has it for triangles only
 }

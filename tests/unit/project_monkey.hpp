@@ -252,12 +252,13 @@ class Monkey {
         if (pick(2) && any<Material>(s)) i.material = any<Material>(s);
         if (pick(2)) i.group = any<Group>(s);
         if (pick(2)) i.object_to_world = matrix();
-        if (pick(2)) i.emission = pick(2) ? std::optional(Emission{vec(), pick(2) == 1}) : std::nullopt;
+        if (pick(2)) i.emission = pick(2) ? std::optional(Emission{vec(), pick(2) == 1, pick(2) == 1}) : std::nullopt;
         if (pick(2)) i.media = pick(2) ? std::optional(MediumInterface{any<Medium>(s), {}}) : std::nullopt;
         if (pick(2)) i.alpha_texture = any<Texture>(s);
         if (pick(2)) i.alpha = x();
         if (pick(2)) i.reverse_orientation = !i.reverse_orientation;
         if (pick(2)) i.hidden = !i.hidden;
+        if (pick(2)) i.alpha_mask = !i.alpha_mask;
         if (pick(2)) i.origin = origin();
     }
     void change(const Scene&, Light& l) {
@@ -277,6 +278,7 @@ class Monkey {
         c.lens_radius = x();
         c.focal_distance = x();
         c.frame_aspect = x();
+        c.projection = static_cast<RestageProjection>(pick(4));
         c.origin = origin();
     }
 

@@ -3,6 +3,7 @@
 #include "scene_panel.hpp"
 
 #include "pick_tool.hpp"
+#include "scene/projection.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 #include "state.hpp"
@@ -49,8 +50,13 @@ void ask_film(Editor& e, const scene::Film& film, const char* label, const char*
             if (const scene::Camera* camera = s.cameras.find(s.active_camera.value);
                 other_shape && camera && (camera->screen_window || camera->frame_aspect != 0)) {
                 scene::Camera fitted = *camera;
-                fitted.screen_window.reset();
                 fitted.frame_aspect = 0;
+                fitted.screen_window.reset();
+                if (camera->projection == RESTAGE_ORTHOGRAPHIC && camera->screen_window) { // it is the scale, too
+                    const glm::vec4 w = *camera->screen_window;
+                    const float middle = (w.x + w.y) / 2, half = (w.w - w.z) / 2 * float(film.width) / float(film.height);
+                    fitted.screen_window = glm::vec4(middle - half, middle + half, w.z, w.w);
+                }
                 edit.changes.push_back(scene::Change<scene::Camera>{s.active_camera.value, *camera, fitted});
             }
             return Result<scene::Edit>(std::move(edit));
@@ -93,6 +99,57 @@ void filter_rows(Editor& e, scene::Film film) {
     if (changed) ask_film(e, film, "Pixel filter", "film.filter");
 }
 
+void ask_camera(Editor& e, const scene::Camera& camera) {
+    e.edit(
+        [camera](const scene::Scene& s) {
+            return scene::set_camera(s, s.active_camera.value, camera, "Change camera");
+        },
+        "scene.camera");
+}
+
+// How it maps the world to the picture, and how much of the world. True: changed.
+bool projection_rows(Editor& e, scene::Camera& camera) {
+    static constexpr const char* kinds[] = {"Perspective", "Orthographic", "Panorama", "Panorama, equal areas"};
+    form_row("Projection", "How the world becomes a picture: as an eye sees it, without vanishing points, or all around");
+    int kind = int(camera.projection);
+    bool changed = ImGui::Combo("##projection", &kind, kinds, IM_ARRAYSIZE(kinds));
+    if (changed) {
+        const bool was_parallel = camera.projection == RESTAGE_ORTHOGRAPHIC;
+        // What is in the middle of the picture keeps its size.
+        const session::ViewRay ray = session::view_ray(camera, {0.5, 0.5}, e.film_aspect());
+        const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+        const double distance = hits.empty() ? 1 : hits[0].t;
+        camera.projection = RestageProjection(kind);
+        if (was_parallel) camera.screen_window.reset();
+        if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
+            scene::Camera perspective = camera;
+            perspective.projection = RESTAGE_PERSPECTIVE;
+            camera.screen_window = glm::vec4(scene::film_window(perspective, e.film_aspect()) * distance);
+        }
+    }
+    e.mark("camera.projection");
+    if (scene::is_spherical(camera)) {
+        empty_note("Sees all around. Handles for moving things are off: they would be bent.");
+    } else if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
+        glm::vec4 window(scene::film_window(camera, e.film_aspect()));
+        form_row("Height", "How much of the world is seen, from the picture's lower to its upper edge");
+        float height = window.w - window.z;
+        if (ImGui::DragFloat("##height", &height, drag_speed(height, 1e-3f), 1e-6f, 1e9f, "%.3f units",
+                             ImGuiSliderFlags_AlwaysClamp)) {
+            camera.screen_window = window * (height / (window.w - window.z));
+            changed = true;
+        }
+        e.mark("camera.height");
+    } else {
+        form_row("Field of view",
+                 "How much is seen, along the picture's shorter side: small = telephoto, large = wide angle");
+        changed |= ImGui::SliderFloat("##fov", &camera.fov, 1, 150, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+        tip(fmt::format("As a {:.0f} mm lens of a 35 mm camera", focal_length(camera) * 1000).c_str());
+        e.mark("camera.fov");
+    }
+    return changed;
+}
+
 } // namespace
 
 void camera_section(Editor& e) {
@@ -116,11 +173,12 @@ void camera_section(Editor& e) {
         e.mark("camera.active");
     }
     scene::Camera camera = e.camera();
-    form_row("Field of view",
-             "How much is seen, along the picture's shorter side: small = telephoto, large = wide angle");
-    bool changed = ImGui::SliderFloat("##fov", &camera.fov, 1, 150, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
-    tip(fmt::format("As a {:.0f} mm lens of a 35 mm camera", focal_length(camera) * 1000).c_str());
-    e.mark("camera.fov");
+    bool changed = projection_rows(e, camera);
+    if (scene::is_spherical(camera)) {
+        if (changed) ask_camera(e, camera);
+        ImGui::PopID();
+        return; // it has no lens
+    }
     form_row("Depth of field", "Blurs what is nearer or farther than the focus distance, as a real lens does");
     if (bool blur = camera.lens_radius > 0; ImGui::Checkbox("##dof", &blur)) {
         camera.lens_radius = blur ? float(focal_length(camera) / (2 * 2.8)) : 0;
@@ -158,12 +216,7 @@ void camera_section(Editor& e) {
     if (ImGui::Button("Pick")) e.pick_tool = focus_picker();
     tip("Then click in the picture what shall be sharp");
     e.mark("camera.pick_focus");
-    if (changed)
-        e.edit(
-            [camera](const scene::Scene& s) {
-                return scene::set_camera(s, s.active_camera.value, camera, "Change camera");
-            },
-            "scene.camera");
+    if (changed) ask_camera(e, camera);
     ImGui::PopID();
 }
 

@@ -84,7 +84,12 @@ enum {
     RESTAGE_INSTANCE_TWO_SIDED = 8u, /* emission from both sides */
     /* To exporters, beside EMITS: it shines because its material does (restage/emission.h), and has no emission of its
      * own. Where the material has a texture of it, `emission` is a mean. */
-    RESTAGE_INSTANCE_EMITS_BY_MATERIAL = 16u
+    RESTAGE_INSTANCE_EMITS_BY_MATERIAL = 16u,
+    /* alpha above 0 stops every ray, as in pbrt-v3. Without it alpha is the share of rays that is stopped. */
+    RESTAGE_INSTANCE_ALPHA_MASK = 32u,
+    /* Its own emission shines also where alpha lets rays pass: it lights, and is not seen there. pbrt-v4's lamps of
+     * alpha 0, and all of pbrt-v3's. Without it what is not there does not shine. */
+    RESTAGE_INSTANCE_EMITS_UNSEEN = 64u
 };
 typedef struct RestageInstance {
     RestageText text;
@@ -129,6 +134,16 @@ typedef struct RestageEnvironment {
     uint32_t hidden_from_camera; /* shines, but where the camera looks past everything it sees black */
 } RestageEnvironment;
 
+/* How a camera maps directions to the film, and what of RestageCamera it uses. */
+typedef enum RestageProjection {
+    RESTAGE_PERSPECTIVE = 0,
+    /* Parallel to +z. The screen window is in units of the camera's space; from the aspect ratio, the shorter side is
+     * 2. `fov` is not used. A lens stands around the camera's origin, as pbrt has it. */
+    RESTAGE_ORTHOGRAPHIC = 1,
+    /* All directions, +y up: u = phi/2pi from +x over +z, v = theta/pi from +y. No window, no lens. */
+    RESTAGE_SPHERICAL = 2,
+    RESTAGE_SPHERICAL_EQUAL_AREA = 3 /* the same by Clarberg's octahedral map, as in pbrt-v4 */
+} RestageProjection;
 typedef struct RestageCamera {
     RestageText text;
     double camera_to_world[16]; /* pbrt: looks along +z, +y up, +x right */
@@ -136,6 +151,7 @@ typedef struct RestageCamera {
     float screen_window[4]; /* x0 x1 y0 y1; all 0 = from the aspect ratio */
     float lens_radius, focal_distance;
     float frame_aspect; /* 0 = width/height */
+    uint32_t projection; /* RestageProjection */
 } RestageCamera;
 
 typedef struct RestageFilm {

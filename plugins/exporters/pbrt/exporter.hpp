@@ -115,6 +115,7 @@ class Exporter {
     void plan_objects();
     void write_object(const std::string& name, const std::vector<RestageHandle>& members);
     void write_instance(RestageHandle, const char* indent, const double* relative_to);
+    void report_alpha(const RestageInstance&, const std::string& type);
     std::vector<std::string> shape_lines(RestageHandle mesh, const RestageInstance&, const Kept&);
     std::string ply_file(RestageHandle mesh, const RestageMesh&);
     void transform(const double m[16], const char* indent);

@@ -85,11 +85,25 @@ void Exporter::camera(RestageHandle handle, bool active) {
     transform(to_camera->data(), indent);
     Params params;
     std::string type = "perspective";
-    params.add_float("fov", camera.fov);
+    const bool all_around =
+        camera.projection == RESTAGE_SPHERICAL || camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA;
+    if (camera.projection == RESTAGE_PERSPECTIVE) {
+        params.add_float("fov", camera.fov);
+    } else if (!all_around) {
+        type = "orthographic";
+    } else if (v3()) {
+        type = "environment";
+        if (active && camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA)
+            approximated(what, "pbrt-v3 has no spherical camera of equal areas; it becomes an equirectangular one");
+    } else {
+        type = "spherical";
+        params.add_string("mapping",
+                          camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA ? "equalarea" : "equirectangular");
+    }
     if (camera.lens_radius > 0) {
         params.add_float("lensradius", camera.lens_radius);
         params.add_float("focaldistance", camera.focal_distance);
-    } else if (camera.focal_distance != 1e6f) {
+    } else if (camera.focal_distance != (all_around && !v3() ? 1e30f : 1e6f)) {
         params.add_float("focaldistance", camera.focal_distance);
     }
     if (camera.frame_aspect > 0) params.add_float("frameaspectratio", camera.frame_aspect);

@@ -238,6 +238,10 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (i.has_medium_interface)
         text_ += deep + "MediumInterface " + quote(medium(i.interior)) + " " + quote(medium(i.exterior)) + "\n";
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
+        RestageMaterialDesc of{};
+        if (!v3() && in_.material(in_.ctx, i.material, &of) && std::string_view(of.type) == "interface")
+            report(RESTAGE_DROPPED, std::string("the light of \"") + i.text.name + "\"",
+                   "pbrt-v4 lets surfaces without a material not emit");
         Params light;
         light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
         if (i.flags & RESTAGE_INSTANCE_EMITS_BY_MATERIAL) { // our importer leaves it to the material
@@ -276,14 +280,42 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
     return file;
 }
 
+// The two versions mean different things by alpha: v3's is a mask, of triangles only, and of lamps what is seen; v4's is
+// the share of rays that is stopped, and of lamps what shines, unless it is 0 everywhere.
+void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
+    if (!i.alpha_texture && i.alpha >= 1) return;
+    const std::string what = std::string("alpha of \"") + i.text.name + "\"";
+    const bool mask = (i.flags & RESTAGE_INSTANCE_ALPHA_MASK) != 0, whole = !i.alpha_texture && i.alpha > 0;
+    const bool lamp = (i.flags & RESTAGE_INSTANCE_EMITS) != 0;
+    const bool unseen = (i.flags & RESTAGE_INSTANCE_EMITS_UNSEEN) != 0;
+    if (v3()) {
+        if (type != "trianglemesh" && type != "plymesh") {
+            if (!(mask && whole)) approximated(what, "pbrt-v3 has it for triangles only; this shape is opaque there");
+            return;
+        }
+        if (!mask && (i.alpha_texture || i.alpha > 0))
+            approximated(what, "in pbrt-v3 whatever is above 0 is opaque");
+        if (lamp && !unseen) approximated(what, "pbrt-v3's lamps shine where alpha makes holes, too");
+        return;
+    }
+    if (mask && i.alpha_texture)
+        approximated(what, "a mask becomes a share: pbrt-v4 lets rays pass where alpha is between 0 and 1");
+    if (lamp && unseen && !(i.alpha_texture == 0 && i.alpha <= 0) && !(mask && whole))
+        approximated(what, "pbrt-v4's lamps do not shine where alpha makes holes");
+    if (lamp && !unseen && !i.alpha_texture && i.alpha <= 0)
+        approximated(what, "a lamp of alpha 0 shines in pbrt-v4, unseen");
+}
+
 std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const RestageInstance& i, const Kept& k) {
     RestageMesh mesh{};
     if (!in_.mesh(in_.ctx, handle, &mesh))
         throw ExportError("", std::string("instance \"") + i.text.name + "\" has no mesh");
+    const bool mask = (i.flags & RESTAGE_INSTANCE_ALPHA_MASK) != 0;
     const auto finish = [&](const std::string& type, Params& params) {
+        report_alpha(i, type);
         if (i.alpha_texture)
             params.add("texture", "alpha", quote(texture(i.alpha_texture)));
-        else if (i.alpha != 1)
+        else if (i.alpha != 1 && !(mask && i.alpha > 0 && !v3()))
             params.add_float("alpha", i.alpha);
         for (const std::string& line : k.lines)
             params.add_raw(line);

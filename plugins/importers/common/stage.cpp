@@ -69,7 +69,8 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
                          .screen_window = {},
                          .lens_radius = 0,
                          .focal_distance = static_cast<float>(distance),
-                         .frame_aspect = 0};
+                         .frame_aspect = 0,
+                         .projection = RESTAGE_PERSPECTIVE};
     std::copy(placed.m.begin(), placed.m.end(), camera.camera_to_world);
     out.camera(out.ctx, &camera);
     report.kept("camera", "the file has none; one that shows everything is added");

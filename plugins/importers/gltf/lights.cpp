@@ -36,18 +36,22 @@ void Importer::camera(int index) {
     const std::string name = !in.name.empty() ? in.name : node.name.empty() ? "camera" : node.name;
     const std::string what = "camera " + quote(name);
     const Matrix placed = turned_forward(directions(world_[static_cast<std::size_t>(index)]));
-    double aspect = 16.0 / 9, yfov = 0;
+    double aspect = 16.0 / 9, yfov = 45 / degrees;
+    RestageCamera camera{};
+    camera.text = {name.c_str(), "", ""};
     const double away = std::max(dot(bounds_.center() - placed.column(3), placed.column(2)), 1e-3);
     if (in.type == "orthographic") {
         const auto& o = in.orthographic;
-        if (!(o.ymag > 0)) {
-            report_.dropped(what, "its ymag is not above 0");
+        if (!(o.xmag > 0 && o.ymag > 0 && std::isfinite(o.xmag / o.ymag))) { // half of what is seen
+            report_.dropped(what, "its xmag and ymag are not above 0");
             return;
         }
-        if (o.xmag > 0) aspect = o.xmag / o.ymag;
-        yfov = 2 * std::atan(o.ymag / away);
-        report_.approximated(what,
-                             "orthographic; a perspective that shows as much at the middle of the scene stands for it");
+        aspect = o.xmag / o.ymag;
+        for (int side = 0; side < 2; ++side) { // x0 x1 y0 y1
+            camera.screen_window[side] = static_cast<float>(side ? o.xmag : -o.xmag);
+            camera.screen_window[2 + side] = static_cast<float>(side ? o.ymag : -o.ymag);
+        }
+        camera.projection = RESTAGE_ORTHOGRAPHIC;
     } else {
         yfov = in.perspective.yfov;
         if (in.perspective.aspectRatio > 0) aspect = in.perspective.aspectRatio;
@@ -58,13 +62,8 @@ void Importer::camera(int index) {
     }
     // yfov is the vertical angle; ours is that of the shorter side.
     const double fov = aspect >= 1 ? yfov : 2 * std::atan(std::tan(yfov / 2) * aspect);
-    RestageCamera camera{.text = {name.c_str(), "", ""},
-                         .camera_to_world = {},
-                         .fov = static_cast<float>(fov * degrees),
-                         .screen_window = {},
-                         .lens_radius = 0,
-                         .focal_distance = static_cast<float>(away),
-                         .frame_aspect = 0};
+    camera.fov = static_cast<float>(fov * degrees);
+    camera.focal_distance = static_cast<float>(away);
     std::copy(placed.m.begin(), placed.m.end(), camera.camera_to_world);
     if (!out_.camera(out_.ctx, &camera)) return;
     if (cameras_++ == 0) add_film(out_, aspect);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 namespace restage::pbrt {
 
@@ -23,22 +22,21 @@ void Builder::camera(const Directive& d) {
         if (!(fov > 0 && fov < 180))
             throw ImportError{d.at, what + ": fov is " + shortest(fov) + "; it must be in (0, 180) degrees"};
     } else if (d.name == "orthographic") {
-        // Nearly parallel from farther back; the frame is that of the original at its own place. What stands between
-        // hides it: the original sees nothing behind itself.
-        constexpr double back = 20;
-        fov = 2 * std::atan(1 / back) * 180 / std::numbers::pi;
-        const Matrix moved = *to_world * translation({0, 0, -back});
-        std::memcpy(out.camera_to_world, moved.m.data(), sizeof out.camera_to_world);
-        import_.approximated(d.at, what, "a perspective camera of a narrow angle from farther back stands for it");
+        out.projection = RESTAGE_ORTHOGRAPHIC;
+        fov = 45; // not used
+    } else if (import_.v3() ? d.name == "environment" : d.name == "spherical") {
+        const std::string mapping = import_.v3() ? "equirectangular" : d.params.string("mapping", "equalarea");
+        if (mapping != "equalarea" && mapping != "equirectangular")
+            throw ImportError{d.at, what + ": its mapping is " + quote(mapping) +
+                                        "; it must be \"equalarea\" or \"equirectangular\""};
+        out.projection = mapping == "equalarea" ? RESTAGE_SPHERICAL_EQUAL_AREA : RESTAGE_SPHERICAL;
+        fov = 90; // not used
     } else if (d.name == "realistic") {
         fov = 45;
         const bool known = realistic_camera(d, out);
         import_.approximated(d.at, what,
                              known ? "a thin lens of the same focal length and aperture stands for it"
                                    : "a pinhole camera with fov 45 stands for it; its lenses are not simulated");
-    } else if (d.name == "environment" || d.name == "spherical") {
-        fov = 90;
-        import_.approximated(d.at, what, "a perspective camera with fov 90 stands for it");
     } else {
         import_.approximated(d.at, what, "there is no such camera in pbrt; a perspective one stands for it");
         if (!(fov > 0 && fov < 180)) fov = 90;
@@ -61,7 +59,8 @@ void Builder::camera(const Directive& d) {
     for (const char* name : {"shutteropen", "shutterclose"})
         d.params.find(name); // the film asks for them
     std::string verbatim;
-    if (d.name != "perspective") {
+    const bool known = d.name == "perspective" || out.projection != RESTAGE_PERSPECTIVE;
+    if (!known) {
         verbatim = "Camera " + quote(d.name) + " " + to_text(d.params, " ") + "\n";
         d.params.mark_all_used();
     }

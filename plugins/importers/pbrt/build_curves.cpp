@@ -55,6 +55,8 @@ void Builder::flush_curves() {
         std::string note = "made into strips and tubes of " + std::to_string(sides) + " sides, at most " +
                            shortest(error * 100) + " % of their width off";
         note += group.batch.text().empty() ? "; too many to be written back as curves" : "; written back as curves";
+        if (const std::size_t n = group.batch.coincident())
+            note += "; " + std::to_string(n) + " that lie exactly on others are not traced";
         import_.approximated(group.at, "Shape \"curve\"", note);
         const RestageMesh out{.text = import_.text(group.mesh_name.c_str(), ""),
                               .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),

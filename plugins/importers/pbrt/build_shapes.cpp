@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes become a mesh (shared by all that are made from the same) and an instance; ObjectInstance repeats instances.
 #include "builder.hpp"
+#include "curves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -160,10 +161,13 @@ RestageInstance Builder::instance_of(const Directive& d, const Matrix& to_world)
     RestageInstance instance{};
     instance.alpha = 1;
     instance.material = material_of_shape(d);
-    if (d.params.has("alpha")) {
+    // pbrt-v3 has it for triangles only, and there whatever is above 0 is opaque (Triangle::Intersect).
+    const bool has_alpha = !import_.v3() || d.name == "trianglemesh" || d.name == "plymesh";
+    if (d.params.has("alpha") && has_alpha) {
         const Argument alpha = float_argument(d, "alpha", 1);
         instance.alpha_texture = alpha.texture;
         instance.alpha = static_cast<float>(std::clamp(alpha.value.r, 0.0, 1.0));
+        if (import_.v3()) instance.flags |= RESTAGE_INSTANCE_ALPHA_MASK;
     }
     if (d.params.find("shadowalpha"))
         import_.dropped(d.at, "\"shadowalpha\" of Shape " + quote(d.name), "shadows use \"alpha\"");
@@ -238,6 +242,19 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
     radiance = radiance * scale;
     for (const char* name : {"samples", "nsamples"})
         d.params.find(name); // how, not what
+    Matrix placed;
+    std::memcpy(placed.m.data(), instance.object_to_world, sizeof instance.object_to_world);
+    const std::optional<double> scale = similarity(placed);
+    const bool quadric = shape.name == "sphere" || shape.name == "disk" || shape.name == "cylinder";
+    if (quadric && !(scale && std::abs(*scale - 1) < 1e-3))
+        import_.approximated(shape.at, "AreaLightSource on a scaled " + quote(shape.name),
+                             "it shines by its size in the world; pbrt samples such a light as if nothing scaled it, "
+                             "and warns that its picture may have errors");
+    // Lamps that are not seen: v3's shine whatever alpha is (DiffuseAreaLight does not know it), v4's of alpha 0.
+    const bool holes = instance.alpha_texture != 0 || instance.alpha < 1;
+    const bool gone = instance.alpha_texture != 0 ? zero_textures_.contains(instance.alpha_texture)
+                                                  : instance.alpha == 0;
+    if (import_.v3() ? holes : gone) instance.flags |= RESTAGE_INSTANCE_EMITS_UNSEEN;
     instance.flags |= RESTAGE_INSTANCE_EMITS | (two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
     instance.emission[0] = static_cast<float>(radiance.r);
     instance.emission[1] = static_cast<float>(radiance.g);

@@ -143,6 +143,8 @@ void Builder::texture(const Directive& d) {
         throw ImportError{d.at, "Texture " + quote(d.name) + " has the value type " + quote(d.second) +
                                     "; write \"float\" or \"spectrum\""};
     const RestageHandle handle = simple_texture(d, is_float);
+    if (is_float && d.third == "constant" && d.params.has("value") && d.params.number("value", 1) <= 0)
+        zero_textures_.insert(handle);
     Names& names = writable_names();
     (is_float ? names.float_textures : names.color_textures)[d.name] = handle;
 }

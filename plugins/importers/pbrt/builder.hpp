@@ -148,6 +148,7 @@ class Builder {
     int material_depth_ = 0;                                  // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
     std::set<RestageHandle> interfaces_; // materials without a surface
+    std::set<RestageHandle> zero_textures_; // constants of 0: pbrt-v4 knows lamps of such an alpha
 
     struct Object {
         std::vector<RestageInstance> instances;

@@ -137,6 +137,18 @@ void CurveBatch::add(const Directive& d, const Matrix& to_batch) {
     std::vector<Vec3> bezier;
     for (std::size_t s = 0; s < segments; ++s)
         add_segment(bezier, given.data() + s * (bspline ? 1 : order), degree, bspline);
+    keep_text(params, given, normals, w, moved);
+    // One that lies on another of the same shape is not seen; but each of thousands would be asked for every ray.
+    std::vector<float> shape{static_cast<float>(w[0]), static_cast<float>(w[1]), is_ribbon ? 1.f : 0.f};
+    for (const Vec3 p : bezier)
+        push(shape, p);
+    if (is_ribbon)
+        for (const Vec3 normal : normals)
+            push(shape, normal);
+    if (!known_.emplace(reinterpret_cast<const char*>(shape.data()), shape.size() * sizeof(float)).second) {
+        ++coincident_;
+        return;
+    }
     strands_.push_back({.first_point = points_.size() / 3,
                         .first_normal = normals_.size() / 3,
                         .segments = static_cast<std::uint32_t>(segments),
@@ -147,7 +159,10 @@ void CurveBatch::add(const Directive& d, const Matrix& to_batch) {
     if (is_ribbon)
         for (const Vec3 normal : normals)
             push(normals_, normalize(normal));
+}
 
+void CurveBatch::keep_text(const ParamList& params, const std::vector<Vec3>& given, const std::vector<Vec3>& normals,
+                           const double (&w)[2], bool moved) {
     if (too_many_for_text_) return;
     text_ += text_.empty() ? "curve" : "\ncurve";
     for (const Param& param : params.params) {

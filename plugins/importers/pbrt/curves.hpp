@@ -6,6 +6,9 @@
 
 #include "mesh.hpp"
 
+#include <string>
+#include <unordered_set>
+
 namespace restage::pbrt {
 
 class CurveBatch {
@@ -13,6 +16,7 @@ class CurveBatch {
     // `to_batch`: from the curve's frame to the batch's; must be a similarity. Throws ImportError for what is no curve.
     void add(const Directive& shape, const Matrix& to_batch);
     std::size_t size() const { return strands_.size(); }
+    std::size_t coincident() const { return coincident_; } // left out: they lie on others
     // Triangles of all of them; the more there are, the coarser each is. `error`: largest distance of a tube's axis
     // from the curve, in widths of the curve.
     Mesh tessellate(int& sides, double& error) const;
@@ -31,9 +35,13 @@ class CurveBatch {
     void tube(const Strand& strand, int sides, double error, Mesh& mesh) const;
     void strip(const Strand& strand, double error, Mesh& mesh) const;
     Vec3 point(std::size_t index) const;
+    void keep_text(const ParamList&, const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                   const double (&widths)[2], bool moved);
 
     std::vector<Strand> strands_;
     std::vector<float> points_, normals_; // 3 each
+    std::unordered_set<std::string> known_; // shapes, as bytes
+    std::size_t coincident_ = 0;
     std::string text_;
     bool too_many_for_text_ = false;
 };

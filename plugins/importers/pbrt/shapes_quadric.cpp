@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quadrics as triangle grids over pbrt's own (u, v), with its normals dp/du x dp/dv. pbrt-v4 book ch. 6; cone,
-// paraboloid and hyperboloid: pbrt-v3 book ch. 3. pbrt clamps and sorts the parameters as is done here.
+// paraboloid and hyperboloid: pbrt-v3 book ch. 3. pbrt clamps and sorts the parameters as is done here. Spheres, disks
+// and cylinders are rendered as what they are (RestageMesh::primitive); their grids are for picking and bounds.
 #include "mesh.hpp"
 
 #include <algorithm>
@@ -61,6 +62,8 @@ void match_area(Mesh& mesh, double exact, bool from_centre) {
     }
 }
 
+constexpr int coarse = 48; // of a full turn, where the grid is not what is rendered
+
 int segments(double phi_max, int full) { return std::max(3, static_cast<int>(std::ceil(full * phi_max / (2 * pi)))); }
 
 void need(bool holds, const Directive& shape, const char* what) {
@@ -76,8 +79,8 @@ Mesh sphere(const Directive& shape, double phi_max) {
     const double theta0 = std::acos(std::clamp(low / radius, -1.0, 1.0)),
                  theta1 = std::acos(std::clamp(high / radius, -1.0, 1.0));
     need(high > low, shape, "zmin and zmax leave nothing of it");
-    const int rows = std::max(2, static_cast<int>(std::ceil(64 * (theta0 - theta1) / pi)));
-    Mesh mesh = grid(segments(phi_max, 128), rows, [&](double u, double v) {
+    const int rows = std::max(2, static_cast<int>(std::ceil(coarse / 2 * (theta0 - theta1) / pi)));
+    Mesh mesh = grid(segments(phi_max, coarse), rows, [&](double u, double v) {
         const double phi = u * phi_max, theta = theta0 + v * (theta1 - theta0);
         // Exact poles, so that the seam closes there.
         const double s = theta < 1e-9 || pi - theta < 1e-9 ? 0 : std::sin(theta);
@@ -95,7 +98,7 @@ Mesh disk(const Directive& shape, double phi_max) {
     const double inner = shape.params.number("innerradius", 0);
     need(radius > 0 && radius < 1e30 && inner >= 0 && inner < radius, shape, "0 <= innerradius < radius must hold");
     // v = 0 is the rim; the normal is +z.
-    Mesh mesh = grid(segments(phi_max, 128), inner > 0 ? 1 : 4, [&](double u, double v) {
+    Mesh mesh = grid(segments(phi_max, coarse), inner > 0 ? 1 : 4, [&](double u, double v) {
         const double phi = u == 1 && phi_max == 2 * pi ? 0 : u * phi_max, r = radius + v * (inner - radius);
         return Sample{{r * std::cos(phi), r * std::sin(phi), height}, {0, 0, 1}};
     });
@@ -111,7 +114,7 @@ Mesh cylinder(const Directive& shape, double phi_max) {
     const double z0 = shape.params.number("zmin", -1), z1 = shape.params.number("zmax", 1);
     const double low = std::min(z0, z1), high = std::max(z0, z1);
     need(radius > 0 && radius < 1e30 && high > low, shape, "radius must be positive and zmin less than zmax");
-    Mesh mesh = grid(segments(phi_max, 128), 1, [&](double u, double v) {
+    Mesh mesh = grid(segments(phi_max, coarse), 1, [&](double u, double v) {
         const double phi = u == 1 && phi_max == 2 * pi ? 0 : u * phi_max;
         const Vec3 n{std::cos(phi), std::sin(phi), 0};
         return Sample{{radius * n.x, radius * n.y, low + v * (high - low)}, n};

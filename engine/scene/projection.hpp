@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera sees of the world and where on the film it falls: what tracers, picking and overlays agree on.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace restage::scene {
+
+// The whole film's window x0 x1 y0 y1, y up: at camera-space z = 1, or of an orthographic camera where its rays begin,
+// in units of its space. `aspect`: the film's width / height. pbrt 4ed, 5.2: fov is of the shorter side. Spherical
+// cameras have no window; they get that of their fov.
+glm::dvec4 film_window(const Camera&, double aspect);
+
+inline bool is_spherical(const Camera& c) {
+    return c.projection == RESTAGE_SPHERICAL || c.projection == RESTAGE_SPHERICAL_EQUAL_AREA;
+}
+
+} // namespace restage::scene
