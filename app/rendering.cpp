@@ -3,6 +3,8 @@
 
 #include "base/file.hpp"
 #include "progress.hpp"
+#include "scene/tables.hpp"
+#include "session/exposure.hpp"
 #include "session/isolate.hpp"
 #include "session/session.hpp"
 
@@ -35,6 +37,9 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->excludes(spp)
         ->excludes(time);
     command.add_option("--size", o.size, "Film size WxH [pixel] (default: what the scene says)");
+    command.add_option("--camera", o.camera, "Camera by its name or number, from 1, as `restage info` lists them");
+    command.add_flag("--studio", o.studio,
+                     "Light it with a neutral studio; where that does not reach what the camera sees, with a lamp there");
     command.add_option("--denoise", o.denoise, "Denoise the result; quality fast, balanced or high (default high)")
         ->expected(0, 1)
         ->default_str("high")
@@ -91,6 +96,9 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
         RESTAGE_TRY(imported, session::read_scene(path, context.registry(), read));
     }
     bar.finish();
+    for (const io::ReportEntry& entry : imported.report.entries) // what decides whether anything can be seen
+        if (entry.what == "exposure" || entry.what == "light")
+            context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));
     const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
                dropped = imported.report.count(RESTAGE_DROPPED);
     if (approximated + dropped > 0)
@@ -117,7 +125,33 @@ Result<glm::uvec2> parse_size(const std::string& text, const char* option) {
     return glm::uvec2(w, h);
 }
 
-Result<void> apply_options(const RenderOptions& o, scene::Scene& scene) {
+namespace {
+
+// By name, else by number.
+Result<scene::Id<scene::Camera>> choose_camera(const scene::Scene& scene, const std::string& wanted) {
+    scene::Id<scene::Camera> by_number;
+    std::string known;
+    int number = 0, asked = 0;
+    const char* end = wanted.data() + wanted.size();
+    if (const auto read = std::from_chars(wanted.data(), end, asked); read.ec != std::errc() || read.ptr != end)
+        asked = 0;
+    scene.cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& c) {
+        if (++number == asked) by_number = id;
+        known += fmt::format("{}{} \"{}\"", known.empty() ? "" : ", ", number, c.name);
+    });
+    if (const auto by_name = scene::find_by_name<scene::Camera>(scene, wanted)) return by_name;
+    if (by_number) return by_number;
+    return fail(fmt::format("--camera {}: there is no such camera; there are {}", wanted,
+                            known.empty() ? "none" : known));
+}
+
+} // namespace
+
+Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scene& scene) {
+    if (!o.camera.empty()) {
+        RESTAGE_TRY(const auto camera, choose_camera(scene, o.camera));
+        scene.active_camera = {camera, ++scene.clock};
+    }
     if (!o.size.empty()) {
         RESTAGE_TRY(const auto size, parse_size(o.size, "--size"));
         auto film = scene.film.value;
@@ -125,6 +159,10 @@ Result<void> apply_options(const RenderOptions& o, scene::Scene& scene) {
         film.height = size.y;
         scene.film = {film, ++scene.clock};
     }
+    if (o.studio)
+        scene::apply(scene, session::light_studio(scene, context.registry()));
+    else if (!session::has_light(scene, context.registry()))
+        context.log.warning(std::string(session::no_light) + "; --studio lights it");
     auto settings = scene.settings.value;
     if (o.max_depth >= 0) settings.max_depth = std::uint32_t(o.max_depth);
     if (!o.roulette.empty()) settings.russian_roulette = o.roulette == "on";

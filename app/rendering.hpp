@@ -28,6 +28,8 @@ struct RenderOptions {
     std::string roulette; // "", on, off
     float clamp_direct = 0, clamp_indirect = 0; // biased
     float ray_epsilon = 0; // 0 = error bounds
+    std::string camera; // its name or number; "" = the active one
+    bool studio = false; // light it with one
 };
 
 // Adds the options of the renderer and the targets to a command.
@@ -44,8 +46,8 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path);
 // "640x360" as width and height in pixels; `option` is named in the error.
 Result<glm::uvec2> parse_size(const std::string& text, const char* option);
 
-// Puts size, depth and roulette of the options into the scene.
-Result<void> apply_options(const RenderOptions& options, scene::Scene& scene);
+// Puts camera, studio, size, depth and roulette of the options into the scene; says that it has no light.
+Result<void> apply_options(Context& context, const RenderOptions& options, scene::Scene& scene);
 
 // Renders until the target is met or Ctrl-C. `label` stands before the progress.
 Result<void> render_to_target(Context& context, const RenderOptions& options, const scene::Scene& scene,

@@ -15,7 +15,7 @@ uint resolve_material(SceneData scene, InstanceData inst, uint prim, vec2 bary) 
     uint m = inst.material;
     if (!HAS_MIX || (materials.at[m].flags & MATERIAL_MIX) == 0u) return m;
     uint h = hash_add(HASH_START, vec3(bary, float(prim)));
-    vec2 uv = hit_uv(inst, prim, bary);
+    vec4 uv = hit_uv(inst, prim, bary);
     UintArray words = UintArray(scene.params);
     for (uint depth = 0u; depth < 8u; ++depth) {
         MaterialData data = materials.at[m];

@@ -108,7 +108,7 @@ Result<int> run(Context& context, Options& o) {
 
     const auto picture = [&](const char* name) -> Result<void> {
         scene::Scene shown = session.scene(); // with this command's size; the document keeps its own
-        RESTAGE_CHECK(apply_options(o, shown));
+        RESTAGE_CHECK(apply_options(context, o, shown));
         renderer->forget_scene();
         RESTAGE_CHECK(render_to_target(context, o, shown, *renderer, std::string(name) + ": "));
         RESTAGE_TRY(const auto taken, take_picture(context, o, shown, *renderer));

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
+#include "session/exposure.hpp"
 
 #include <fmt/format.h>
 #include <cstdio>
@@ -22,7 +23,8 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     s.meshes.each([&](auto, const scene::Mesh& m) {
         if (!m.data || !seen.insert(m.data.get()).second) return;
         triangles += m.data->triangles.size();
-        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 +
+        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 + m.data->uvs2.size() * 8 +
+                    m.data->tangents.size() * 16 +
                     m.data->triangles.size() * 12;
     });
     s.images.each([&](auto, const scene::Image& i) { pixels += i.data ? i.data->values.size() * sizeof(float) : 0; });
@@ -47,6 +49,10 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
         auto& n = lights[l.kind == RESTAGE_LIGHT_POINT ? "point" : l.kind == RESTAGE_LIGHT_SPOT ? "spot" : "distant"];
         n = n.get<int>() + 1;
     });
+    nlohmann::json cameras = nlohmann::json::array();
+    s.cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& c) {
+        cameras.push_back({{"name", c.name}, {"active", id == s.active_camera.value}});
+    });
     nlohmann::json report = nlohmann::json::array();
     for (const auto& e : imported.report.entries)
         report.push_back(
@@ -64,8 +70,10 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"images", s.images.live()},
             {"media", s.media.live()},
             {"lights", lights},
+            {"lit", session::has_light(s, registry)},
             {"cameras", s.cameras.live()},
-            {"film", {{"width", film.width}, {"height", film.height}}},
+            {"camera_list", cameras},
+            {"film", {{"width", film.width}, {"height", film.height}, {"exposure", film.exposure}}},
             {"max_depth", s.settings.value.max_depth},
             {"samples", s.settings.value.samples},
             {"memory_bytes", {{"geometry", geometry}, {"pixels", pixels}}},
@@ -93,6 +101,14 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
     std::printf("lights      %d area, %d point, %d spot, %d distant, environment: %s\n", l["area"].get<int>(),
                 l["point"].get<int>(), l["spot"].get<int>(), l["distant"].get<int>(),
                 l["environment"].get<std::string>().c_str());
+    if (!d["lit"].get<bool>()) std::printf("            %s; `restage render --studio` lights it\n", session::no_light);
+    line.clear();
+    for (std::size_t i = 0; i < d["camera_list"].size(); ++i) { // by these names and numbers `render --camera` takes them
+        const auto& c = d["camera_list"][i];
+        line += fmt::format("{}{} \"{}\"{}", i == 0 ? "" : ", ", i + 1, c["name"].get<std::string>(),
+                            c["active"].get<bool>() ? " (active)" : "");
+    }
+    std::printf("cameras     %s\n", line.c_str());
     std::printf("film        %dx%d, %zu samples a pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
     fmt::print("memory      geometry {:.1f} MB, pixels {:.1f} MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,

@@ -22,7 +22,7 @@ Result<int> run(Context& context, Options& o) {
     scene::Scene& scene = imported.scene;
     if (!scene.active_camera.value) // importers make one up; a project may have none yet
         return fail(o.scene + ": " + scene::no_camera + "; add one to the scene it began with");
-    RESTAGE_CHECK(apply_options(o, scene));
+    RESTAGE_CHECK(apply_options(context, o, scene));
     o.renderer.strategy = o.strategy == "light"  ? render::Strategy::light_only
                           : o.strategy == "bsdf" ? render::Strategy::bsdf_only
                                                  : render::Strategy::mis;

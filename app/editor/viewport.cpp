@@ -66,6 +66,7 @@ void Viewport::draw(Editor& e) {
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_status(e);
     draw_progress(e);
+    draw_darkness(e);
     draw_hint(e);
     if (e.view.show_overlays) e.notices.draw(end.x, end.y - 28 * ImGui::GetStyle().FontScaleMain);
 }

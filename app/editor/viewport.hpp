@@ -40,6 +40,7 @@ class Viewport {
     void draw_overlays(Editor& editor);
     void draw_status(Editor& editor);
     void draw_progress(Editor& editor); // over the picture, while a scene is opened and prepared
+    void draw_darkness(Editor& editor); // over a scene without light
     void draw_hint(Editor& editor); // until the first gesture of somebody's first start
     void draw_welcome(Editor& editor, ImVec2 origin, ImVec2 space); // where there is no scene
     void navigate(Editor& editor, bool over);

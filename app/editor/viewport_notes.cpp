@@ -2,6 +2,7 @@
 // What the viewport says around and over the picture: the toolbar, its state, how to begin.
 #include "editor.hpp"
 #include "files.hpp"
+#include "panels/scene_panel.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -126,6 +127,20 @@ void Viewport::draw_progress(Editor& e) {
     }
     e.mark("progress");
     ImGui::EndChild();
+}
+
+void Viewport::draw_darkness(Editor& e) {
+    if (e.opening().running() || e.scene().instances.live() == 0 || has_light(e)) return;
+    const float scale = ImGui::GetStyle().FontScaleMain, width = std::min(340 * scale, size.x - 24 * scale);
+    const ImVec2 back = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({corner.x + (size.x - width) / 2, corner.y + size.y * 0.4f});
+    ImGui::BeginChild("darkness", {width, 0}, ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
+    ImGui::TextWrapped("Nothing shines in this scene, so its picture is black.");
+    if (ImGui::Button("Light it with a neutral studio", {-FLT_MIN, 0})) light_with_studio(e);
+    tip("Soft grey light from all around; in a closed room a lamp at the camera as well");
+    e.mark("viewport.studio");
+    ImGui::EndChild();
+    ImGui::SetCursorScreenPos(back);
 }
 
 void Viewport::draw_hint(Editor& e) {

@@ -81,7 +81,7 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     Jobs& jobs = options.jobs ? *options.jobs : own.emplace();
     if (auto finished = writer.finish(jobs, options.read_images); !finished) return fail(path, finished.error());
     if (writer.scene.format.empty()) writer.scene.format = importer->format;
-    return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format};
+    return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format, writer.unexposed};
 }
 
 Result<ImportedObjects> import_into(const scene::Scene& scene, const std::string& path,

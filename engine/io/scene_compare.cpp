@@ -3,6 +3,7 @@
 #include "io/scene_compare.hpp"
 
 #include "base/file.hpp"
+#include "scene/projection.hpp"
 #include "scene/params.hpp"
 
 #include <algorithm>
@@ -257,7 +258,7 @@ class Comparison {
         const auto cameras = [](const Scene& s) {
             std::vector<std::string> all;
             s.cameras.each([&](Id<Camera> id, const Camera& c) {
-                all.push_back("\"" + c.name + "\", fov " + shown(c.fov) + " at " +
+                all.push_back("\"" + c.name + "\", fov " + shown(fov(c, s)) + " at " +
                               shown(glm::vec3(c.camera_to_world[3])) + (id == s.active_camera.value ? ", active" : ""));
             });
             return all;
@@ -288,22 +289,28 @@ class Comparison {
             differ("environment: turned otherwise");
     }
 
+    // As the picture has it, however the camera says it.
+    static float fov(const Camera& c, const Scene& s) {
+        const Film& film = s.film.value;
+        return static_cast<float>(camera_fov(c, double(film.width) / film.height));
+    }
+
     void camera() {
         const Camera *x = a_.cameras.find(a_.active_camera.value), *y = b_.cameras.find(b_.active_camera.value);
         if (!x || !y) {
             same("camera", x ? "there" : "none", y ? "there" : "none");
             return;
         }
-        const auto describe = [](const Camera& c) {
+        const auto describe = [](const Camera& c, const Scene& s) {
             std::string text = "projection " + std::to_string(c.projection) +
-                               (c.projection == RESTAGE_PERSPECTIVE ? ", fov " + shown(c.fov) : "") + ", lens " +
+                               (c.projection == RESTAGE_PERSPECTIVE ? ", fov " + shown(fov(c, s)) : "") + ", lens " +
                                shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
             if (c.lens_radius > 0) text += ", focus " + shown(c.focal_distance);
             if (c.screen_window)
                 text += ", window " + shown(glm::vec3(*c.screen_window)) + " " + shown(c.screen_window->w);
             return text;
         };
-        same("camera", describe(*x), describe(*y));
+        same("camera", describe(*x, a_), describe(*y, b_));
         if (!close(x->camera_to_world, y->camera_to_world, options_.transform_tolerance))
             differ("camera: stands elsewhere");
         same("medium of the camera", describe_a_.medium(a_.settings.value.camera_medium),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scene_reader.hpp"
 
+#include "scene/projection.hpp"
+
 #include <cstring>
 
 namespace restage::io {
@@ -82,7 +84,9 @@ struct SceneReader::Calls {
                 .uvs = d.uvs.empty() ? nullptr : &d.uvs[0].x,
                 .indices = d.triangles.empty() ? nullptr : &d.triangles[0].x,
                 .source_file = m->source_file.c_str(),
-                .primitive = m->primitive.c_str()};
+                .primitive = m->primitive.c_str(),
+                .tangents = d.tangents.empty() ? nullptr : &d.tangents[0].x,
+                .uvs2 = d.uvs2.empty() ? nullptr : &d.uvs2[0].x};
         return 1;
     }
 
@@ -206,14 +210,16 @@ struct SceneReader::Calls {
     static int camera(void* ctx, RestageHandle handle, RestageCamera* out) {
         const Camera* c = scene(ctx).cameras.find({handle});
         if (!c) return 0;
+        const Film& film = scene(ctx).film.value;
         *out = {.text = text(*c),
                 .camera_to_world = {},
-                .fov = c->fov,
+                .fov = static_cast<float>(camera_fov(*c, double(film.width) / film.height)),
                 .screen_window = {},
                 .lens_radius = c->lens_radius,
                 .focal_distance = c->focal_distance,
                 .frame_aspect = c->frame_aspect,
-                .projection = static_cast<std::uint32_t>(c->projection)};
+                .projection = static_cast<std::uint32_t>(c->projection),
+                .fit_aspect = 0};
         if (c->screen_window)
             for (int i = 0; i < 4; ++i)
                 out->screen_window[i] = (*c->screen_window)[i];
@@ -233,7 +239,8 @@ struct SceneReader::Calls {
                 .filter_radius = {f.filter.radius.x, f.filter.radius.y},
                 .filter_params = {f.filter.params.x, f.filter.params.y},
                 .exposure = f.exposure,
-                .filename = f.filename.c_str()};
+                .filename = f.filename.c_str(),
+                .unexposed = 0};
     }
 
     static void settings(void* ctx, RestageSettings* out) {

@@ -28,6 +28,7 @@ class SceneWriter : public Exchange {
     Result<> finish(Jobs&, bool read_images);
 
     scene::Scene scene;
+    bool unexposed = false; // RestageFilm::unexposed
 
   private:
     struct Calls; // the C functions (scene_writer_calls.hpp)

@@ -40,6 +40,8 @@ RestageHandle SceneWriter::Calls::mesh(void* ctx, const RestageMesh* in) {
         };
         optional(data->normals, in->normals);
         optional(data->uvs, in->uvs);
+        optional(data->uvs2, in->uvs2);
+        optional(data->tangents, in->tangents);
         compute_bounds(*data);
         return w.push(Mesh{.name = w.unique_name("mesh", text(in->text.name)),
                            .data = std::move(data),

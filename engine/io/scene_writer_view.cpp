@@ -61,8 +61,8 @@ RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
                      "there is no projection " + std::to_string(in->projection));
             return 0;
         }
-        if (!affine(to_world) ||
-            !finite(in->fov, sw[0], sw[1], sw[2], sw[3], in->lens_radius, in->focal_distance, in->frame_aspect)) {
+        if (!affine(to_world) || !finite(in->fov, sw[0], sw[1], sw[2], sw[3], in->lens_radius, in->focal_distance,
+                                         in->frame_aspect, in->fit_aspect)) {
             w.refuse("camera \"" + text(in->text.name) + "\"",
                      "it holds a value that is not a finite number, or its transform is not affine");
             return 0;
@@ -74,7 +74,8 @@ RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
                       .focal_distance = in->focal_distance,
                       .frame_aspect = in->frame_aspect,
                       .origin = w.origin(in->text),
-                      .projection = static_cast<RestageProjection>(in->projection)};
+                      .projection = static_cast<RestageProjection>(in->projection),
+                      .fit_aspect = in->fit_aspect};
         if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
             camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
         const RestageHandle handle = w.push(std::move(camera));
@@ -101,6 +102,7 @@ void SceneWriter::Calls::film(void* ctx, const RestageFilm* in) {
                              .exposure = in->exposure,
                              .filename = text(in->filename)},
                         w.scene.clock};
+        w.unexposed = in->unexposed != 0;
         return 0;
     });
 }

@@ -15,10 +15,10 @@ namespace restage::render {
 using scene::Id;
 using scene::Scene;
 
-static_assert(sizeof(shared::InstanceData) == 168);
+static_assert(sizeof(shared::InstanceData) == 184);
 static_assert(sizeof(shared::QuadricData) == 40);
 static_assert(sizeof(shared::MaterialData) == 32);
-static_assert(sizeof(shared::TextureOp) == 48);
+static_assert(sizeof(shared::TextureOp) == 64);
 static_assert(sizeof(shared::LightData) == 68);
 static_assert(sizeof(shared::ImageData) == 24);
 
@@ -130,6 +130,8 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         const auto indices = place(std::span(data.triangles).size_bytes());
         const auto normals = place(std::span(data.normals).size_bytes());
         const auto uvs = place(std::span(data.uvs).size_bytes());
+        const auto uvs2 = place(std::span(data.uvs2).size_bytes());
+        const auto tangents = place(std::span(data.tangents).size_bytes());
         RESTAGE_TRY(g.buffer, device_->create_buffer(at, gpu::BufferKind::host, mesh->name.c_str()));
         const auto put = [&](std::size_t offset, std::span<const std::byte> bytes,
                              std::uint64_t& address) -> Result<void> {
@@ -141,6 +143,8 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         RESTAGE_CHECK(put(indices, std::as_bytes(std::span(data.triangles)), g.indices));
         RESTAGE_CHECK(put(normals, std::as_bytes(std::span(data.normals)), g.normals));
         RESTAGE_CHECK(put(uvs, std::as_bytes(std::span(data.uvs)), g.uvs));
+        RESTAGE_CHECK(put(uvs2, std::as_bytes(std::span(data.uvs2)), g.uvs2));
+        RESTAGE_CHECK(put(tangents, std::as_bytes(std::span(data.tangents)), g.tangents));
         g.positions_offset = positions;
         g.indices_offset = indices;
         g.vertex_count = std::uint32_t(data.positions.size());
@@ -229,11 +233,14 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges& changes) 
     return ops_.flush(*device_);
 }
 
-glm::vec2 GpuScene::uv_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
+glm::vec4 GpuScene::uv_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
                           glm::vec2 b) const {
-    if (!(instance.flags & INSTANCE_HAS_UVS)) return b;
     const auto t = mesh.triangles[prim];
-    return (1 - b.x - b.y) * mesh.uvs[t.x] + b.x * mesh.uvs[t.y] + b.y * mesh.uvs[t.z];
+    const auto mix = [&](const std::vector<glm::vec2>& uvs) {
+        return (1 - b.x - b.y) * uvs[t.x] + b.x * uvs[t.y] + b.y * uvs[t.z];
+    };
+    const glm::vec2 first = instance.flags & INSTANCE_HAS_UVS ? mix(mesh.uvs) : b;
+    return {first, instance.uvs2 ? mix(mesh.uvs2) : first};
 }
 
 namespace {

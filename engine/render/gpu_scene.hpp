@@ -24,8 +24,8 @@ namespace restage::render {
 
 // A mesh in memory that Embree, kernels and the builder of acceleration structures share.
 struct GpuMesh {
-    gpu::Buffer buffer; // positions, normals, uvs, indices, each 16-byte aligned
-    std::uint64_t positions = 0, normals = 0, uvs = 0, indices = 0; // addresses; 0 = has none
+    gpu::Buffer buffer; // positions, normals, uvs, indices, tangents, uvs2, each 16-byte aligned
+    std::uint64_t positions = 0, normals = 0, uvs = 0, indices = 0, tangents = 0, uvs2 = 0; // addresses; 0 = has none
     std::size_t positions_offset = 0, indices_offset = 0;           // in the buffer, for Embree
     std::uint32_t vertex_count = 0, triangle_count = 0;
     std::optional<scene::Quadric> quadric; // then there are no triangles: `positions` is a QuadricData
@@ -117,7 +117,8 @@ class GpuScene {
     float alpha_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
     std::optional<Emitter> emitter_of(const scene::Scene&, scene::Id<scene::Instance>) const;
     shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
-    glm::vec2 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
+    // Both sets, as shaders/lib/scene.glsl, hit_uv.
+    glm::vec4 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
 
     gpu::Device* device_;
     Jobs* jobs_;

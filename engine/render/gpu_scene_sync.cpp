@@ -229,6 +229,8 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
         out.normals = g->normals;
         out.uvs = g->uvs;
         out.indices = g->indices;
+        out.tangents = g->tangents;
+        out.uvs2 = g->uvs2;
         out.flags |= (g->normals ? INSTANCE_HAS_NORMALS : 0) | (g->uvs ? INSTANCE_HAS_UVS : 0);
     }
     return out;

@@ -102,7 +102,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
 {fields}}};
 #include "{file}"
 #define Material {p}_Params
-Material material_fetch(SceneData scene, uint at, vec2 uv) {{
+Material material_fetch(SceneData scene, uint at, vec4 uv) {{
     UintArray w = UintArray(scene.params);
     Material m;
 {before}{fetch}    return m;

@@ -48,9 +48,11 @@ class Compiler {
     std::vector<TextureOp> ops;
 
   private:
-    static glm::vec4 mapping(const Texture& t) {
-        return {t.params.number("uscale", 1), t.params.number("vscale", 1), t.params.number("udelta", 0),
-                t.params.number("vdelta", 0)};
+    static void set_mapping(const Texture& t, TextureOp& op) {
+        op.uv = {t.params.number("uscale", 1), t.params.number("vscale", 1), t.params.number("udelta", 0),
+                 t.params.number("vdelta", 0)};
+        op.shear = {t.params.number("ushear", 0), t.params.number("vshear", 0)};
+        op.set = t.params.number("uvset", 0) == 1 ? 1u : 0u;
     }
     bool image(const Texture& t) {
         const scene::Image* image = scene_.images.find(t.image);
@@ -64,7 +66,7 @@ class Compiler {
         const auto wrap = t.params.choice("wrap", "repeat");
         op.wrap = wrap == "black" ? WRAP_BLACK : wrap == "clamp" ? WRAP_CLAMP : WRAP_REPEAT;
         op.invert = t.params.number("invert", 0) != 0 ? 1u : 0u;
-        op.uv = mapping(t);
+        set_mapping(t, op);
         op.value = glm::vec4(t.params.number("scale", 1));
         ops.push_back(op);
         return true;
@@ -91,7 +93,7 @@ class Compiler {
         }
         TextureOp op{};
         op.kind = kind;
-        op.uv = mapping(t);
+        set_mapping(t, op);
         ops.push_back(op);
         return true;
     }
@@ -141,12 +143,13 @@ TexturePrograms compile_textures(const Scene& scene) {
 }
 
 glm::vec3 evaluate_texture(const TexturePrograms& textures, const std::vector<CpuImage>& images, std::uint32_t texture,
-                           glm::vec2 uv) {
+                           glm::vec4 uv) {
     glm::vec3 a(0), b(0), c(0);
     const auto program = textures.programs[texture];
     for (std::uint32_t i = 0; i < program.count; ++i) {
         const TextureOp& op = textures.ops[program.first + i];
-        const glm::vec2 st = uv * glm::vec2(op.uv) + glm::vec2(op.uv.z, op.uv.w);
+        const glm::vec2 at = op.set ? glm::vec2(uv.z, uv.w) : glm::vec2(uv);
+        const glm::vec2 st = at * glm::vec2(op.uv) + glm::vec2(at.y, at.x) * op.shear + glm::vec2(op.uv.z, op.uv.w);
         if (op.kind <= OP_IMAGE) {
             c = b;
             b = a;

@@ -24,8 +24,12 @@ struct CpuImage {
     const scene::PixelData* pixels = nullptr;
 };
 
-// uv -> value. Same operations, filter and wrap modes as the GLSL.
+// uv, of the first and of the second set -> value. Same operations, filter and wrap modes as the GLSL.
 glm::vec3 evaluate_texture(const TexturePrograms&, const std::vector<CpuImage>& images, std::uint32_t texture,
-                           glm::vec2 uv);
+                           glm::vec4 uv);
+inline glm::vec3 evaluate_texture(const TexturePrograms& textures, const std::vector<CpuImage>& images,
+                                  std::uint32_t texture, glm::vec2 uv) {
+    return evaluate_texture(textures, images, texture, glm::vec4(uv, uv));
+}
 
 } // namespace restage::render

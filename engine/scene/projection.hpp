@@ -7,9 +7,13 @@
 namespace restage::scene {
 
 // The whole film's window x0 x1 y0 y1, y up: at camera-space z = 1, or of an orthographic camera where its rays begin,
-// in units of its space. `aspect`: the film's width / height. pbrt 4ed, 5.2: fov is of the shorter side. Spherical
-// cameras have no window; they get that of their fov.
+// in units of its space. `aspect`: the film's width / height. pbrt 4ed, 5.2: fov is of the shorter side; with
+// fit_aspect of that of a frame, and the window is the smallest around it. Spherical cameras have no window; they get
+// that of their fov.
 glm::dvec4 film_window(const Camera&, double aspect);
+
+// fov as pbrt has it, of the shorter side of a film of that aspect [deg].
+double camera_fov(const Camera&, double aspect);
 
 inline bool is_spherical(const Camera& c) {
     return c.projection == RESTAGE_SPHERICAL || c.projection == RESTAGE_SPHERICAL_EQUAL_AREA;

@@ -32,6 +32,8 @@ struct MeshData { // immutable once shared
     std::vector<glm::vec2> uvs; // as many as positions, or none
     std::vector<glm::uvec3> triangles; // indices < positions.size()
     glm::vec3 lower{0}, upper{0}; // bounds of the positions
+    std::vector<glm::vec4> tangents; // as many as positions, or none; w: sign of the bitangent (restage/scene_io.h)
+    std::vector<glm::vec2> uvs2; // a second set, as many as positions, or none
 };
 
 struct Mesh {
@@ -150,6 +152,7 @@ struct Camera {
     float frame_aspect = 0; // 0 = width/height
     Origin origin;
     RestageProjection projection = RESTAGE_PERSPECTIVE;
+    float fit_aspect = 0; // > 0: fov is of a frame of this aspect, which is always seen whole (projection.hpp)
     bool operator==(const Camera&) const = default;
 };
 

@@ -224,6 +224,11 @@ std::string check_mesh(const MeshData& data) {
         return std::to_string(data.normals.size()) + " normals for " + std::to_string(vertices) + " vertices";
     if (!data.uvs.empty() && data.uvs.size() != vertices)
         return std::to_string(data.uvs.size()) + " texture coordinates for " + std::to_string(vertices) + " vertices";
+    if (!data.uvs2.empty() && data.uvs2.size() != vertices)
+        return std::to_string(data.uvs2.size()) + " texture coordinates of the second set for " +
+               std::to_string(vertices) + " vertices";
+    if (!data.tangents.empty() && data.tangents.size() != vertices)
+        return std::to_string(data.tangents.size()) + " tangents for " + std::to_string(vertices) + " vertices";
     for (std::size_t i = 0; i < vertices; ++i)
         if (!finite(data.positions[i]))
             return "the position of vertex " + std::to_string(i) + " is not a finite number";
@@ -232,6 +237,12 @@ std::string check_mesh(const MeshData& data) {
     for (std::size_t i = 0; i < data.uvs.size(); ++i)
         if (!finite(data.uvs[i].x) || !finite(data.uvs[i].y))
             return "the texture coordinates of vertex " + std::to_string(i) + " are not finite numbers";
+    for (std::size_t i = 0; i < data.uvs2.size(); ++i)
+        if (!finite(data.uvs2[i].x) || !finite(data.uvs2[i].y))
+            return "the second texture coordinates of vertex " + std::to_string(i) + " are not finite numbers";
+    for (std::size_t i = 0; i < data.tangents.size(); ++i)
+        if (!finite(glm::vec3(data.tangents[i])) || !finite(data.tangents[i].w))
+            return "the tangent of vertex " + std::to_string(i) + " is not a finite number";
     for (std::size_t i = 0; i < data.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k)
             if (data.triangles[i][k] >= vertices)

@@ -2,6 +2,7 @@
 #include "session/document.hpp"
 
 #include "base/file.hpp"
+#include "session/exposure.hpp"
 #include "session/isolate.hpp"
 #include "session/project.hpp"
 
@@ -25,8 +26,13 @@ bool is_project(const std::filesystem::path& path) { return path.extension() == 
 
 Result<io::ImportedScene> read_scene(const std::string& path, const plugin::Registry& registry,
                                      const ReadOptions& options, const std::string& format) {
-    if (options.isolate) return import_isolated(path, registry, *options.isolate, options.progress);
-    return io::import_scene(path, registry, {.progress = options.progress, .format = format});
+    const auto read = [&]() -> Result<io::ImportedScene> {
+        if (options.isolate) return import_isolated(path, registry, *options.isolate, options.progress);
+        return io::import_scene(path, registry, {.progress = options.progress, .format = format});
+    };
+    RESTAGE_TRY(io::ImportedScene imported, read());
+    if (options.expose) expose(imported, registry);
+    return imported;
 }
 
 Result<Document> read_document(const std::string& path, const plugin::Registry& registry, const ReadOptions& options) {

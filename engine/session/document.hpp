@@ -71,6 +71,7 @@ struct ReadOptions {
     std::filesystem::path base; // stands for the one the project names; "" = that
     bool drop_lost = false;     // changes to things the base has no more are left out and reported, not an error
     BaseProblem* problem = nullptr; // set when reading fails for this reason
+    bool expose = true; // exposure.hpp; false where only the objects of a file are wanted
 };
 
 inline constexpr std::string_view project_extension = ".restage";

@@ -74,7 +74,8 @@ Result<> import_child(const std::string& path, const std::string& out, const plu
     };
     RESTAGE_TRY(io::ImportedScene imported, io::import_scene(path, registry, options));
     const std::map<std::string, std::string> note{
-        {"importer", imported.importer}, {"format", imported.scene.format}, {"report", report_text(imported.report)}};
+        {"importer", imported.importer}, {"format", imported.scene.format}, {"report", report_text(imported.report)},
+        {"unexposed", imported.unexposed ? "yes" : "no"}};
     const Base nothing;
     const DataSources none;
     return write_file_atomic(
@@ -122,6 +123,7 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
     };
     imported.importer = noted("importer");
     imported.scene.format = noted("format");
+    imported.unexposed = noted("unexposed") == "yes";
     imported.report = read_report(noted("report"));
     for (const io::ReportEntry& entry : document.report.entries)
         imported.report.entries.push_back(entry);

@@ -117,6 +117,7 @@ void fields(V& v, scene::Camera& c) {
     v("frame_aspect", c.frame_aspect);
     v("projection", c.projection);
     v("origin", c.origin);
+    v("fit_aspect", c.fit_aspect);
 }
 template <class V>
 void fields(V& v, scene::Filter& f) {

@@ -162,16 +162,19 @@ json inline_mesh(const scene::MeshData& mesh) {
     j["positions"] = encode(mesh.positions);
     if (!mesh.normals.empty()) j["normals"] = encode(mesh.normals);
     if (!mesh.uvs.empty()) j["uvs"] = encode(mesh.uvs);
+    if (!mesh.uvs2.empty()) j["uvs2"] = encode(mesh.uvs2);
+    if (!mesh.tangents.empty()) j["tangents"] = encode(mesh.tangents);
     j["triangles"] = encode(mesh.triangles);
     return j;
 }
 
 Result<std::shared_ptr<const scene::MeshData>> read_inline_mesh(const json& j) {
     auto mesh = std::make_shared<scene::MeshData>();
-    const bool good = j.contains("positions") && decode(j["positions"], mesh->positions) && j.contains("triangles") &&
-                      decode(j["triangles"], mesh->triangles) &&
-                      (!j.contains("normals") || decode(j["normals"], mesh->normals)) &&
-                      (!j.contains("uvs") || decode(j["uvs"], mesh->uvs));
+    const bool good =
+        j.contains("positions") && decode(j["positions"], mesh->positions) && j.contains("triangles") &&
+        decode(j["triangles"], mesh->triangles) && (!j.contains("normals") || decode(j["normals"], mesh->normals)) &&
+        (!j.contains("uvs") || decode(j["uvs"], mesh->uvs)) && (!j.contains("uvs2") || decode(j["uvs2"], mesh->uvs2)) &&
+        (!j.contains("tangents") || decode(j["tangents"], mesh->tangents));
     if (!good) return fail("its geometry is damaged");
     scene::compute_bounds(*mesh);
     return mesh;

@@ -216,7 +216,7 @@ class Reader : public ValueReader {
             j.contains("format") && j["format"].is_string() ? j["format"].template get<std::string>() : "";
         auto [at, fresh] = imported_.try_emplace(file);
         if (fresh) {
-            auto scene = read_scene(file, registry_, {.isolate = options_.isolate}, format);
+            auto scene = read_scene(file, registry_, {.isolate = options_.isolate, .expose = false}, format);
             if (scene) {
                 doc_.sources.note_all(scene->scene, file, format);
                 at->second = std::move(scene->scene);

@@ -41,12 +41,22 @@ layout(constant_id = 13) const bool HAS_GLOW = false;        // some lamp is no 
 layout(constant_id = 15) const bool HAS_QUADRICS = false;
 layout(constant_id = 14) const uint CAMERA_KIND = 0u;        // CAMERA_*
 
-// What the shading of a hit takes as uv: the mesh's, or barycentrics where it has none.
-vec2 hit_uv(InstanceData inst, uint prim, vec2 bary) {
-    if ((inst.flags & INSTANCE_HAS_UVS) == 0u) return bary;
-    uvec3 tri = Uvec3Array(inst.indices).at[prim];
-    Vec2Array uvs = Vec2Array(inst.uvs);
+// The second set of uv where the mesh has one, else the first.
+vec2 second_uv(InstanceData inst, uvec3 tri, vec2 bary, vec2 first) {
+    if (inst.uvs2 == 0ul) return first;
+    Vec2Array uvs = Vec2Array(inst.uvs2);
     return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
+}
+
+// What textures take as uv at a hit: the mesh's, or barycentrics where it has none; both sets.
+vec4 hit_uv(InstanceData inst, uint prim, vec2 bary) {
+    uvec3 tri = Uvec3Array(inst.indices).at[prim];
+    vec2 uv = bary;
+    if ((inst.flags & INSTANCE_HAS_UVS) != 0u) {
+        Vec2Array uvs = Vec2Array(inst.uvs);
+        uv = (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
+    }
+    return vec4(uv, second_uv(inst, tri, bary, uv));
 }
 
 #endif

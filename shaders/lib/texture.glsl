@@ -37,11 +37,14 @@ vec4 image_bilinear(ImageData image, vec2 st, uint wrap) {
     return sum;
 }
 
-vec3 texture_eval(SceneData scene, uint texture_id, vec2 uv) {
+// uv: of the first and of the second set.
+vec3 texture_eval(SceneData scene, uint texture_id, vec4 uv) {
     TextureProgram program = TextureArray(scene.textures).at[texture_id];
     vec3 a = vec3(0), b = vec3(0), c = vec3(0); // the stack, top first
     for (uint i = 0; i < program.count; ++i) {
         TextureOp op = TextureOpArray(scene.texture_ops).at[program.first + i];
+        vec2 at = op.set != 0u ? uv.zw : uv.xy;
+        vec2 st = at * op.uv.xy + at.yx * op.shear + op.uv.zw;
         if (op.kind <= OP_IMAGE) {
             c = b;
             b = a;
@@ -49,7 +52,7 @@ vec3 texture_eval(SceneData scene, uint texture_id, vec2 uv) {
                 a = op.value.xyz;
             } else {
                 ImageData image = ImageArray(scene.images).at[op.image];
-                a = image_bilinear(image, uv * op.uv.xy + op.uv.zw, op.wrap).xyz;
+                a = image_bilinear(image, st, op.wrap).xyz;
                 a = (op.invert != 0u ? max(vec3(0), 1.0 - a) : a) * op.value.xyz;
             }
         } else if (op.kind == OP_MULTIPLY) {
@@ -58,13 +61,14 @@ vec3 texture_eval(SceneData scene, uint texture_id, vec2 uv) {
         } else if (op.kind == OP_MIX) {
             a = mix(c, b, a.x);
         } else { // OP_CHECKER
-            vec2 st = floor(uv * op.uv.xy + op.uv.zw);
+            st = floor(st);
             a = mod(st.x + st.y, 2.0) < 0.5 ? b : a;
             b = c;
         }
     }
     return a;
 }
+vec3 texture_eval(SceneData scene, uint texture_id, vec2 uv) { return texture_eval(scene, texture_id, uv.xyxy); }
 
 // The share of rays that a point of a surface stops.
 float hit_alpha(SceneData scene, InstanceData inst, uint prim, vec2 bary) {

@@ -13,8 +13,8 @@ struct Surface {
     vec3 p;
     vec3 ng;      // unit, geometric, the outside
     vec3 ns;      // unit, shading
-    vec3 ss, ts;  // with ns an orthonormal, right-handed frame
-    vec2 uv;
+    vec3 ss, ts;  // with ns an orthonormal frame; right-handed but where tangents of the mesh say that uv are mirrored
+    vec4 uv;      // both sets
     float offset; // along ng, that a leaving ray needs
 };
 
@@ -46,8 +46,8 @@ void set_frame(inout Surface s, vec3 dpdu) {
 void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Surface s) {
     const float h = 0.0005; // in uv, as pbrt without ray differentials
     float d = texture_eval(scene, texture_id, s.uv).x;
-    float du = (texture_eval(scene, texture_id, s.uv + vec2(h, 0)).x - d) / h;
-    float dv = (texture_eval(scene, texture_id, s.uv + vec2(0, h)).x - d) / h;
+    float du = (texture_eval(scene, texture_id, s.uv + vec4(h, 0, h, 0)).x - d) / h;
+    float dv = (texture_eval(scene, texture_id, s.uv + vec4(0, h, 0, h)).x - d) / h;
     vec3 n = s.ns;
     vec3 a = dpdu + du * n, b = dpdv + dv * n;
     vec3 m = cross(a, b);
@@ -58,12 +58,14 @@ void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Su
     set_frame(s, a);
 }
 
-void apply_normal_map(SceneData scene, uint texture_id, vec3 dpdu, inout Surface s) {
+// The normal in the frame of the tangent; `side` is -1 where its y goes against cross(normal, tangent).
+void apply_normal_map(SceneData scene, uint texture_id, vec3 tangent, float side, inout Surface s) {
     vec3 m = 2.0 * texture_eval(scene, texture_id, s.uv) - 1.0;
     if (is_nan(dot(m, m)) || dot(m, m) <= 1e-6) return;
-    set_frame(s, dpdu);
+    set_frame(s, tangent);
+    s.ts *= side;
     s.ns = normalize(to_world(s, normalize(m)));
-    set_frame(s, dpdu);
+    set_frame(s, tangent);
 }
 
 // Turns the shading normal just enough for wo to lie on the same side of it as of the geometry, so that light neither
@@ -136,15 +138,17 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon
                                        : ray_offset(p0, e1, e2, p, s.p, inst.object_to_world, inst.normal_to_world, ng);
 
-    s.uv = bary;
+    vec2 uv = bary;
     vec2 duv1 = vec2(1, 0), duv2 = vec2(0, 1);
     if ((HAS_TEXTURES || HAS_TANGENTS) && (inst.flags & INSTANCE_HAS_UVS) != 0u) {
         Vec2Array uvs = Vec2Array(inst.uvs);
         vec2 uv0 = uvs.at[tri.x];
         duv1 = uvs.at[tri.y] - uv0;
         duv2 = uvs.at[tri.z] - uv0;
-        s.uv = uv0 + bary.x * duv1 + bary.y * duv2;
+        uv = uv0 + bary.x * duv1 + bary.y * duv2;
     }
+    s.uv = vec4(uv, HAS_TEXTURES ? second_uv(inst, tri, bary, uv) : uv);
+    float side = 1.0;
     if (HAS_TANGENTS) { // pbrt 4ed, 6.5.3: solve for dp/du, dp/dv
         mat3 lin = mat3(inst.object_to_world[0], inst.object_to_world[1], inst.object_to_world[2]);
         vec2 products = vec2(duv1.x * duv2.y, duv1.y * duv2.x);
@@ -156,13 +160,25 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
         } else {
             orthonormal_basis(s.ns, dpdu, dpdv);
         }
-        set_frame(s, dpdu);
+        vec3 tangent = dpdu;
+        if (inst.tangents != 0ul) { // glTF 2.0, 3.7.2.1; a mirrored object mirrors its bitangents, too
+            Vec4Array tangents = Vec4Array(inst.tangents);
+            vec4 t = (1.0 - bary.x - bary.y) * tangents.at[tri.x] + bary.x * tangents.at[tri.y] + bary.y * tangents.at[tri.z];
+            if (dot(t.xyz, t.xyz) > 0.0) {
+                tangent = lin * t.xyz;
+                bool mirrored = dot(cross(lin[0], lin[1]), lin[2]) < 0.0;
+                bool turned = (inst.flags & INSTANCE_FLIP_NORMAL) != 0u;
+                side = (t.w < 0.0) != (mirrored != turned) ? -1.0 : 1.0;
+            }
+        }
+        set_frame(s, tangent);
         if (HAS_BUMP && material.bump != 0u) apply_bump(scene, material.bump, dpdu, dpdv, s);
-        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, dpdu, s);
+        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, tangent, side, s);
     } else {
         orthonormal_basis(s.ns, s.ss, s.ts);
     }
     adapt_shading_normal(wo, s);
+    s.ts *= side;
     return s;
 }
 

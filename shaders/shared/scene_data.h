@@ -57,7 +57,7 @@ RESTAGE_CONSTANTS_END
 
 RESTAGE_SHARED_BEGIN
 
-struct InstanceData { // 168 bytes
+struct InstanceData { // 184 bytes
     mat4x3 object_to_world;
     mat3 normal_to_world; // inverse transpose of the linear part, no sign changes
     vec3 emission;        // radiance; times emission_texture
@@ -74,6 +74,8 @@ struct InstanceData { // 168 bytes
     uint object_id;          // Id<Instance>
     uint emission_texture;   // 0 = none
     uint pad0;
+    address tangents;        // vec4[] or 0; w: sign of the bitangent
+    address uvs2;            // vec2[] or 0: the second set
 };
 
 struct QuadricData { // 40 bytes; scene/quadric.hpp
@@ -99,13 +101,16 @@ struct MaterialData { // 32 bytes
 };
 
 // A texture is a short postfix program over uv.
-struct TextureOp { // 48 bytes
+struct TextureOp { // 64 bytes
     uint kind;
     uint image;
     uint wrap;
     uint invert; // OP_IMAGE: 1 - texel before `value` multiplies
     vec4 uv; // scale.xy, offset.xy
     vec4 value; // OP_CONSTANT: rgb; OP_IMAGE: factor
+    vec2 shear; // v into s, u into t
+    uint set; // 1: of the second set of uv
+    uint pad0;
 };
 struct TextureProgram { // index = texture; 0 is none
     uint first, count;

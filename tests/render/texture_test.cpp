@@ -13,7 +13,7 @@ using namespace restage::tests;
 namespace {
 
 struct Ask {
-    glm::vec2 uv;
+    glm::vec4 uv; // both sets
     std::uint32_t texture;
 };
 
@@ -38,7 +38,7 @@ class Textures {
         };
         render::GpuScene scene(lab().device(), jobs, lookup);
         if (auto ok = scene.sync(b.scene); !ok) FAIL(ok.error().message);
-        return lab().run<glm::vec3, Ask>("#include \"lib/texture.glsl\"\nstruct Ask { vec2 uv; uint id; };", "Ask",
+        return lab().run<glm::vec3, Ask>("#include \"lib/texture.glsl\"\nstruct Ask { vec4 uv; uint id; };", "Ask",
                                          "vec3", "result = texture_eval(SceneRef(root).scene, x.id, x.uv);", asks,
                                          scene.address());
     }
@@ -74,6 +74,9 @@ TEST_CASE("textures: shader and CPU agree on random graphs") {
         p.set("vscale", scene::Value::number(6 * unit() - 3));
         p.set("udelta", scene::Value::number(4 * unit() - 2));
         p.set("vdelta", scene::Value::number(4 * unit() - 2));
+        if (random() % 3 == 0) p.set("ushear", scene::Value::number(4 * unit() - 2));
+        if (random() % 3 == 0) p.set("vshear", scene::Value::number(4 * unit() - 2));
+        if (random() % 3 == 0) p.set("uvset", scene::Value::integer(1));
         return p;
     };
     const auto color = [&] {
@@ -114,7 +117,7 @@ TEST_CASE("textures: shader and CPU agree on random graphs") {
     std::vector<Ask> asks;
     for (const auto id : all)
         for (int k = 0; k < 60; ++k)
-            asks.push_back({{5 * unit() - 2.5f, 5 * unit() - 2.5f}, id.value});
+            asks.push_back({{5 * unit() - 2.5f, 5 * unit() - 2.5f, 5 * unit() - 2.5f, 5 * unit() - 2.5f}, id.value});
     const auto gpu = t.shade(asks), cpu = t.evaluate(asks);
     std::size_t wrong = 0, varied = 0;
     for (std::size_t i = 0; i < asks.size(); ++i) {
@@ -157,19 +160,19 @@ TEST_CASE("textures: pbrt's conventions") {
             const glm::vec2 uv((float(x) + 0.5f) / float(w), 1 - (float(y) + 0.5f) / float(h));
             const bool inside = x >= 0 && x < 4 && y >= 0 && y < 3;
             const auto at = [&](int a, int b) { return values[std::size_t(b) * w + std::size_t(a)]; };
-            asks.push_back({uv, repeat});
+            asks.push_back({glm::vec4(uv, uv), repeat});
             expected.push_back(at((x + 4) % 4, (y + 3) % 3));
-            asks.push_back({uv, black});
+            asks.push_back({glm::vec4(uv, uv), black});
             expected.push_back(inside ? at(x, y) : 0);
-            asks.push_back({uv, clamp});
+            asks.push_back({glm::vec4(uv, uv), clamp});
             expected.push_back(at(std::clamp(x, 0, 3), std::clamp(y, 0, 2)));
         }
     for (const auto& [u, v, value] :
          {std::tuple{0.1f, 0.1f, 1.f}, {0.6f, 0.1f, 2.f}, {0.6f, 0.6f, 1.f}, {-0.1f, 0.1f, 2.f}, {-0.1f, -0.1f, 1.f}}) {
-        asks.push_back({{u, v}, checks});
+        asks.push_back({{u, v, u, v}, checks});
         expected.push_back(value);
     }
-    asks.push_back({{0.5f, 1 - 0.5f / 3}, repeat}); // half way between two texels
+    asks.push_back({{0.5f, 1 - 0.5f / 3, 0, 0}, repeat}); // half way between two texels
     expected.push_back(1.5f);
     const auto gpu = t.shade(asks), cpu = t.evaluate(asks);
     for (std::size_t i = 0; i < asks.size(); ++i) {

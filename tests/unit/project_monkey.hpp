@@ -187,9 +187,13 @@ class Monkey {
         for (int i = 0; i < 4; ++i) {
             data->positions.push_back(vec());
             data->uvs.push_back({x(), x()});
+            data->uvs2.push_back({x(), x()});
+            data->tangents.push_back({x(), x(), x(), pick(2) ? 1 : -1});
         }
         if (pick(2)) data->normals.assign(4, {0, 0, 1});
         if (pick(2)) data->uvs.clear();
+        if (pick(2)) data->uvs2.clear();
+        if (pick(2)) data->tangents.clear();
         data->triangles = {{0, 1, 2}, {0, 2, 3}};
         compute_bounds(*data);
         return data;
@@ -279,6 +283,7 @@ class Monkey {
         c.focal_distance = x();
         c.frame_aspect = x();
         c.projection = static_cast<RestageProjection>(pick(4));
+        c.fit_aspect = pick(2) ? x() : 0;
         c.origin = origin();
     }
 

@@ -5,6 +5,7 @@
 
 #include "io/material_emission.hpp"
 #include "param_widget.hpp"
+#include "session/exposure.hpp"
 #include "session/sky.hpp"
 #include "state.hpp"
 #include "theme.hpp"
@@ -86,14 +87,12 @@ void image_row(Editor& e, const Environment& sky) {
 
 } // namespace
 
-bool has_light(const Editor& e) {
-    const scene::Scene& s = e.scene();
-    if (s.environment.value || s.lights.live() > 0) return true;
-    const io::MaterialEmissions emissions(e.registry(), s);
-    bool found = false;
-    s.instances.each(
-        [&](InstanceId, const scene::Instance& i) { found = found || (!i.hidden && emissions.shines(i)); });
-    return found;
+bool has_light(const Editor& e) { return session::has_light(e.scene(), e.registry()); }
+
+void light_with_studio(Editor& e) {
+    e.edit([&registry = e.registry()](const scene::Scene& s) {
+        return Result<scene::Edit>(session::light_studio(s, registry));
+    });
 }
 
 void use_as_sky(Editor& e, const std::string& file) {
@@ -119,8 +118,8 @@ void sky_section(Editor& e) {
     if (!has_light(e)) {
         warning_note("Nothing shines in this scene, so its picture is black.");
         if (ImGui::Button("Light it with a neutral studio"))
-            e.edit([up = e.up()](const scene::Scene& s) { return Result<scene::Edit>(session::studio_sky(s, up)); });
-        tip("Soft grey light from all around");
+            light_with_studio(e);
+        tip("Soft grey light from all around; in a closed room a lamp at the camera as well");
         e.mark("sky.studio");
     }
     const auto& now = e.scene().environment.value;

@@ -35,6 +35,11 @@ typedef struct RestageMesh {
     const uint32_t* indices;  /* 3 a triangle, < vertex_count */
     const char* source_file;  /* the PLY/OBJ it was read from, absolute, or "": an exporter may refer to it */
     const char* primitive;    /* "", or the shape this tessellates, as a pbrt line: `sphere "float radius" 1` */
+    /* 4 a vertex, or NULL: along u, then the sign (1 or -1) of the bitangent, sign * cross(normal, tangent), which
+     * normal maps call y (glTF 2.0, 3.7.2.1). Without them it is cross(normal, dp/du), as in pbrt, also where uv are
+     * mirrored. */
+    const float* tangents;
+    const float* uvs2; /* 2 a vertex, or NULL: a second set, for textures with `uvset` 1 */
 } RestageMesh;
 
 typedef enum RestageEncoding { RESTAGE_LINEAR = 0, RESTAGE_SRGB = 1, RESTAGE_GAMMA = 2 } RestageEncoding;
@@ -52,8 +57,9 @@ typedef struct RestageImage { /* an image file, read by the host; or pixels, whe
  *   imagemap      image by RestageTexture.image; scale (FLOAT, default 1), invert (BOOL), wrap (ENUM
  * repeat|black|clamp) scale         tex (COLOR, texturable), scale (COLOR, texturable)              tex * scale mix
  * tex1, tex2 (COLOR, texturable), amount (FLOAT, texturable)      lerp checkerboard  tex1, tex2 (COLOR, texturable); on
- * uv All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping. Other types are kept,
- * written back, and shade as their `average` (COLOR). */
+ * uv All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping; ushear, vshear (FLOAT) add
+ * v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it has one. Other types are
+ * kept, written back, and shade as their `average` (COLOR). */
 typedef struct RestageTexture {
     RestageText text;
     const char* type;
@@ -152,6 +158,10 @@ typedef struct RestageCamera {
     float lens_radius, focal_distance;
     float frame_aspect; /* 0 = width/height */
     uint32_t projection; /* RestageProjection */
+    /* > 0: `fov` is of the shorter side of a frame of this aspect (width/height), all of which is seen whatever the
+     * aspect of the picture; 0 = of the picture's own shorter side. Of no effect beside a screen_window or
+     * frame_aspect. To exporters it is 0, and `fov` the one that the picture's aspect comes to. */
+    float fit_aspect;
 } RestageCamera;
 
 typedef struct RestageFilm {
@@ -162,6 +172,7 @@ typedef struct RestageFilm {
     float filter_params[2]; /* gaussian: sigma | mitchell: B C | sinc: tau */
     float exposure; /* linear factor on the film (pbrt-v4 sensor), 1 = none */
     const char* filename; /* what the scene file asked for, "" = none */
+    uint32_t unexposed; /* to the host: 1 = the file gives light in units of its own and no exposure; one is metered */
 } RestageFilm;
 
 typedef struct RestageSettings {

@@ -138,6 +138,7 @@ class Exporter {
     std::map<RestageHandle, unsigned> mesh_uses_; // Shape lines that will name it
     std::map<RestageHandle, std::string> group_names_;
     std::set<RestageHandle> written_groups_;
+    std::set<RestageHandle> told_mirrored_; // meshes with mirrored normal maps
     std::map<RestageHandle, std::vector<RestageHandle>> members_; // by group
     std::map<RestageHandle, std::string> object_of_; // by group: the object it is an instance of
     std::map<std::string, std::vector<RestageHandle>> objects_; // members, of the first group

@@ -137,6 +137,8 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
             v.ref("sheen_color") ? average(v.ref("sheen_color")) : v.color("sheen_color", {0.f, 0.f, 0.f});
         if (const float most = std::max({sheen[0], sheen[1], sheen[2]}); most > 0)
             p.add_float("sheen", most).add_float("sheentint", 0.f);
+        if (v.ref("emission_color"))
+            approximated(what, "pbrt's area lights have one colour; the mean of its emission's texture is written");
         if (v.ref("iridescence") || v.number("iridescence", 0) > 0)
             dropped(what, "pbrt has no thin films: its iridescence is lost");
         flag(p, "thin", v.boolean("thin", false));

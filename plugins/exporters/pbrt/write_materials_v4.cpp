@@ -97,6 +97,8 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
             p.add_float("roughness", alpha);
         if (v.ref("sheen_color") || v.color("sheen_color", {0, 0, 0}) != std::array{0.f, 0.f, 0.f})
             dropped(what, "pbrt-v4 has no sheen");
+        if (v.ref("emission_color"))
+            approximated(what, "pbrt's area lights have one colour; the mean of its emission's texture is written");
         if (mean("iridescence", 0) > 0) dropped(what, "pbrt has no thin films: its iridescence is lost");
         flag(p, "remaproughness", false);
         return metallic ? "conductor" : glass ? "dielectric" : "coateddiffuse";

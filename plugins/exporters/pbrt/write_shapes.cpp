@@ -334,6 +334,16 @@ std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const Resta
         out.push_back(finish(type, params));
     }
     if (!out.empty()) return out;
+    if (mesh.tangents && told_mirrored_.insert(handle).second) {
+        std::size_t mirrored = 0;
+        for (std::uint32_t t = 0; t < mesh.triangle_count; ++t)
+            mirrored += mesh.tangents[4 * std::size_t{mesh.indices[3 * std::size_t{t}]} + 3] < 0;
+        if (mirrored > 0)
+            approximated(std::string("mesh \"") + mesh.text.name + "\"",
+                         "texture coordinates of " + std::to_string(mirrored) + " of its " +
+                             std::to_string(mesh.triangle_count) +
+                             " triangles are mirrored; pbrt turns a normal map's y over there, as it has no tangents");
+    }
     Params params;
     std::string type = "plymesh";
     if (mesh.triangle_count <= most_inline_triangles && mesh_uses_[handle] <= 1) {

@@ -204,6 +204,10 @@ std::string Exporter::texture(RestageHandle handle) {
         for (const auto& [id, otherwise] :
              {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
             if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
+    if (mapped && (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0))
+        approximated(what, "it is turned on the surface, and pbrt's mapping only scales and shifts; the turn is left out");
+    if (mapped && values.number("uvset", 0) == 1)
+        approximated(what, "it lies on the second texture coordinates of its meshes, and pbrt's have one; it lies on those");
     for (const std::string& line : k.lines)
         params.add_raw(line);
     comment(k.foreign);

@@ -14,6 +14,7 @@ namespace restage::importing {
 struct MeshBuffer {
     std::vector<float> positions, normals, uvs; // 3, 3, 2 a vertex; normals and uvs may be empty
     std::vector<std::uint32_t> indices;         // 3 a triangle
+    std::vector<float> tangents{}, uvs2{};      // 4 and 2 a vertex, or empty; see RestageMesh
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
@@ -33,7 +34,9 @@ struct MeshBuffer {
                                   .uvs = uvs.empty() ? nullptr : uvs.data(),
                                   .indices = indices.data(),
                                   .source_file = source_file.c_str(),
-                                  .primitive = ""};
+                                  .primitive = "",
+                                  .tangents = tangents.empty() ? nullptr : tangents.data(),
+                                  .uvs2 = uvs2.empty() ? nullptr : uvs2.data()};
         return out.mesh(out.ctx, &mesh);
     }
 };

@@ -52,7 +52,7 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
     const Vec3 center = bounds.empty() ? Vec3{0, 0, 0} : bounds.center();
     const Vec3 from = transform_vector(stage, normalized({0.45, 0.35, 1}));
     const Matrix view = look_at(center + from, center, stage.column(1));
-    // The nearest place from which every corner is seen: |x| <= tan(fov / 2) aspect (distance - z), the same for y.
+    // The nearest place from which every corner is seen at 16:9: |x| <= tan(fov / 2) aspect (distance - z), y alike.
     const double tan_y = std::tan(fov / 2 * std::numbers::pi / 180), tan_x = tan_y * 16 / 9;
     double distance = std::max(bounds.radius(), 1e-6);
     for (std::size_t i = 0; i < 8 && !bounds.empty(); ++i) {
@@ -63,20 +63,32 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
     }
     distance *= 1.08;
     const Matrix placed = look_at(center + from * distance, center, stage.column(1));
+    // The frame is what the corners fill from there, so that a picture of any other aspect shows them all, too.
+    double half_x = 0, half_y = 0;
+    for (std::size_t i = 0; i < 8 && !bounds.empty(); ++i) {
+        const Vec3 corner = bounds.corner(i) - center;
+        const double depth = std::max(distance - dot(corner, from), 1e-9);
+        half_x = std::max(half_x, std::abs(dot(corner, view.column(0))) / depth);
+        half_y = std::max(half_y, std::abs(dot(corner, view.column(1))) / depth);
+    }
+    const double filled = std::max(half_x / tan_x, half_y / tan_y); // the rest is margin
+    half_x = filled > 0 ? std::max(half_x / filled, 0.01 * tan_x) : tan_x;
+    half_y = filled > 0 ? std::max(half_y / filled, 0.01 * tan_y) : tan_y;
     RestageCamera camera{.text = {"camera", "", ""},
                          .camera_to_world = {},
-                         .fov = static_cast<float>(fov),
+                         .fov = static_cast<float>(2 * std::atan(std::min(half_x, half_y)) * 180 / std::numbers::pi),
                          .screen_window = {},
                          .lens_radius = 0,
                          .focal_distance = static_cast<float>(distance),
                          .frame_aspect = 0,
-                         .projection = RESTAGE_PERSPECTIVE};
+                         .projection = RESTAGE_PERSPECTIVE,
+                         .fit_aspect = static_cast<float>(half_x / half_y)};
     std::copy(placed.m.begin(), placed.m.end(), camera.camera_to_world);
     out.camera(out.ctx, &camera);
     report.kept("camera", "the file has none; one that shows everything is added");
 }
 
-void add_film(const RestageSceneWriter1& out, double aspect) {
+void add_film(const RestageSceneWriter1& out, double aspect, bool unexposed) {
     aspect = std::clamp(std::isfinite(aspect) && aspect > 0 ? aspect : 16.0 / 9, 0.1, 10.0);
     const double height = std::sqrt(film_area / aspect);
     const RestageFilm film = {.width = static_cast<std::uint32_t>(std::lround(height * aspect)),
@@ -86,7 +98,8 @@ void add_film(const RestageSceneWriter1& out, double aspect) {
                               .filter_radius = {1.5f, 1.5f},
                               .filter_params = {0.5f, 0},
                               .exposure = 1,
-                              .filename = ""};
+                              .filename = "",
+                              .unexposed = unexposed};
     out.film(out.ctx, &film);
 }
 

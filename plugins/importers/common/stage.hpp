@@ -15,10 +15,11 @@ enum class Up { y, z };
 // Mirrored, therefore.
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up);
 
-// A camera in front of `bounds`, a little from above and from the right, with the whole of it in a picture of 16:9.
+// A camera in front of `bounds`, a little from above and from the right, with the whole of it in a picture of any aspect.
+// In one of 16:9 its field of view is 40 degrees.
 void add_camera(const RestageSceneWriter1&, Report&, const Bounds& bounds, Up);
-// A picture of 1280 x 720 pixels, or of another aspect and that area.
-void add_film(const RestageSceneWriter1&, double aspect = 16.0 / 9);
+// A picture of 1280 x 720 pixels, or of another aspect and that area. See RestageFilm::unexposed.
+void add_film(const RestageSceneWriter1&, double aspect = 16.0 / 9, bool unexposed = false);
 // Grey walls, a brighter ceiling, a large soft light from the upper left in front, a weaker one behind.
 void add_studio(const RestageSceneWriter1&, Report&, Up);
 

@@ -44,6 +44,9 @@ RestageHandle add_imagemap(const RestageSceneWriter1& out, const std::string& na
     if (mapping.scale_v != 1) values.number("vscale", mapping.scale_v);
     if (mapping.offset_u != 0) values.number("udelta", mapping.offset_u);
     if (mapping.offset_v != 0) values.number("vdelta", mapping.offset_v);
+    if (mapping.shear_u != 0) values.number("ushear", mapping.shear_u);
+    if (mapping.shear_v != 0) values.number("vshear", mapping.shear_v);
+    if (mapping.set != 0) values.integer("uvset", mapping.set);
     if (std::string_view(mapping.wrap) != "repeat") values.choice("wrap", mapping.wrap);
     if (factor != 1) values.number("scale", factor);
     if (invert) values.boolean("invert", true);
@@ -54,6 +57,22 @@ RestageHandle add_imagemap(const RestageSceneWriter1& out, const std::string& na
                                     .values = values.data(),
                                     .value_count = values.size()};
     return image ? out.texture(out.ctx, &texture) : 0;
+}
+
+RestageHandle add_product(const RestageSceneWriter1& out, const std::string& name, RestageHandle a, RestageHandle b,
+                          bool is_float) {
+    if (!a || !b) return a ? a : b;
+    const RestageType type = is_float ? RESTAGE_FLOAT : RESTAGE_COLOR;
+    Values values;
+    values.texture("tex", type, a);
+    values.texture("scale", type, b);
+    const RestageTexture product = {.text = {name.c_str(), "", ""},
+                                    .type = "scale",
+                                    .is_float = is_float,
+                                    .image = 0,
+                                    .values = values.data(),
+                                    .value_count = values.size()};
+    return out.texture(out.ctx, &product);
 }
 
 RestageHandle add_scaled(const RestageSceneWriter1& out, const std::string& name, RestageHandle texture, bool is_float,

@@ -10,9 +10,11 @@
 
 namespace restage::importing {
 
-struct Mapping { // st = uv * scale + offset
+struct Mapping { // st = uv * scale + vu * shear + offset
     double scale_u = 1, scale_v = 1, offset_u = 0, offset_v = 0;
     const char* wrap = "repeat"; // repeat | black | clamp
+    double shear_u = 0, shear_v = 0; // v into s, u into t
+    int set = 0; // of the mesh: 0 or 1
 };
 
 // An image file for the host to read. A missing one stays in the scene, and in the report.
@@ -24,6 +26,9 @@ RestageHandle add_pixels(const RestageSceneWriter1&, const std::string& name, st
 
 RestageHandle add_imagemap(const RestageSceneWriter1&, const std::string& name, RestageHandle image, bool is_float,
                            const Mapping&, double factor = 1, bool invert = false);
+// texture * texture.
+RestageHandle add_product(const RestageSceneWriter1&, const std::string& name, RestageHandle, RestageHandle,
+                          bool is_float);
 // texture * factor; the texture itself where that is white.
 RestageHandle add_scaled(const RestageSceneWriter1&, const std::string& name, RestageHandle texture, bool is_float,
                          const Rgb& factor);

@@ -7,6 +7,7 @@
 #include "common/textures.hpp"
 #include "model.hpp"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,10 +19,7 @@ namespace restage::gltf {
 // KHR_texture_transform as an affine map of (u, v), v downwards as glTF has it.
 struct UvTransform {
     double a = 1, b = 0, c = 0, d = 1, x = 0, y = 0; // u' = a u + b v + x, v' = c u + d v + y
-    bool diagonal() const { return b == 0 && c == 0; }
-    bool operator==(const UvTransform&) const = default;
 };
-UvTransform relative(const UvTransform& t, const UvTransform& base); // t * base^-1
 
 struct TextureUse { // a textureInfo, wherever in the file it stands
     int index = -1, set = 0;
@@ -30,29 +28,30 @@ struct TextureUse { // a textureInfo, wherever in the file it stands
     explicit operator bool() const { return index >= 0; }
 };
 
-// What a mesh must know of its material: one uv set reaches the renderer, and no rotation of it.
-struct UvPlan {
-    int set = 0;
-    UvTransform baked; // into the vertices; textures have the rest
-    bool operator==(const UvPlan&) const = default;
-    auto key() const { return std::tuple(set, baked.a, baked.b, baked.c, baked.d, baked.x, baked.y); }
+// Which TEXCOORD_n become the two sets a mesh has; -1: none.
+struct UvSets {
+    std::array<int, 2> texcoord{-1, -1};
+    int find(int set) const { return set == texcoord[0] ? 0 : set == texcoord[1] ? 1 : -1; }
 };
 
-// What vertex colours do to a material.
+// What vertex colours do to a material: the same everywhere, or pictures made of them (Importer::vertex_color).
 struct VertexColor {
     Rgb factor{1, 1, 1};
-    RestageHandle image = 0; // a picture made of them, see bake_colors in meshes.cpp
-    bool plain() const { return image == 0 && factor == Rgb{1, 1, 1}; }
+    double alpha = 1;
+    RestageHandle image = 0, alpha_image = 0;
+    int set = 0; // of the mesh, on which these pictures lie
+    auto key() const { return std::tuple(factor, alpha, image, alpha_image, set); }
 };
 
 struct MadeMaterial { // a material, and what of it the scene says of an instance
     std::string name;
     RestageHandle material = 0, alpha_texture = 0, interior = 0;
     float alpha = 1;
-    bool has_interior = false, two_sided = false, normal_mapped = false;
-    Rgb emission{};              // of all of it, or
-    TextureUse emission_texture; // times this
-    UvPlan uv;
+    bool has_interior = false, two_sided = false;
+    bool needs_tangents = false;
+    TextureUse normal; // the normal map, where there is one
+    Rgb emission{}; // of the instances; where a picture shines it is the material's
+    UvSets uv;
 };
 
 class Importer {
@@ -68,8 +67,9 @@ class Importer {
     void progress(float done, const char* what) const;
 
     // nodes.cpp
-    int choose_scene();
-    void find_transforms(int node, const Matrix& parent, int depth);
+    std::vector<int> choose_roots();
+    std::string scene_name(int scene) const;
+    void find_transforms(int node, const Matrix& parent, bool hidden, int depth);
     bool shows_something(int node) const;
     void node(int node, RestageHandle group);
     void mesh_node(int node, RestageHandle group, const std::string& name);
@@ -84,27 +84,42 @@ class Importer {
     struct Piece { // what becomes an instance
         RestageHandle mesh = 0;
         Bounds bounds;
-        Rgb emission{};
         const MadeMaterial* material = nullptr;
     };
-    std::vector<Piece> primitive(int mesh, std::size_t primitive, int node);
+    std::optional<Piece> primitive(int mesh, std::size_t primitive, int node);
     std::optional<MeshBuffer> read_primitive(const tinygltf::Primitive&, const std::string& who, int node, int mesh,
-                                             const UvPlan&, std::vector<float>& colors);
+                                             const UvSets&, std::vector<float>& colors);
+    std::vector<float> read_uvs(const tinygltf::Primitive&, const std::string& who, int set, std::size_t vertices);
     void morph(const tinygltf::Primitive&, const std::string& who, int node, int mesh, MeshBuffer&);
     void pose(const tinygltf::Primitive&, const std::string& who, int node, MeshBuffer&);
     VertexColor vertex_color(const tinygltf::Primitive&, const std::string& who, const std::vector<float>& colors,
-                             MeshBuffer&);
-    std::vector<Piece> by_emission(MeshBuffer, const MadeMaterial&, const std::string& name);
+                             const UvSets&, MeshBuffer&);
+    RestageHandle color_picture(const std::string& name, const std::vector<float>& colors, bool alpha,
+                                const MeshBuffer&);
+    void tangents(const tinygltf::Primitive&, const std::string& who, const MadeMaterial&, MeshBuffer&);
 
     // materials.cpp, material_extensions.cpp
-    UvPlan uv_plan(int material);
+    std::vector<TextureUse> texture_uses(const tinygltf::Material&) const;
+    UvSets uv_sets(int material) const;
     const MadeMaterial& material(int index, const VertexColor&);
     MadeMaterial make_material(int index, const VertexColor&);
-    void put_color(Values&, const char* id, Rgb factor, const TextureUse&, const MadeMaterial&);
+    RestageHandle color_texture(const char* id, const Rgb& factor, const TextureUse&, const MadeMaterial&);
+    void put_color(Values&, const char* id, Rgb factor, const TextureUse&, const MadeMaterial&, double most = 1);
     void put_scalar(Values&, const char* id, double factor, const TextureUse&, unsigned channel, const MadeMaterial&);
-    void base_color(const tinygltf::Material&, const VertexColor&, MadeMaterial&, Values&);
-    void alpha(const tinygltf::Material&, const TextureUse&, double factor, MadeMaterial&);
-    void extensions(const tinygltf::Material&, MadeMaterial&, Values&);
+    struct BaseColor {
+        Rgb factor{1, 1, 1};
+        double alpha = 1;
+        TextureUse use;
+        bool metal = false; // of specular-glossiness: no diffuse colour, so it is a metal of the specular one
+    };
+    BaseColor base_color(const tinygltf::Material&) const;
+    void put_base(Values&, const char* id, const BaseColor&, const VertexColor&, const MadeMaterial&);
+    void alpha(const tinygltf::Material&, const BaseColor&, const VertexColor&, MadeMaterial&);
+    void emission(const tinygltf::Material&, MadeMaterial&, Values&);
+    void unlit(const BaseColor&, const VertexColor&, MadeMaterial&, Values&, const char*& type);
+    void glossiness(const tinygltf::Value&, bool metal, MadeMaterial&, Values&);
+    void clear_coat(const tinygltf::Material&, const tinygltf::Value&, MadeMaterial&, Values&);
+    void extensions(const tinygltf::Material&, const BaseColor&, MadeMaterial&, Values&);
     void volume(const tinygltf::Value&, const std::string& name, MadeMaterial&, Values&);
     void anisotropy(const tinygltf::Value&, const std::string& what, MadeMaterial&, Values&);
     void iridescence(const tinygltf::Value&, MadeMaterial&, Values&);
@@ -118,10 +133,11 @@ class Importer {
     TextureUse make_use(int index, int set, const tinygltf::ExtensionMap&, const char* slot) const;
     int image_of(const TextureUse&);
     const Picture* picture(int image); // decoded; null: reported
-    enum class Purpose { srgb, linear, red, green, blue, alpha, mask, normal };
-    RestageHandle texture(const TextureUse&, Purpose, const UvPlan&, const std::string& material, double number = 1);
+    enum class Purpose { srgb, linear, red, green, blue, alpha, mask, normal, gloss };
+    RestageHandle texture(const TextureUse&, Purpose, const UvSets&, const std::string& material, double number = 1);
     RestageHandle image(int image, Purpose, double number, bool mirror_u, bool mirror_v);
-    Mapping mapping(const TextureUse&, const UvPlan&, bool& mirror_u, bool& mirror_v, const std::string& material);
+    Mapping mapping(const TextureUse&, const UvSets&, bool& mirror_u, bool& mirror_v, const std::string& material);
+    std::filesystem::path locate(const std::string& uri) const { return find_named(path_.parent_path(), uri); }
 
     const RestageSceneWriter1& out_;
     const std::filesystem::path path_;
@@ -129,13 +145,15 @@ class Importer {
     Report report_;
     std::vector<Matrix> world_;     // of each node
     std::vector<int> visits_;       // of each node: 0 = not in the scene
-    std::map<std::tuple<int, RestageHandle, Rgb>, MadeMaterial> materials_;
-    std::map<std::pair<int, std::size_t>, std::vector<Piece>> pieces_;
+    std::vector<char> hidden_;      // of each node: KHR_node_visibility, its own or that of one above
+    std::map<std::tuple<int, decltype(VertexColor().key())>, MadeMaterial> materials_;
+    std::map<std::pair<int, std::size_t>, std::optional<Piece>> pieces_;
     std::map<int, std::optional<Picture>> pictures_;
     std::map<std::tuple<int, int, double, bool, bool>, RestageHandle> images_;
-    Bounds bounds_;
-    std::size_t cameras_ = 0, lights_ = 0;
+    Bounds bounds_, hidden_bounds_;
+    std::size_t cameras_ = 0, lights_ = 0, hidden_lights_ = 0, hidden_objects_ = 0;
     std::size_t objects_ = 0, emitters_ = 0, nodes_done_ = 0;
+    double aspect_ = 16.0 / 9; // of the picture
 };
 
 // Members of an extension's object.

@@ -64,9 +64,10 @@ void Importer::camera(int index) {
     const double fov = aspect >= 1 ? yfov : 2 * std::atan(std::tan(yfov / 2) * aspect);
     camera.fov = static_cast<float>(fov * degrees);
     camera.focal_distance = static_cast<float>(away);
+    camera.fit_aspect = static_cast<float>(aspect); // what the file frames is seen in any picture
     std::copy(placed.m.begin(), placed.m.end(), camera.camera_to_world);
     if (!out_.camera(out_.ctx, &camera)) return;
-    if (cameras_++ == 0) add_film(out_, aspect);
+    if (cameras_++ == 0) aspect_ = aspect;
 }
 
 void Importer::light(int index, int light_index) {
@@ -90,6 +91,11 @@ void Importer::light(int index, int light_index) {
         report_.approximated(what, "its edge falls off as a smooth step of the cosine");
     } else if (in.type != "point") {
         report_.dropped(what, "a light of the unknown type " + quote(in.type));
+        return;
+    }
+    if (hidden_[static_cast<std::size_t>(index)]) {
+        report_.dropped(what, "its node is not visible, and lights cannot be hidden here");
+        ++hidden_lights_;
         return;
     }
     if (in.range > 0) report_.dropped(what + ": range", "light reaches as far as it does");

@@ -17,19 +17,28 @@ void Importer::progress(float done, const char* what) const {
     if (!out_.progress(out_.ctx, std::min(done, 1.f), what)) throw Cancelled{};
 }
 
-// What a file requires and we lack; what it merely uses is reported where it is met.
+// What a file requires and is not known here is refused (glTF 2.0, 3.12); what it merely uses is reported.
 void Importer::check_extensions() {
     static constexpr std::string_view known[] = {
         "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
-        "KHR_materials_unlit",   "KHR_texture_basisu",  "EXT_texture_webp"};
+        "KHR_node_visibility", "KHR_xmp_json_ld", "KHR_materials_unlit", "KHR_materials_ior", "KHR_materials_specular",
+        "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_clearcoat", "KHR_materials_sheen",
+        "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_emissive_strength",
+        "KHR_materials_variants", "KHR_materials_pbrSpecularGlossiness",
+        // what is said of them where they are met
+        "KHR_materials_dispersion", "KHR_materials_diffuse_transmission", "KHR_texture_basisu", "EXT_texture_webp",
+        "KHR_draco_mesh_compression", "EXT_meshopt_compression"};
+    const auto is_known = [](const std::string& name) {
+        return std::find(std::begin(known), std::end(known), name) != std::end(known);
+    };
+    std::string missing;
     for (const std::string& name : model_.extensionsRequired)
-        if (std::find(std::begin(known), std::end(known), name) == std::end(known) &&
-            !name.starts_with("KHR_materials_"))
-            report_.approximated("extension " + quote(name),
-                                 "the file requires it and it is not known; what it stands for is missing");
+        if (!is_known(name)) missing += (missing.empty() ? "" : ", ") + name;
+    if (!missing.empty())
+        throw ImportError{"the file requires what is not known here: " + missing +
+                          "; save it without, or with a version for programs that lack it"};
     for (const std::string& name : model_.extensionsUsed)
-        if (name == "EXT_lights_image_based" || name == "KHR_xmp_json_ld" || name == "KHR_animation_pointer")
-            report_.dropped("extension " + quote(name), "not read");
+        if (!is_known(name)) report_.dropped("extension " + quote(name), "not read");
 }
 
 void Importer::tell_leftovers() {
@@ -43,6 +52,9 @@ void Importer::tell_leftovers() {
     for (std::size_t i = 0; i < model_.nodes.size(); ++i)
         outside += visits_[i] == 0 && model_.nodes[i].mesh >= 0;
     if (outside) report_.dropped("nodes", std::to_string(outside) + " with a mesh stand outside the scene");
+    if (hidden_objects_)
+        report_.kept("hidden objects", std::to_string(hidden_objects_) + " of " + std::to_string(objects_) +
+                                           ", as KHR_node_visibility has it; they can be shown");
     const bool single =
         std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return !m.second.two_sided; });
     if (single) report_.kept("single-sided materials", "both sides of a surface are seen; nothing is culled");
@@ -52,11 +64,13 @@ void Importer::run() {
     check_extensions();
     world_.resize(model_.nodes.size());
     visits_.resize(model_.nodes.size());
-    const auto& scene = model_.scenes[static_cast<std::size_t>(choose_scene())];
-    for (const int root : scene.nodes)
-        find_transforms(root, Matrix(), 0);
-    for (const int root : scene.nodes)
+    hidden_.resize(model_.nodes.size());
+    const std::vector<int> roots = choose_roots();
+    for (const int root : roots)
+        find_transforms(root, Matrix(), false, 0);
+    for (const int root : roots)
         node(root, 0);
+    if (bounds_.empty()) bounds_ = hidden_bounds_;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
         if (visits_[i] == 0) continue;
         const auto& node = model_.nodes[i];
@@ -72,10 +86,9 @@ void Importer::run() {
     report_.kept("scene", std::to_string(objects_) + " objects, " + std::to_string(materials_.size()) + " materials, " +
                               std::to_string(lights_) + " lights, " + std::to_string(cameras_) + " cameras");
     tell_leftovers();
-    if (cameras_ == 0) {
-        add_camera(out_, report_, bounds_, Up::y);
-        add_film(out_);
-    }
+    if (cameras_ == 0) add_camera(out_, report_, bounds_, Up::y);
+    // A camera of its own may stand in a closed room; ours sees everything from outside, in the studio.
+    add_film(out_, aspect_, lights_ > 0 || cameras_ > 0);
     if (lights_ == 0) add_studio(out_, report_, Up::y);
 }
 

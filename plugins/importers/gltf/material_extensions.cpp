@@ -28,7 +28,9 @@ void Importer::anisotropy(const tinygltf::Value& v, const std::string& what, Mad
     if (use)
         report_.approximated(what + ": anisotropy texture",
                              "its strength is rendered; the directions in it are not, only the rotation is");
-    put_scalar(values, "anisotropy", number_of(v, "anisotropyStrength", 0), use, 2, made);
+    const double strength = number_of(v, "anisotropyStrength", 0);
+    made.needs_tangents |= strength > 0;
+    put_scalar(values, "anisotropy", strength, use, 2, made);
     values.number("anisotropy_rotation",
                   std::remainder(number_of(v, "anisotropyRotation", 0) * 180 / std::numbers::pi, 360));
 }
@@ -58,43 +60,70 @@ void Importer::iridescence(const tinygltf::Value& v, MadeMaterial& made, Values&
     values.texture("iridescence_thickness", RESTAGE_FLOAT, out_.texture(out_.ctx, &between));
 }
 
-void Importer::extensions(const tinygltf::Material& m, MadeMaterial& made, Values& values) {
+// KHR_materials_pbrSpecularGlossiness: F0 is the specular colour, so that of ior 1.5 (0.04) times 25 of it.
+void Importer::glossiness(const tinygltf::Value& v, bool metal, MadeMaterial& made, Values& values) {
+    const TextureUse packed = use_of(v, "specularGlossinessTexture", "specular-glossiness");
+    Rgb specular = color_of(v, "specularFactor", {1, 1, 1});
+    const double gloss = std::clamp(number_of(v, "glossinessFactor", 1), 0.0, 1.0);
+    for (double& x : specular)
+        x = std::clamp(x, 0.0, 1.0);
+    values.number("metallic", metal ? 1 : 0);
+    Rgb f0 = specular;
+    for (double& x : f0)
+        x *= 25;
+    if (!metal) put_color(values, "specular_color", f0, packed, made, 25);
+    const RestageHandle rough = packed ? texture(packed, Purpose::gloss, made.uv, made.name, gloss) : 0;
+    if (rough)
+        values.texture("roughness", RESTAGE_FLOAT, rough);
+    else
+        values.number("roughness", 1 - gloss);
+    if (packed)
+        report_.approximated("material " + quote(made.name) + ": specular-glossiness",
+                             "its diffuse colour is not dimmed by the specular picture, but by what that reflects");
+}
+
+// A coat over a surface with a normal map: here both have one normal.
+void Importer::clear_coat(const tinygltf::Material& m, const tinygltf::Value& v, MadeMaterial& made, Values& values) {
+    const double factor = number_of(v, "clearcoatFactor", 0);
+    put_scalar(values, "clearcoat", factor, use_of(v, "clearcoatTexture", "clear coat"), 0, made);
+    put_scalar(values, "clearcoat_roughness", number_of(v, "clearcoatRoughnessFactor", 0),
+               use_of(v, "clearcoatRoughnessTexture", "clear coat roughness"), 1, made);
+    if (factor <= 0) return;
+    const int own = use_of(v, "clearcoatNormalTexture", "clear coat normal").index, below = m.normalTexture.index;
+    if (own == below) return;
+    report_.approximated("material " + quote(made.name) + ": clear coat normals",
+                         own < 0 ? "the coat is smooth in the file; here it follows the normal map below it"
+                         : below < 0
+                             ? "texture " + std::to_string(own) + " of the coat is left out; it is smooth"
+                             : "texture " + std::to_string(own) + " of the coat is left out; it follows texture " +
+                                   std::to_string(below) + ", the normal map below it");
+}
+
+void Importer::extensions(const tinygltf::Material& m, const BaseColor& base, MadeMaterial& made, Values& values) {
     const std::string what = "material " + quote(m.name);
     bool transmits = false;
     for (const auto& [name, v] : m.extensions) {
-        if (name == "KHR_materials_emissive_strength") {
-            for (double& x : made.emission)
-                x *= std::max(number_of(v, "emissiveStrength", 1), 0.0);
-        } else if (name == "KHR_materials_ior") {
+        if (name == "KHR_materials_ior") {
             const double ior = number_of(v, "ior", 1.5);
             if (ior < 1 || ior > 3)
                 report_.approximated(what + ": ior " + std::to_string(ior), "indices from 1 to 3 are rendered");
             values.number("ior", std::clamp(ior, 1.0, 3.0));
         } else if (name == "KHR_materials_specular") {
             const Rgb color = color_of(v, "specularColorFactor", {1, 1, 1});
-            if (std::max({color[0], color[1], color[2]}) > 1)
-                report_.approximated(what + ": specular colour", "values above 1 are taken as 1");
+            if (const double most = std::max({color[0], color[1], color[2]}); most > 25)
+                report_.approximated(what + ": specular colour " + std::to_string(most),
+                                     "values above 25 are taken as 25");
             put_scalar(values, "specular", number_of(v, "specularFactor", 1), use_of(v, "specularTexture", "specular"),
                        3, made);
-            put_color(values, "specular_color", color, use_of(v, "specularColorTexture", "specular colour"), made);
+            put_color(values, "specular_color", color, use_of(v, "specularColorTexture", "specular colour"), made, 25);
         } else if (name == "KHR_materials_transmission") {
             const double factor = number_of(v, "transmissionFactor", 0);
             transmits = factor > 0;
             put_scalar(values, "transmission", factor, use_of(v, "transmissionTexture", "transmission"), 0, made);
         } else if (name == "KHR_materials_clearcoat") {
-            put_scalar(values, "clearcoat", number_of(v, "clearcoatFactor", 0),
-                       use_of(v, "clearcoatTexture", "clear coat"), 0, made);
-            put_scalar(values, "clearcoat_roughness", number_of(v, "clearcoatRoughnessFactor", 0),
-                       use_of(v, "clearcoatRoughnessTexture", "clear coat roughness"), 1, made);
-            if (v.Has("clearcoatNormalTexture"))
-                report_.dropped(what + ": clear coat normal texture", "the coat follows the surface's own normals");
+            clear_coat(m, v, made, values);
         } else if (name == "KHR_materials_pbrSpecularGlossiness") {
-            report_.approximated(what + ": specular-glossiness",
-                                 "read as metallic-roughness: its diffuse colour, no metal");
-            values.number("metallic", 0);
-            values.number("roughness", 1 - std::clamp(number_of(v, "glossinessFactor", 1), 0.0, 1.0));
-            put_color(values, "base_color", color_of(v, "diffuseFactor", {1, 1, 1}),
-                      use_of(v, "diffuseTexture", "diffuse"), made);
+            glossiness(v, base.metal, made, values);
         } else if (name == "KHR_materials_sheen") {
             put_color(values, "sheen_color", color_of(v, "sheenColorFactor", {0, 0, 0}),
                       use_of(v, "sheenColorTexture", "sheen colour"), made);
@@ -107,7 +136,8 @@ void Importer::extensions(const tinygltf::Material& m, MadeMaterial& made, Value
         } else if (name == "KHR_materials_dispersion" || name == "KHR_materials_diffuse_transmission" ||
                    name == "KHR_materials_variants") {
             report_.dropped(what + ": " + name, "not rendered");
-        } else if (name != "KHR_materials_volume" && name != "KHR_materials_unlit") {
+        } else if (name != "KHR_materials_volume" && name != "KHR_materials_unlit" &&
+                   name != "KHR_materials_emissive_strength") {
             report_.dropped(what + ": " + name, "not known");
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Primitives: vertices with morph targets and skins in their first pose, vertex colours as pictures, and the triangles
-// that an emissive texture lights apart from those it does not.
+// Primitives: vertices with morph targets and skins in their first pose, tangents, vertex colours as pictures.
+#include "common/tangents.hpp"
 #include "importer.hpp"
 
 #include <algorithm>
@@ -39,8 +39,15 @@ void unshare(MeshBuffer& mesh) { // each corner a vertex of its own
     gather<float, 3>(mesh.positions, mesh.indices);
     if (!mesh.normals.empty()) gather<float, 3>(mesh.normals, mesh.indices);
     if (!mesh.uvs.empty()) gather<float, 2>(mesh.uvs, mesh.indices);
+    if (!mesh.uvs2.empty()) gather<float, 2>(mesh.uvs2, mesh.indices);
+    if (!mesh.tangents.empty()) gather<float, 4>(mesh.tangents, mesh.indices);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i)
         mesh.indices[i] = static_cast<std::uint32_t>(i);
+}
+
+// Of the picture that holds the vertex colours of so many triangles, two texels each.
+std::uint32_t picture_columns(std::uint32_t triangles) {
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(double(triangles))));
 }
 
 Vec3 vec3(const std::vector<float>& v, std::size_t i) { return {v[3 * i], v[3 * i + 1], v[3 * i + 2]}; }
@@ -59,15 +66,17 @@ void Importer::morph(const tinygltf::Primitive& p, const std::string& who, int n
     for (std::size_t t = 0; t < p.targets.size() && t < weights.size(); ++t) {
         if (weights[t] == 0) continue;
         for (const auto& [name, accessor] : p.targets[t]) {
-            std::vector<float>* values = name == "POSITION" ? &buffer.positions
-                                         : name == "NORMAL" ? &buffer.normals
-                                                            : nullptr;
+            std::vector<float>* values = name == "POSITION"  ? &buffer.positions
+                                         : name == "NORMAL"  ? &buffer.normals
+                                         : name == "TANGENT" ? &buffer.tangents
+                                                             : nullptr;
             if (!values || values->empty()) continue;
             const auto delta = read_floats(model_, accessor, 3, who + ": morph target " + std::to_string(t));
-            if (delta.size() != values->size())
+            const std::size_t width = name == "TANGENT" ? 4 : 3; // of the vertex; the sign of a tangent stays
+            if (delta.size() / 3 != values->size() / width)
                 throw ImportError{who + ": morph target " + std::to_string(t) + " has another number of vertices"};
             for (std::size_t i = 0; i < delta.size(); ++i)
-                (*values)[i] += static_cast<float>(weights[t]) * delta[i];
+                (*values)[i / 3 * width + i % 3] += static_cast<float>(weights[t]) * delta[i];
         }
     }
 }
@@ -93,7 +102,7 @@ void Importer::pose(const tinygltf::Primitive& p, const std::string& who, int no
         matrices[j] = world_[static_cast<std::size_t>(skin.joints[j])] * bind;
     }
     for (std::size_t i = 0; i < vertices; ++i) {
-        Vec3 position{}, normal{};
+        Vec3 position{}, normal{}, tangent{};
         double total = 0;
         for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
             if (weights[k] == 0) continue;
@@ -104,15 +113,43 @@ void Importer::pose(const tinygltf::Primitive& p, const std::string& who, int no
             position = position + transform_point(matrices[joints[k]], vec3(buffer.positions, i)) * w;
             if (!buffer.normals.empty())
                 normal = normal + transform_vector(matrices[joints[k]], vec3(buffer.normals, i)) * w;
+            if (!buffer.tangents.empty())
+                tangent =
+                    tangent + transform_vector(matrices[joints[k]], {buffer.tangents[4 * i], buffer.tangents[4 * i + 1],
+                                                                     buffer.tangents[4 * i + 2]}) *
+                                  w;
             total += w;
         }
+        if (total > 0 && !buffer.tangents.empty())
+            for (std::size_t c = 0; c < 3; ++c)
+                buffer.tangents[4 * i + c] = static_cast<float>(normalized(tangent)[c]);
         if (total > 0) set(buffer.positions, i, position * (1 / total));
         if (total > 0 && !buffer.normals.empty()) set(buffer.normals, i, normalized(normal));
     }
 }
 
+// v upwards. `set` -1: no texture asks, but somebody may put one on later.
+std::vector<float> Importer::read_uvs(const tinygltf::Primitive& p, const std::string& who, int set,
+                                      std::size_t vertices) {
+    auto it = p.attributes.find("TEXCOORD_" + std::to_string(std::max(set, 0)));
+    if (it == p.attributes.end() && set >= 0) {
+        it = p.attributes.find("TEXCOORD_0");
+        const std::string name = "TEXCOORD_" + std::to_string(set);
+        report_.approximated(who,
+                             it == p.attributes.end()
+                                 ? "its textures lie on " + name + ", which it has not: they show one of their corners"
+                                 : "a texture lies on " + name + ", which it has not; it lies on TEXCOORD_0");
+        if (it == p.attributes.end()) return std::vector<float>(2 * vertices, 0.f);
+    }
+    if (it == p.attributes.end()) return {};
+    std::vector<float> uvs = read_floats(model_, it->second, 2, who + ": " + it->first);
+    for (std::size_t i = 1; i < uvs.size(); i += 2)
+        uvs[i] = 1 - uvs[i];
+    return uvs;
+}
+
 std::optional<MeshBuffer> Importer::read_primitive(const tinygltf::Primitive& p, const std::string& who, int node,
-                                                   int mesh, const UvPlan& plan, std::vector<float>& colors) {
+                                                   int mesh, const UvSets& sets, std::vector<float>& colors) {
     if (p.mode >= 0 && p.mode < TINYGLTF_MODE_TRIANGLES) {
         report_.dropped(who, "points and lines have no surface");
         return std::nullopt;
@@ -129,20 +166,17 @@ std::optional<MeshBuffer> Importer::read_primitive(const tinygltf::Primitive& p,
     buffer.positions = read_floats(model_, accessor("POSITION"), 3, who + ": POSITION");
     const std::size_t vertices = buffer.vertex_count();
     if (accessor("NORMAL") >= 0) buffer.normals = read_floats(model_, accessor("NORMAL"), 3, who + ": NORMAL");
-    std::string set = "TEXCOORD_" + std::to_string(plan.set);
-    if (accessor(set) < 0) set = "TEXCOORD_0";
-    if (accessor(set) >= 0) buffer.uvs = read_floats(model_, accessor(set), 2, who + ": " + set);
+    if (accessor("TANGENT") >= 0 && !buffer.normals.empty()) // without normals they do not count (3.7.2.1)
+        buffer.tangents = read_floats(model_, accessor("TANGENT"), 4, who + ": TANGENT");
+    buffer.uvs = read_uvs(p, who, sets.texcoord[0], vertices);
+    if (sets.texcoord[1] >= 0) buffer.uvs2 = read_uvs(p, who, sets.texcoord[1], vertices);
     if (accessor("COLOR_0") >= 0) colors = read_colors(model_, accessor("COLOR_0"), who + ": COLOR_0");
     if ((!buffer.normals.empty() && buffer.normals.size() != 3 * vertices) ||
         (!buffer.uvs.empty() && buffer.uvs.size() != 2 * vertices) ||
+        (!buffer.uvs2.empty() && buffer.uvs2.size() != 2 * vertices) ||
+        (!buffer.tangents.empty() && buffer.tangents.size() != 4 * vertices) ||
         (!colors.empty() && colors.size() != 4 * vertices))
         throw ImportError{who + ": its attributes have different numbers of vertices"};
-    for (std::size_t i = 0; i < buffer.uvs.size(); i += 2) {
-        const UvTransform& t = plan.baked;
-        const double u = static_cast<double>(buffer.uvs[i]), v = static_cast<double>(buffer.uvs[i + 1]);
-        buffer.uvs[i] = static_cast<float>(t.a * u + t.b * v + t.x);
-        buffer.uvs[i + 1] = static_cast<float>(1 - (t.c * u + t.d * v + t.y)); // v upwards
-    }
     std::vector<std::uint32_t> order;
     if (p.indices >= 0) {
         order = read_integers(model_, p.indices, 1, who + ": indices");
@@ -166,116 +200,100 @@ std::optional<MeshBuffer> Importer::read_primitive(const tinygltf::Primitive& p,
 }
 
 // A texture of 2 x 2 texels a triangle, read at their centres: bilinear filtering of c0, c1, c2 and c1 + c2 - c0 is the
-// linear interpolation over the triangle. Corners are no longer shared.
-VertexColor Importer::vertex_color(const tinygltf::Primitive& p, const std::string& who,
-                                   const std::vector<float>& colors, MeshBuffer& buffer) {
-    VertexColor result;
-    if (colors.empty()) return result;
-    const auto rgb = [&](std::size_t i) { return Rgb{colors[4 * i], colors[4 * i + 1], colors[4 * i + 2]}; };
-    Rgb mean{};
-    bool same = true;
-    for (std::size_t i = 0; i < colors.size() / 4; ++i) {
-        for (std::size_t c = 0; c < 3; ++c)
-            mean[c] += rgb(i)[c] / static_cast<double>(colors.size() / 4);
-        same = same && rgb(i) == rgb(0);
-    }
-    const bool textured = [&] {
-        if (p.material < 0) return false;
-        const auto& m = model_.materials[static_cast<std::size_t>(p.material)];
-        return m.pbrMetallicRoughness.baseColorTexture.index >= 0 || m.normalTexture.index >= 0 ||
-               m.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0 || m.emissiveTexture.index >= 0;
-    }();
-    const std::uint32_t triangles = buffer.triangle_count();
-    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(double(triangles))));
-    const std::uint32_t rows = (triangles + columns - 1) / columns;
-    if (same || textured || columns > 8192) {
-        result.factor = same ? rgb(0) : mean;
-        if (!same)
-            report_.approximated(who + ": vertex colours", "their mean is used: the material has textures already");
-        return result;
-    }
-    std::vector<std::uint32_t> corners = buffer.indices;
-    const std::uint32_t width = 2 * columns, height = 2 * rows;
-    result.image = add_pixels(out_, who + " colours", width, height, 3, [&](std::size_t pixel, unsigned channel) {
+// linear interpolation over the triangle.
+RestageHandle Importer::color_picture(const std::string& name, const std::vector<float>& colors, bool alpha,
+                                      const MeshBuffer& buffer) {
+    const std::uint32_t triangles = buffer.triangle_count(), columns = picture_columns(triangles);
+    const std::uint32_t width = 2 * columns, height = 2 * ((triangles + columns - 1) / columns);
+    return add_pixels(out_, name, width, height, alpha ? 1 : 3, [&](std::size_t pixel, unsigned channel) {
         const std::size_t x = pixel % width, y = pixel / width, triangle = y / 2 * columns + x / 2;
         if (triangle >= triangles) return 0.0;
-        const auto c = [&](std::size_t corner) { return rgb(corners[3 * triangle + corner])[channel]; };
+        const auto c = [&](std::size_t corner) {
+            return static_cast<double>(colors[4 * buffer.indices[3 * triangle + corner] + (alpha ? 3 : channel)]);
+        };
         const std::size_t texel = x % 2 + 2 * (y % 2);
         return texel < 3 ? c(texel) : c(1) + c(2) - c(0);
     });
+}
+
+// Where they vary they become pictures on a set of texture coordinates of their own; corners are then no longer shared.
+VertexColor Importer::vertex_color(const tinygltf::Primitive& p, const std::string& who,
+                                   const std::vector<float>& colors, const UvSets& sets, MeshBuffer& buffer) {
+    VertexColor result;
+    if (colors.empty()) return result;
+    std::array<double, 4> mean{};
+    bool same = true, same_alpha = true;
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        mean[i % 4] += static_cast<double>(colors[i]) / static_cast<double>(colors.size() / 4);
+        (i % 4 == 3 ? same_alpha : same) &= colors[i] == colors[i % 4];
+    }
+    const bool blends = p.material >= 0 &&
+                        model_.materials[static_cast<std::size_t>(p.material)].alphaMode != "OPAQUE" &&
+                        !model_.materials[static_cast<std::size_t>(p.material)].alphaMode.empty();
+    const auto value = [&](std::size_t c, bool even) { return even ? static_cast<double>(colors[c]) : mean[c]; };
+    result.factor = {value(0, same), value(1, same), value(2, same)};
+    if (blends) result.alpha = value(3, same_alpha);
+    if (same && (same_alpha || !blends)) return result;
+    result.set = sets.texcoord[0] < 0 ? 0 : 1;
+    const std::uint32_t triangles = buffer.triangle_count(), columns = picture_columns(triangles);
+    if (columns > 8192 || (result.set == 1 && sets.texcoord[1] >= 0)) {
+        report_.approximated(who + ": vertex colours",
+                             columns > 8192
+                                 ? "their mean is used: there are " + std::to_string(triangles) + " triangles"
+                                 : std::string("their mean is used: textures lie on two sets of texture "
+                                               "coordinates already"));
+        return result;
+    }
+    if (!same) {
+        result.factor = {1, 1, 1};
+        result.image = color_picture(who + " colours", colors, false, buffer);
+    }
+    if (!same_alpha && blends) {
+        result.alpha = 1;
+        result.alpha_image = color_picture(who + " alpha", colors, true, buffer);
+    }
     unshare(buffer);
-    buffer.uvs.clear();
+    std::vector<float>& uvs = result.set == 0 ? buffer.uvs : buffer.uvs2;
+    uvs.clear();
+    const double width = 2 * columns, height = 2 * ((triangles + columns - 1) / columns);
     for (std::uint32_t t = 0; t < triangles; ++t)
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             const double x = t % columns * 2 + corner % 2 + 0.5, y = t / columns * 2 + corner / 2 + 0.5;
-            buffer.uvs.push_back(static_cast<float>(x / width));
-            buffer.uvs.push_back(static_cast<float>(1 - y / height));
+            uvs.push_back(static_cast<float>(x / width));
+            uvs.push_back(static_cast<float>(1 - y / height));
         }
-    report_.kept(who + ": vertex colours", "as a texture; the object has no other texture coordinates");
+    report_.kept(who + ": vertex colours", "as a texture on texture coordinates of its own");
     return result;
 }
 
-// Emission is one value an instance. Triangles that the picture leaves dark do not emit; the others emit its mean.
-std::vector<Importer::Piece> Importer::by_emission(MeshBuffer buffer, const MadeMaterial& made,
-                                                   const std::string& name) {
-    const auto piece = [&](const MeshBuffer& part, const std::string& part_name, Rgb emission) {
-        return Piece{part.push(out_, part_name, ""), part.bounds(), emission, &made};
-    };
-    const int index = made.emission_texture ? image_of(made.emission_texture) : -1;
-    const Picture* p = index >= 0 && !buffer.uvs.empty() ? picture(index) : nullptr;
-    if (!made.emission_texture || (!p && index < 0)) return {piece(buffer, name, made.emission)};
-    if (!p) return {piece(buffer, name, {})}; // reported
-    bool mirror_u = false, mirror_v = false;
-    const Mapping map = mapping(made.emission_texture, made.uv, mirror_u, mirror_v, made.name);
-    const auto sample = [&](double u, double v) {
-        const double s = u * map.scale_u + map.offset_u, t = 1 - (v * map.scale_v + map.offset_v);
-        const auto texel = [](double x, std::uint32_t size) {
-            return std::min(static_cast<std::size_t>((x - std::floor(x)) * size), std::size_t{size} - 1);
-        };
-        const std::size_t pixel = texel(t, p->height) * p->width + texel(s, p->width);
-        return Rgb{srgb_to_linear(p->value(pixel, 0)), srgb_to_linear(p->value(pixel, 1)),
-                   srgb_to_linear(p->value(pixel, 2))};
-    };
-    MeshBuffer bright = buffer, dark = buffer;
-    bright.indices.clear(), dark.indices.clear();
-    Rgb sum{};
-    double area = 0;
-    for (std::size_t i = 0; i < buffer.indices.size(); i += 3) {
-        const std::uint32_t* corner = &buffer.indices[i];
-        Rgb mean{};
-        constexpr int n = 4; // points of a regular grid inside the triangle
-        for (int a = 0; a < n; ++a)
-            for (int b = 0; b < n - a; ++b) {
-                const double wa = (a + 1.0 / 3) / n, wb = (b + 1.0 / 3) / n, wc = 1 - wa - wb;
-                const auto mix = [&](std::size_t c) {
-                    return wa * static_cast<double>(buffer.uvs[2 * corner[0] + c]) +
-                           wb * static_cast<double>(buffer.uvs[2 * corner[1] + c]) +
-                           wc * static_cast<double>(buffer.uvs[2 * corner[2] + c]);
-                };
-                const Rgb at_point = sample(mix(0), mix(1));
-                for (std::size_t c = 0; c < 3; ++c)
-                    mean[c] += at_point[c] / (n * (n + 1) / 2);
-            }
-        MeshBuffer& part = std::max({mean[0], mean[1], mean[2]}) > 0.01 ? bright : dark;
-        part.indices.insert(part.indices.end(), corner, corner + 3);
-        if (&part == &dark) continue;
-        const Vec3 o = buffer.position(corner[0]);
-        const double size = length(cross(buffer.position(corner[1]) - o, buffer.position(corner[2]) - o));
-        area += size;
-        for (std::size_t c = 0; c < 3; ++c)
-            sum[c] += mean[c] * size;
+// The frame of normal maps: the file's tangents, else what MikkTSpace's rules make of the normal map's coordinates.
+void Importer::tangents(const tinygltf::Primitive& p, const std::string& who, const MadeMaterial& made,
+                        MeshBuffer& buffer) {
+    if (!made.needs_tangents) {
+        buffer.tangents.clear();
+        return;
     }
-    for (std::size_t c = 0; c < 3; ++c)
-        sum[c] = area > 0 ? sum[c] / area * made.emission[c] : 0;
-    report_.approximated(name + ": emissive texture",
-                         "triangles emit evenly: the mean of the picture where it is not dark");
-    std::vector<Piece> pieces;
-    if (!dark.indices.empty()) pieces.push_back(piece(dark, name, {}));
-    if (!bright.indices.empty()) pieces.push_back(piece(bright, dark.indices.empty() ? name : name + " (emits)", sum));
-    return pieces;
+    if (!buffer.tangents.empty()) {
+        const bool finite =
+            std::all_of(buffer.tangents.begin(), buffer.tangents.end(), [](float x) { return std::isfinite(x); });
+        if (finite) return;
+        report_.approximated(who + ": TANGENT", "not all are finite numbers; they are computed anew");
+        buffer.tangents.clear();
+    }
+    if (made.normal.index < 0 && !p.attributes.contains("TEXCOORD_0")) return; // brushed along what the engine takes
+    const std::vector<float>& lies = made.uv.find(made.normal.set) == 1 ? buffer.uvs2 : buffer.uvs;
+    if (lies.empty()) return;
+    const UvTransform& t = made.normal.transform;
+    std::vector<float> uv(lies.size());
+    for (std::size_t i = 0; i < lies.size(); i += 2) {
+        const double u = static_cast<double>(lies[i]), v = 1 - static_cast<double>(lies[i + 1]);
+        uv[i] = static_cast<float>(t.a * u + t.b * v + t.x);
+        uv[i + 1] = static_cast<float>(1 - (t.c * u + t.d * v + t.y));
+    }
+    make_tangents(buffer, std::move(uv));
 }
 
-std::vector<Importer::Piece> Importer::primitive(int mesh, std::size_t index, int node) {
+std::optional<Importer::Piece> Importer::primitive(int mesh, std::size_t index, int node) {
     const auto& m = model_.meshes[static_cast<std::size_t>(mesh)];
     const auto& p = m.primitives[index];
     const auto& n = model_.nodes[static_cast<std::size_t>(node)];
@@ -286,16 +304,18 @@ std::vector<Importer::Piece> Importer::primitive(int mesh, std::size_t index, in
     const std::string who = "mesh " + quote(name) + ", primitive " + std::to_string(index);
     if (m.primitives.size() > 1) name += " " + std::to_string(index + 1);
     std::vector<float> colors;
-    std::vector<Piece> pieces;
-    if (auto buffer = read_primitive(p, who, node, mesh, uv_plan(p.material), colors)) {
-        const VertexColor color = vertex_color(p, who, colors, *buffer);
+    std::optional<Piece> piece;
+    const UvSets sets = uv_sets(p.material);
+    if (auto buffer = read_primitive(p, who, node, mesh, sets, colors)) {
+        const VertexColor color = vertex_color(p, who, colors, sets, *buffer);
         const MadeMaterial& made = material(p.material, color);
         if (p.extensions.contains("KHR_materials_variants"))
             report_.dropped(who + ": variants", "the first material is shown");
-        pieces = by_emission(std::move(*buffer), made, name);
+        tangents(p, who, made, *buffer);
+        piece = Piece{buffer->push(out_, name, ""), buffer->bounds(), &made};
     }
-    if (shared) pieces_[key] = pieces;
-    return pieces;
+    if (shared) pieces_[key] = piece;
+    return piece;
 }
 
 } // namespace restage::gltf

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
 
 namespace restage::gltf {
 
@@ -19,25 +21,94 @@ bool is_picture(const std::string& path) {
     return false;
 }
 
-// tinygltf's way to files: buffers are read here, pictures are not there.
-tinygltf::FsCallbacks file_access() {
+// What a buffer in a file of its own is called in the scene file, and how long it is; by the name tinygltf makes of it.
+struct BufferFiles {
+    struct Buffer {
+        fs::path path;
+        std::size_t length = 0;
+    };
+    fs::path folder;
+    std::map<std::string, Buffer> by_name;
+
+    // tinygltf puts the folder, or the current one, before the name.
+    const Buffer* find(const std::string& path) const {
+        const std::string before = folder.string() + "/";
+        const auto it = by_name.find(path.starts_with(before) ? path.substr(before.size()) : path);
+        return it == by_name.end() ? nullptr : &it->second;
+    }
+};
+
+// As tinygltf decodes URIs, so that its question can be answered for the file that is meant.
+std::string tinygltf_name(const std::string& uri) {
+    std::string plus = uri;
+    std::replace(plus.begin(), plus.end(), '+', ' ');
+    std::string result;
+    const auto digit = [](unsigned char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                      : 0;
+    };
+    for (std::size_t i = 0; i < plus.size(); ++i) {
+        if (plus[i] != '%' || plus.size() <= i + 2) {
+            result += plus[i];
+            continue;
+        }
+        result += static_cast<char>(digit(static_cast<unsigned char>(plus[i + 1])) << 4 |
+                                    digit(static_cast<unsigned char>(plus[i + 2])));
+        i += 2;
+    }
+    return result;
+}
+
+// Only the buffers of the JSON; everything else is passed over.
+BufferFiles buffer_files(const fs::path& folder, std::string_view text) {
+    BufferFiles files;
+    files.folder = folder;
+    using Event = nlohmann::json::parse_event_t;
+    const auto keep = [](int depth, Event event, nlohmann::json& parsed) {
+        return !(depth == 1 && event == Event::key && parsed != "buffers");
+    };
+    const nlohmann::json root = nlohmann::json::parse(text, keep, false);
+    if (!root.is_object() || !root.contains("buffers") || !root["buffers"].is_array()) return files;
+    for (const auto& buffer : root["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+        const auto uri = buffer["uri"].get<std::string>();
+        if (uri.starts_with("data:")) continue;
+        const bool sized = buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned();
+        files.by_name[tinygltf_name(uri)] = {find_named(folder, uri),
+                                             sized ? buffer["byteLength"].get<std::size_t>() : 0};
+    }
+    return files;
+}
+
+// tinygltf's way to files: buffers are read here, pictures are not there. A buffer may be longer than it is said to be
+// (glTF 2.0, 3.6.1.1); what is too much is cut, for tinygltf does not know that.
+tinygltf::FsCallbacks file_access(BufferFiles& files) {
     return {.FileExists =
-                [](const std::string& path, void*) {
+                [](const std::string& path, void* user) {
+                    const auto& own = *static_cast<const BufferFiles*>(user);
+                    const auto* buffer = own.find(path);
                     std::error_code code;
-                    return !is_picture(path) && fs::is_regular_file(path, code);
+                    return buffer && !is_picture(path) && fs::is_regular_file(buffer->path, code);
                 },
             .ExpandFilePath = [](const std::string& path, void*) { return path; },
             .ReadWholeFile =
-                [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void*) {
-                    std::string reason;
-                    const auto read = read_file(path, reason);
-                    if (read) bytes->assign(read->begin(), read->end());
+                [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* user) {
+                    const auto& own = *static_cast<const BufferFiles*>(user);
+                    const auto* buffer = own.find(path);
+                    std::string reason = "the file names no such buffer";
+                    const auto read = buffer ? read_file(buffer->path, reason) : std::nullopt;
+                    if (read) {
+                        const std::size_t size = buffer->length ? std::min(buffer->length, read->size()) : read->size();
+                        bytes->assign(read->begin(), read->begin() + static_cast<std::ptrdiff_t>(size));
+                    }
                     if (!read && error) *error += path + ": " + reason;
                     return read.has_value();
                 },
             .WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
                                  void*) { return false; },
-            .user_data = nullptr};
+            .user_data = &files};
 }
 
 // Pictures in data URIs are kept as they are; those in buffer views are looked up later, with the checks this lacks.
@@ -85,6 +156,13 @@ void check_header(std::string_view bytes) { // of a GLB: magic, version, length,
     }
 }
 
+// The first chunk of a GLB whose header is sound.
+std::string_view json_of(std::string_view bytes) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    return bytes.substr(20, length);
+}
+
 } // namespace
 
 std::string decode_uri(std::string_view uri) {
@@ -106,10 +184,17 @@ std::string decode_uri(std::string_view uri) {
     return result;
 }
 
+fs::path find_named(const fs::path& folder, const std::string& uri) {
+    std::error_code code;
+    const fs::path decoded = find_file(folder, decode_uri(uri));
+    if (fs::exists(decoded, code)) return decoded;
+    const fs::path raw = find_file(folder, uri);
+    return fs::exists(raw, code) ? raw : decoded;
+}
+
 tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const RestageSceneWriter1& out) {
     if (!out.progress(out.ctx, 0.02f, "reading the scene")) throw Cancelled{};
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks(file_access());
     reader.SetImageLoader(keep_picture, nullptr);
     tinygltf::Model model;
     std::string errors, warnings;
@@ -117,6 +202,8 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
     if (bytes.size() > 0xffffffffu) throw ImportError{"the file is larger than 4 GiB, which glTF does not allow"};
     const bool binary = bytes.starts_with("glTF");
     if (binary) check_header(bytes);
+    BufferFiles files = buffer_files(path.parent_path(), binary ? json_of(bytes) : bytes);
+    reader.SetFsCallbacks(file_access(files));
     const auto size = static_cast<unsigned>(bytes.size());
     const bool read =
         binary

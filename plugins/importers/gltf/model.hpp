@@ -54,5 +54,7 @@ std::vector<float> read_colors(const tinygltf::Model&, int accessor, const std::
 std::vector<std::uint32_t> read_integers(const tinygltf::Model&, int accessor, int components, const std::string& who);
 
 std::string decode_uri(std::string_view); // %20 -> blank
+// The file a URI in a file of `folder` means: percent-decoded, or where there is none of that name, as it is written.
+std::filesystem::path find_named(const std::filesystem::path& folder, const std::string& uri);
 
 } // namespace restage::gltf

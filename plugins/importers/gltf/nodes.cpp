@@ -55,26 +55,56 @@ std::string Importer::node_name(int index) const {
     return "node " + std::to_string(index);
 }
 
-int Importer::choose_scene() {
-    if (model_.scenes.empty()) throw ImportError{"the file holds no scene; it is a library of things"};
-    const int index = model_.defaultScene >= 0 ? model_.defaultScene : 0;
-    at(model_.scenes, index, "scene", "the file");
+// The nodes to begin at: those of the default scene; without scenes, those that hang on no other (3.5.1).
+std::vector<int> Importer::choose_roots() {
+    if (model_.scenes.empty()) {
+        std::vector<char> child(model_.nodes.size());
+        for (const auto& node : model_.nodes)
+            for (const int c : node.children)
+                if (c >= 0 && static_cast<std::size_t>(c) < child.size()) child[static_cast<std::size_t>(c)] = 1;
+        std::vector<int> roots;
+        for (std::size_t i = 0; i < child.size(); ++i)
+            if (!child[i]) roots.push_back(static_cast<int>(i));
+        if (roots.empty()) throw ImportError{"the file holds no scene and no node that hangs on no other"};
+        report_.kept("scene", "the file names none; its " + std::to_string(roots.size()) + " root nodes are shown");
+        return roots;
+    }
+    int index = model_.defaultScene;
+    if (index < 0) {
+        index = 0;
+        while (index + 1 < static_cast<int>(model_.scenes.size()) &&
+               model_.scenes[static_cast<std::size_t>(index)].nodes.empty())
+            ++index;
+        if (model_.scenes.size() > 1)
+            report_.kept("scene " + quote(scene_name(index)),
+                         "the file says no default; the first with something in it");
+    }
+    const auto& scene = at(model_.scenes, index, "scene", "the file");
     for (std::size_t i = 0; i < model_.scenes.size(); ++i)
-        if (static_cast<int>(i) != index)
-            report_.dropped("scene " + quote(model_.scenes[i].name.empty() ? std::to_string(i) : model_.scenes[i].name),
+        if (static_cast<int>(i) != index && !model_.scenes[i].nodes.empty())
+            report_.dropped("scene " + quote(scene_name(static_cast<int>(i))),
                             "the file holds several; its default one is opened");
-    return index;
+    return scene.nodes;
 }
 
-void Importer::find_transforms(int index, const Matrix& parent, int depth) {
+std::string Importer::scene_name(int index) const {
+    const std::string& name = model_.scenes[static_cast<std::size_t>(index)].name;
+    return name.empty() ? std::to_string(index) : name;
+}
+
+void Importer::find_transforms(int index, const Matrix& parent, bool hidden, int depth) {
     const std::string who = "node " + std::to_string(index);
     const auto& node = at(model_.nodes, index, "node", "the scene");
     auto& visits = visits_[static_cast<std::size_t>(index)];
     if (visits++ > 0) throw ImportError{who + " stands in the hierarchy twice, or below itself"};
     if (depth > deepest) throw ImportError{who + ": nodes lie more than " + std::to_string(deepest) + " deep"};
     world_[static_cast<std::size_t>(index)] = parent * local_transform(node, who);
+    if (const auto v = node.extensions.find("KHR_node_visibility"); v != node.extensions.end() && v->second.IsObject())
+        hidden |=
+            v->second.Has("visible") && v->second.Get("visible").IsBool() && !v->second.Get("visible").Get<bool>();
+    hidden_[static_cast<std::size_t>(index)] = hidden;
     for (const int child : node.children)
-        find_transforms(child, world_[static_cast<std::size_t>(index)], depth + 1);
+        find_transforms(child, world_[static_cast<std::size_t>(index)], hidden, depth + 1);
 }
 
 bool Importer::shows_something(int index) const {
@@ -116,10 +146,9 @@ void Importer::mesh_node(int index, RestageHandle group, const std::string& name
     const auto& node = model_.nodes[static_cast<std::size_t>(index)];
     const auto& mesh = at(model_.meshes, node.mesh, "mesh", "node " + std::to_string(index));
     std::vector<Piece> pieces;
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-        const auto more = primitive(node.mesh, p, index);
-        pieces.insert(pieces.end(), more.begin(), more.end());
-    }
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
+        if (const auto piece = primitive(node.mesh, p, index)) pieces.push_back(*piece);
+    const bool hidden = hidden_[static_cast<std::size_t>(index)] != 0;
     const auto places = placements(index);
     if (pieces.size() * places.size() > 1) {
         const RestageGroup g = {.text = {name.c_str(), "", ""}, .parent = group};
@@ -145,16 +174,18 @@ void Importer::mesh_node(int index, RestageHandle group, const std::string& name
             instance.alpha = m.alpha;
             instance.interior = m.interior;
             instance.has_medium_interface = m.has_interior;
-            if (std::max({piece.emission[0], piece.emission[1], piece.emission[2]}) > 0) {
+            if (hidden) instance.flags |= RESTAGE_INSTANCE_HIDDEN;
+            if (std::max({m.emission[0], m.emission[1], m.emission[2]}) > 0) {
                 instance.flags |=
                     RESTAGE_INSTANCE_EMITS | (m.two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
                 for (std::size_t i = 0; i < 3; ++i)
-                    instance.emission[i] = static_cast<float>(std::max(piece.emission[i], 0.0));
+                    instance.emission[i] = static_cast<float>(std::max(m.emission[i], 0.0));
                 ++emitters_;
             }
             std::copy(place.m.begin(), place.m.end(), instance.object_to_world);
             if (!out_.instance(out_.ctx, &instance)) continue;
-            bounds_.add(piece.bounds, place);
+            (hidden ? hidden_bounds_ : bounds_).add(piece.bounds, place);
+            hidden_objects_ += hidden;
             ++objects_;
         }
     }

@@ -24,19 +24,6 @@ Rgb color_of(const tinygltf::Value& object, const char* key, Rgb otherwise) {
     return otherwise;
 }
 
-UvTransform relative(const UvTransform& t, const UvTransform& base) {
-    if (base == UvTransform{}) return t;
-    const double det = base.a * base.d - base.b * base.c;
-    if (det == 0) return t;
-    const UvTransform i{base.d / det, -base.b / det, -base.c / det, base.a / det, 0, 0}; // of the linear part
-    UvTransform r{t.a * i.a + t.b * i.c, t.a * i.b + t.b * i.d, t.c * i.a + t.d * i.c, t.c * i.b + t.d * i.d, 0, 0};
-    r.x = t.x - r.a * base.x - r.b * base.y;
-    r.y = t.y - r.c * base.x - r.d * base.y;
-    for (double* off : {&r.b, &r.c})
-        if (std::abs(*off) < 1e-9) *off = 0;
-    return r;
-}
-
 TextureUse Importer::make_use(int index, int set, const tinygltf::ExtensionMap& extensions, const char* slot) const {
     TextureUse use{index, set, {}, slot};
     const auto it = extensions.find("KHR_texture_transform");
@@ -82,7 +69,7 @@ const Picture* Importer::picture(int index) {
     const auto& image = model_.images[static_cast<std::size_t>(index)];
     std::string reason;
     if (!image.uri.empty()) {
-        it->second = read_picture(find_file(path_.parent_path(), decode_uri(image.uri)).string(), reason);
+        it->second = read_picture(locate(image.uri).string(), reason);
     } else if (image.bufferView >= 0) {
         const auto bytes = view_bytes(model_, image.bufferView, "image " + std::to_string(index));
         it->second = decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, reason);
@@ -101,11 +88,12 @@ RestageHandle Importer::image(int index, Purpose purpose, double number, bool mi
     const auto& source = model_.images[static_cast<std::size_t>(index)];
     const bool as_it_is = purpose == Purpose::srgb || purpose == Purpose::linear;
     if (as_it_is && !source.uri.empty() && !mirror_u && !mirror_v)
-        return handle = add_image_file(out_, find_file(path_.parent_path(), decode_uri(source.uri)).string(),
+        return handle = add_image_file(out_, locate(source.uri).string(),
                                        purpose == Purpose::srgb ? RESTAGE_SRGB : RESTAGE_LINEAR);
     const Picture* p = picture(index);
     if (!p) return 0;
-    static constexpr const char* suffixes[] = {"", "", " red", " green", " blue", " alpha", " mask", " scaled"};
+    static constexpr const char* suffixes[] = {"",       "",      " red",    " green",    " blue",
+                                               " alpha", " mask", " scaled", " roughness"};
     std::string name = source.name.empty() ? decode_uri(source.uri) : source.name;
     if (name.empty()) name = "image " + std::to_string(index);
     name += suffixes[static_cast<int>(purpose)];
@@ -125,6 +113,8 @@ RestageHandle Importer::image(int index, Purpose purpose, double number, bool mi
             case Purpose::normal: // number: scale of x and y (glTF 2.0, 3.9.3)
                 return channel == 2 ? p->value(from, 2)
                                     : std::clamp(0.5 + (p->value(from, channel) - 0.5) * number, 0.0, 1.0);
+            case Purpose::gloss: // number: the factor of the glossiness
+                return 1 - std::clamp(p->value(from, 3) * number, 0.0, 1.0);
             case Purpose::linear:
                 return p->value(from, channel);
             default:
@@ -135,16 +125,16 @@ RestageHandle Importer::image(int index, Purpose purpose, double number, bool mi
 }
 
 // uv as the mesh has it, v upwards -> st of the picture. Mirrored tilings are doubled pictures, tiled.
-Mapping Importer::mapping(const TextureUse& use, const UvPlan& plan, bool& mirror_u, bool& mirror_v,
+Mapping Importer::mapping(const TextureUse& use, const UvSets& sets, bool& mirror_u, bool& mirror_v,
                           const std::string& material) {
     const std::string what = "material " + quote(material) + ": " + use.slot + " texture";
-    UvTransform t = relative(use.transform, plan.baked);
-    if (use.set != plan.set)
-        report_.approximated(what, "it lies on another set of texture coordinates; objects have one");
-    if (!t.diagonal()) {
-        report_.approximated(what, "it is turned against the other textures; the turn is left out");
-        t = {};
-    }
+    UvTransform t = use.transform;
+    const int set = sets.find(use.set);
+    if (set < 0)
+        report_.approximated(what,
+                             "TEXCOORD_" + std::to_string(use.set) +
+                                 ": objects have two sets of texture coordinates, and others use them; it lies on "
+                                 "the first");
     const auto& texture = model_.textures[static_cast<std::size_t>(use.index)];
     tinygltf::Sampler sampler;
     if (texture.sampler >= 0)
@@ -157,21 +147,24 @@ Mapping Importer::mapping(const TextureUse& use, const UvPlan& plan, bool& mirro
         report_.approximated(what, "it repeats in one direction and not in the other; here it repeats in both");
     if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST)
         report_.approximated(what, "nearest-neighbour filtering is bilinear here");
-    if (mirror_u) t.a /= 2, t.x /= 2;
-    if (mirror_v) t.d /= 2, t.y /= 2;
-    return {.scale_u = t.a,
+    if (mirror_u) t.a /= 2, t.b /= 2, t.x /= 2;
+    if (mirror_v) t.c /= 2, t.d /= 2, t.y /= 2;
+    return {.scale_u = t.a, // with v = 1 - v of the mesh, and t = 1 - v' of the picture
             .scale_v = t.d,
-            .offset_u = t.x,
+            .offset_u = t.b + t.x,
             .offset_v = 1 - t.d - t.y,
-            .wrap = clamp_u && clamp_v ? "clamp" : "repeat"};
+            .wrap = clamp_u && clamp_v ? "clamp" : "repeat",
+            .shear_u = -t.b,
+            .shear_v = -t.c,
+            .set = std::max(set, 0)};
 }
 
-RestageHandle Importer::texture(const TextureUse& use, Purpose purpose, const UvPlan& plan, const std::string& material,
+RestageHandle Importer::texture(const TextureUse& use, Purpose purpose, const UvSets& sets, const std::string& material,
                                 double number) {
     const int index = image_of(use);
     if (index < 0) return 0;
     bool mirror_u = false, mirror_v = false;
-    const Mapping map = mapping(use, plan, mirror_u, mirror_v, material);
+    const Mapping map = mapping(use, sets, mirror_u, mirror_v, material);
     const bool color = purpose == Purpose::srgb || purpose == Purpose::linear || purpose == Purpose::normal;
     return add_imagemap(out_, material + " " + use.slot, image(index, purpose, number, mirror_u, mirror_v), !color,
                         map);

@@ -128,7 +128,7 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     s.transmission = clamp(m.transmission, 0.0, 1.0);
     float ior = clamp(m.ior, 1.0, 10.0);
     s.f90 = clamp(m.specular, 0.0, 1.0);
-    s.f0 = min(sqr((ior - 1.0) / (ior + 1.0)) * clamp(m.specular_color, vec3(0), vec3(1)), vec3(1)) * s.f90;
+    s.f0 = min(sqr((ior - 1.0) / (ior + 1.0)) * max(m.specular_color, vec3(0)), vec3(1)) * s.f90;
     float eta = max(ior, principled_least_eta);
     s.eta = wo.z < 0.0 ? 1.0 / eta : eta;
     s.thin = m.thin;
