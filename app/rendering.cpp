@@ -2,6 +2,7 @@
 #include "rendering.hpp"
 
 #include "base/file.hpp"
+#include "io/strict.hpp"
 #include "progress.hpp"
 #include "scene/tables.hpp"
 #include "session/exposure.hpp"
@@ -79,7 +80,7 @@ Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Con
     return options;
 }
 
-Result<io::ImportedScene> open_scene(Context& context, const std::string& path) {
+Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict) {
     catch_interrupts();
     ProgressBar bar(context.quiet);
     session::ReadOptions read{.progress = [&](float done, std::string_view what) {
@@ -96,6 +97,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path) 
         RESTAGE_TRY(imported, session::read_scene(path, context.registry(), read));
     }
     bar.finish();
+    if (strict) RESTAGE_CHECK(io::refuse_losses(imported.report, path));
     for (const io::ReportEntry& entry : imported.report.entries) // what decides whether anything can be seen
         if (entry.what == "exposure" || entry.what == "light")
             context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));

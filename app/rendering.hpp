@@ -20,6 +20,7 @@ struct RenderOptions {
     render::RendererOptions renderer;
     std::uint32_t spp = 0; // 0 = what the scene says
     double seconds = 0; // > 0: stop then
+    bool strict = false; // nothing approximated, nothing dropped
     double error = 0; // > 0: stop at this relative error
     std::string size; // WxH
     std::string denoise; // "", fast, balanced, high
@@ -41,7 +42,10 @@ std::shared_ptr<gpu::DeviceFault> device_fault();
 // With a progress bar; notes the report's counts in the log.
 // What `--isolate` and its limits say; null = scenes are read in this process.
 Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Context& context);
-Result<io::ImportedScene> open_scene(Context& context, const std::string& path);
+// `strict`: what the import approximates or drops is an error (io/strict.hpp).
+Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false);
+inline constexpr const char* strict_help =
+    "It is an error when something in the file is approximated or dropped: a missing file, an undefined name ...";
 
 // "640x360" as width and height in pixels; `option` is named in the error.
 Result<glm::uvec2> parse_size(const std::string& text, const char* option);

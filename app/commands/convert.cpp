@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage convert IN OUT: a scene from one format, or version, to another.
 #include "commands.hpp"
-#include "io/export.hpp"
+#include "io/strict.hpp"
 #include "rendering.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@ namespace {
 struct Options {
     std::string input, output, format;
     std::vector<std::string> assignments;
+    bool strict = false;
 };
 
 Result<int> run(Context& context, const Options& o) {
@@ -20,11 +21,17 @@ Result<int> run(Context& context, const Options& o) {
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
         RESTAGE_CHECK(io::set_option(*exporter.table, assignment, options.values));
-    RESTAGE_TRY(const auto imported, open_scene(context, o.input));
-    RESTAGE_TRY(const auto report, io::export_scene(imported.scene, o.output, context.registry(), options));
+    RESTAGE_TRY(const auto imported, open_scene(context, o.input, o.strict));
+    RESTAGE_TRY(const auto report, o.strict ? io::export_strictly(imported.scene, o.output, context.registry(), options)
+                                            : io::export_scene(imported.scene, o.output, context.registry(), options));
     for (const auto& entry : report.entries)
         if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
-    context.log.info(fmt::format("{}: written", o.output));
+    const auto approximated = report.count(RESTAGE_APPROXIMATED), dropped = report.count(RESTAGE_DROPPED);
+    if (approximated + dropped > 0)
+        context.log.warning(
+            fmt::format("{}: written with {} things approximated, {} dropped", o.output, approximated, dropped));
+    else
+        context.log.info(fmt::format("{}: written", o.output));
     return int(exit_ok);
 }
 
@@ -38,6 +45,8 @@ void add_convert(CLI::App& program, Context& context) {
     command->add_option("--format", o->format, "Format to write (default: by the extension)");
     command->add_option("--set", o->assignments,
                         "Option of the exporter, for example --set version=v3 (may be repeated)");
+    command->add_flag("--strict", o->strict,
+                      "Write nothing when something is approximated or dropped, in reading or in writing");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
+#include "scene/placeholder.hpp"
 #include "session/exposure.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +58,9 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     for (const auto& e : imported.report.entries)
         report.push_back(
             {{"fate", io::to_string(e.fate)}, {"file", e.file}, {"line", e.line}, {"what", e.what}, {"note", e.note}});
+    nlohmann::json placeholders = nlohmann::json::array();
+    for (const auto& m : scene::missing_things(s))
+        placeholders.push_back({{"kind", m.kind}, {"name", m.name}, {"file", m.file}});
     const auto& film = s.film.value;
     return {{"format", s.format},
             {"objects", s.instances.live()},
@@ -77,6 +81,7 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"max_depth", s.settings.value.max_depth},
             {"samples", s.settings.value.samples},
             {"memory_bytes", {{"geometry", geometry}, {"pixels", pixels}}},
+            {"missing", placeholders},
             {"report", report},
             {"report_counts",
              {{"kept", imported.report.count(RESTAGE_KEPT)},
@@ -113,6 +118,9 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
     fmt::print("memory      geometry {:.1f} MB, pixels {:.1f} MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,
                d["memory_bytes"]["pixels"].get<double>() * 1e-6);
+    for (const auto& m : d["missing"])
+        std::printf("missing     %s %s: %s\n", m["kind"].get<std::string>().c_str(),
+                    m["name"].get<std::string>().c_str(), m["file"].get<std::string>().c_str());
     std::printf("import      %zu kept, %zu approximated, %zu dropped\n", report.count(RESTAGE_KEPT),
                 report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
     for (const auto& e : report.entries)
@@ -124,17 +132,18 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
 void add_info(CLI::App& program, Context& context) {
     struct Options {
         std::string scene;
-        bool json = false, all = false;
+        bool json = false, all = false, strict = false;
     };
     auto o = std::make_shared<Options>();
     auto* command =
         program.add_subcommand("info", "Describe a scene, and what its import kept, approximated and dropped");
     command->add_option("SCENE", o->scene, "Scene file")->required();
     command->add_flag("--json", o->json, "As JSON");
+    command->add_flag("--strict", o->strict, strict_help);
     command->add_flag("--all", o->all, "List what was kept, too");
     command->callback([&context, o] {
         context.choose([&context, o]() -> Result<int> {
-            RESTAGE_TRY(const auto imported, open_scene(context, o->scene));
+            RESTAGE_TRY(const auto imported, open_scene(context, o->scene, o->strict));
             const auto d = describe(imported, context.registry());
             if (o->json)
                 std::printf("%s\n", d.dump(2).c_str());

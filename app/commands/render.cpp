@@ -18,7 +18,7 @@ struct Options : RenderOptions {
 
 Result<int> run(Context& context, Options& o) {
     RESTAGE_CHECK(check_picture_path(o.output));
-    RESTAGE_TRY(auto imported, open_scene(context, o.scene));
+    RESTAGE_TRY(auto imported, open_scene(context, o.scene, o.strict));
     scene::Scene& scene = imported.scene;
     if (!scene.active_camera.value) // importers make one up; a project may have none yet
         return fail(o.scene + ": " + scene::no_camera + "; add one to the scene it began with");
@@ -66,6 +66,7 @@ void add_render(CLI::App& program, Context& context) {
             "-o,--output", o->output,
             "Picture: .exr (linear; standard error, guides and settings inside), .png (8-bit sRGB), .pfm or .hdr")
         ->required();
+    command->add_flag("--strict", o->strict, strict_help);
     add_render_options(*command, *o);
     command->add_option("--aov", o->picture.aovs, "Layers of an .exr: stderr,albedo,normal,depth,id, or all, or none")
         ->capture_default_str();

@@ -272,7 +272,8 @@ bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary
                             const float* d) const {
     const float alpha = alpha_at(instances_[id], *mesh_data_[mesh_of_[id].value], prim, bary);
     if (alpha >= 1) return true;
-    return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2]}) < alpha; // pbrt 4ed, 7.1.1
+    // pbrt 4ed, 7.1.1; and the triangle, so that each surface along a ray is a choice of its own.
+    return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2], float(id), float(prim)}) < alpha;
 }
 
 std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary) const {

@@ -86,7 +86,7 @@ class Compiler {
     bool combine(std::uint32_t kind, const Texture& t) {
         // image * constant folds into the image's factor: the common case costs one operation
         if (kind == OP_MULTIPLY && ops.size() >= 2 && ops.back().kind == OP_CONSTANT &&
-            ops[ops.size() - 2].kind <= OP_IMAGE) {
+            ops[ops.size() - 2].kind <= OP_IMAGE && !ops[ops.size() - 2].invert) { // which is applied after the factor
             ops[ops.size() - 2].value *= ops.back().value;
             ops.pop_back();
             return true;
@@ -156,7 +156,8 @@ glm::vec3 evaluate_texture(const TexturePrograms& textures, const std::vector<Cp
             a = glm::vec3(op.value);
             if (op.kind == OP_IMAGE) {
                 glm::vec3 t = bilinear(*images[op.image].pixels, st, op.wrap);
-                a *= op.invert ? glm::max(glm::vec3(0), 1.f - t) : t;
+                a *= t;
+                if (op.invert) a = glm::max(glm::vec3(0), 1.f - a); // after the scale, as pbrt-v4
             }
         } else if (op.kind == OP_MULTIPLY) {
             a *= b;

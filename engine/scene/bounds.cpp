@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/bounds.hpp"
 
+#include "scene/placeholder.hpp"
+
 namespace restage::scene {
 
 void compute_bounds(MeshData& data) {
@@ -36,7 +38,8 @@ Bounds world_bounds(const Scene& scene, Id<Instance> id) {
 Bounds world_bounds(const Scene& scene) {
     Bounds result;
     scene.instances.each([&](Id<Instance> id, const Instance& instance) {
-        if (!instance.hidden) result.add(world_bounds(scene, id));
+        const Mesh* mesh = scene.meshes.find(instance.mesh);
+        if (!instance.hidden && !(mesh && is_missing(*mesh))) result.add(world_bounds(scene, id));
     });
     return result;
 }

@@ -4,6 +4,7 @@
 #include "pulse.hpp"
 #include "values.hpp"
 
+#include "io/strict.hpp"
 #include "session/project.hpp"
 #include "session/sky.hpp"
 #include "session/studio.hpp"
@@ -39,7 +40,7 @@ auto work(Host& host, const nb::object& callback, F&& f) {
 }
 
 Shared open(const std::filesystem::path& path, const std::optional<std::filesystem::path>& base,
-            const nb::object& progress) {
+            const nb::object& progress, bool strict) {
     auto workspace = std::make_shared<Workspace>(Host::get());
     auto document = work(workspace->host(), progress, [&](io::Progress tell) {
         session::ReadOptions options;
@@ -47,6 +48,7 @@ Shared open(const std::filesystem::path& path, const std::optional<std::filesyst
         if (base) options.base = *base;
         return session::read_document(path.string(), workspace->host().registry(), options);
     });
+    if (strict) take(io::refuse_losses(document.report, path.string()));
     workspace->session().adopt(std::move(document));
     return workspace;
 }
@@ -177,7 +179,7 @@ nb::object insert_file(const Shared& w, const std::filesystem::path& path, const
 }
 
 io::Report export_to(const Shared& w, const std::filesystem::path& path, const std::string& format,
-                     const nb::object& progress, const nb::kwargs& options) {
+                     const nb::object& progress, bool strict, const nb::kwargs& options) {
     auto& registry = w->host().registry();
     io::ExportOptions how;
     how.format = format;
@@ -188,7 +190,8 @@ io::Report export_to(const Shared& w, const std::filesystem::path& path, const s
     const Scene copy = w->scene();
     return work(w->host(), progress, [&](io::Progress tell) {
         how.progress = std::move(tell);
-        return io::export_scene(copy, path.string(), registry, how);
+        return strict ? io::export_strictly(copy, path.string(), registry, how)
+                      : io::export_scene(copy, path.string(), registry, how);
     });
 }
 
@@ -346,11 +349,14 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
             "format", [](Workspace& w) { return w.scene().format; }, "Format it was imported from: \"pbrt-v4\".")
         .def_prop_ro(
             "report", [](Workspace& w) { return w.session().report(); }, "What the import did: a Report.")
-        .def("export", &export_to, "path"_a, "format"_a = "", "progress"_a = nb::none(), "options"_a,
+        .def("export", &export_to, "path"_a, "format"_a = "", "progress"_a = nb::none(), "strict"_a = false,
+             "options"_a,
              "Writes a copy as another format's file, by the extension: export(\"a.pbrt\", version=\"v3\"). Returns a "
-             "Report.",
-             nb::sig("def export(self, path: str | os.PathLike, format: str = '', progress: "
-                     "collections.abc.Callable[[float, str], bool | None] | None = None, **options: str) -> Report"))
+             "Report. strict=True: raises restage.Error, and writes nothing, when not all of the scene can be written.",
+             nb::sig(
+                 "def export(self, path: str | os.PathLike, format: str = '', progress: "
+                 "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False, **options: "
+                 "str) -> Report"))
         .def(
             "save",
             [](Workspace& w, const std::filesystem::path& path) {
@@ -367,12 +373,14 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
     bind_contents(c);
     bind_history(m, c);
     bind_film(c);
-    m.def("open", &open, "path"_a, "base"_a = nb::none(), "progress"_a = nb::none(),
-          "Opens a scene (pbrt, glTF, OBJ, PLY, STL: whatever a plugin reads) or a project (*.restage).\n"
-          "base: stands for the scene that a project names. progress(fraction, what): called some 20 times a second;\n"
-          "False stops. Raises restage.Error with file, line and reason.",
-          nb::sig("def open(path: str | os.PathLike, base: str | os.PathLike | None = None, progress: "
-                  "collections.abc.Callable[[float, str], bool | None] | None = None) -> Session"));
+    m.def(
+        "open", &open, "path"_a, "base"_a = nb::none(), "progress"_a = nb::none(), "strict"_a = false,
+        "Opens a scene (pbrt, glTF, OBJ, PLY, STL: whatever a plugin reads) or a project (*.restage).\n"
+        "base: stands for the scene that a project names. progress(fraction, what): called some 20 times a second;\n"
+        "False stops. strict=True: an error when something is approximated or dropped (missing files, undefined\n"
+        "names ...). Raises restage.Error with file, line and reason.",
+        nb::sig("def open(path: str | os.PathLike, base: str | os.PathLike | None = None, progress: "
+                "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False) -> Session"));
     m.def(
         "new",
         [] {

@@ -53,7 +53,8 @@ vec3 texture_eval(SceneData scene, uint texture_id, vec4 uv) {
             } else {
                 ImageData image = ImageArray(scene.images).at[op.image];
                 a = image_bilinear(image, st, op.wrap).xyz;
-                a = (op.invert != 0u ? max(vec3(0), 1.0 - a) : a) * op.value.xyz;
+                a *= op.value.xyz;
+                if (op.invert != 0u) a = max(vec3(0), 1.0 - a); // after the scale, as pbrt-v4
             }
         } else if (op.kind == OP_MULTIPLY) {
             a *= b;

@@ -55,6 +55,26 @@ TEST_CASE("pbrt broken files: message and place", "[pbrt]") {
     }
 }
 
+TEST_CASE("pbrt files that pbrt warns of: read, with the place and a line of the report", "[pbrt]") {
+    const auto files = files_of(data / "warned");
+    CHECK(files.size() >= 7);
+    for (const fs::path& path : files) {
+        INFO(path.filename().string());
+        unsigned line = 0, column = 0;
+        int used = 0;
+        const std::string text = read(path);
+        REQUIRE(std::sscanf(text.c_str(), "# expect %u:%u %n", &line, &column, &used) == 2);
+        const std::string part = text.substr(std::size_t(used), text.find('\n') - std::size_t(used));
+        Recorder r;
+        REQUIRE(r.load_file(path.string()) == 1);
+        INFO(r.all_reports());
+        CHECK(std::any_of(r.lines.begin(), r.lines.end(), [&](const auto& said) {
+            return said.fate != RESTAGE_KEPT && said.line == line &&
+                   (said.what + ": " + said.note).find(part) != std::string::npos;
+        }));
+    }
+}
+
 TEST_CASE("pbrt broken files: what is no file", "[pbrt]") {
     const Folder folder;
     for (const std::string& path :

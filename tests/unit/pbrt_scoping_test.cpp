@@ -185,8 +185,8 @@ TEST_CASE("pbrt scoping: objects", "[pbrt]") {
     const Recorder r =
         loaded("ObjectBegin \"pair\" Translate 1 0 0" + sphere + "Translate 1 0 0" + sphere + "ObjectEnd" + sphere +
                "Scale 2 2 2 ObjectInstance \"pair\" Translate 0 1 0 ObjectInstance \"pair\" ObjectInstance \"none\"");
-    CHECK(r.meshes.size() == 1); // a unit sphere is a unit sphere
-    REQUIRE(r.instances.size() == 5);
+    CHECK(r.meshes.size() == 2); // a unit sphere is a unit sphere; and the place of "none"
+    REQUIRE(r.instances.size() == 6);
     REQUIRE(r.groups.size() == 2);
     check_vec(origin_of(r, 0), {0, 0, 0}); // the object itself is not seen, and its transforms ended
     check_vec(origin_of(r, 1), {2, 0, 0});
@@ -212,7 +212,8 @@ TEST_CASE("pbrt scoping: WorldBegin resets, media", "[pbrt]") {
         "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MakeNamedMedium \"cloud\" \"string type\" \"cloud\"\n"
         "Translate 5 5 5 MediumInterface \"\" \"fog\" Camera \"perspective\" MediumInterface \"\" \"\"");
     check_vec(origin_of(r, 0), {0, 0, 0});
-    REQUIRE(r.raw_media.size() == 2);
+    REQUIRE(r.raw_media.size() == 3); // that of another kind is clear
+    CHECK(r.raw_media[2].sigma_a[2] == 0);
     CHECK(r.raw_media[0].sigma_a[2] == 6);
     CHECK(r.camera_medium == 2);
     CHECK(r.instances[0].raw.has_medium_interface == 0);
@@ -233,7 +234,7 @@ TEST_CASE("pbrt files: Include continues the state, Import has its own, missing 
                                   "\nIdentity Import \"sub/inner.pbrt\"" + sphere + "\nInclude \"gone.pbrt\"" + sphere);
     Recorder r;
     REQUIRE(r.load_file(scene) == 1);
-    REQUIRE(r.instances.size() == 7);
+    REQUIRE(r.instances.size() == 8); // the last but one: the place of what is gone
     check_vec(origin_of(r, 1), {1, 0, 0}); // found beside the including file
     check_vec(origin_of(r, 2), {1, 0, 0});
     check_vec(origin_of(r, 3), {1, 0, 0});

@@ -224,11 +224,12 @@ TEST_CASE("pbrt shapes: loop subdivision reaches the limit surface", "[pbrt]") {
         CHECK(std::abs(sheet.normals[3 * i + 2] + 1) < 1e-5f);
 }
 
-TEST_CASE("pbrt shapes: what is no shape is dropped, what is flat is dropped", "[pbrt]") {
+TEST_CASE("pbrt shapes: what is no shape keeps its place, what is flat is dropped", "[pbrt]") {
     const Recorder r = loaded(
         "Shape \"teapot\"\nScale 1 0 1 Shape "
         "\"sphere\"\nIdentity Shape \"sphere\"");
-    CHECK(r.instances.size() == 1);
+    CHECK(r.instances.size() == 2);
+    CHECK(r.meshes.at(0).primitive == "missing Shape \"teapot\"");
     CHECK(r.reports("Shape \"teapot\": there is no such shape"));
     CHECK(r.reports("flattens it to nothing"));
     const Recorder h =

@@ -214,7 +214,9 @@ TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
             "Material \"diffuse\" \"texture reflectance\" \"d\" \"texture displacement\" \"d\"");
     CHECK(r.textures[0].type == "dots");
     CHECK(r.textures[0].values.at("average").v[0] == 0.5f);
-    CHECK(r.textures[0].verbatim == "\"rgb inside\" [ 1 0 0 ]\n\"rgb outside\" [ 0 0 1 ]\n");
+    CHECK(r.textures[0].values.at("inside").v[0] == 1);
+    CHECK(r.textures[0].values.at("outside").v[2] == 1);
+    CHECK(r.textures[1].values.at("mapping").text == "planar");
     CHECK(r.reports("Texture \"d\" (dots): shades as the average"));
     CHECK(r.reports("mapping \"planar\""));
     CHECK(r.materials[0].values.at("reflectance").ref == 1);

@@ -3,6 +3,9 @@
 #include "panels.hpp"
 
 #include "file_browser.hpp"
+#include "files.hpp"
+#include "io/import.hpp"
+#include "scene/placeholder.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -18,6 +21,7 @@ namespace restage::editor {
 namespace {
 
 using ImageId = scene::Id<scene::Image>;
+using MeshId = scene::Id<scene::Mesh>;
 
 // Selects what an entry is about: 'material "oak"' = the objects that have it.
 bool select_named(Editor& e, const std::string& what) {
@@ -81,8 +85,49 @@ void relink(Editor& e, std::vector<std::pair<ImageId, std::string>> places) {
     }
 }
 
+// Reads the meshes from these files, each the first of its file, and makes them the scene's: one step of the history.
+void relink(Editor& e, std::vector<std::pair<MeshId, std::string>> places) {
+    if (places.empty()) return;
+    const std::string title = places.size() == 1 ? "Reading " + places[0].second : "Reading missing meshes";
+    e.files().jobs.start(
+        {.title = title}, [&registry = e.registry(), places](BackgroundJob& job) -> std::function<void(Editor&)> {
+            std::vector<std::tuple<MeshId, std::string, std::shared_ptr<const scene::MeshData>>> read;
+            std::vector<std::string> problems;
+            for (const auto& [id, path] : places) {
+                io::ImportOptions options;
+                options.progress = [&job](float done, std::string_view what) { return job.report(done, what); };
+                const auto imported = io::import_scene(path, registry, options);
+                std::shared_ptr<const scene::MeshData> data;
+                if (imported)
+                    imported->scene.meshes.each([&](MeshId, const scene::Mesh& mesh) {
+                        if (!data && !scene::is_missing(mesh)) data = mesh.data;
+                    });
+                if (data)
+                    read.emplace_back(id, path, data);
+                else
+                    problems.push_back(imported ? path + ": holds no mesh" : imported.error().message);
+            }
+            return [read, problems](Editor& editor) {
+                for (const std::string& problem : problems)
+                    editor.notices.add(LogLevel::error, problem);
+                if (read.empty()) return;
+                editor.edit([read](const scene::Scene& s) -> Result<scene::Edit> {
+                    scene::Edit all{
+                        read.size() == 1 ? "Find a missing mesh" : fmt::format("Find {} missing meshes", read.size()),
+                        {}};
+                    for (const auto& [id, file, data] : read) {
+                        RESTAGE_TRY(scene::Edit one, scene::find_mesh(s, id, file, data));
+                        all.changes.push_back(std::move(one.changes[0]));
+                    }
+                    return all;
+                });
+            };
+        });
+}
+
 // The files of these names anywhere in the folder.
-void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const std::string& folder) {
+void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const std::vector<MeshId>& meshes,
+                        const std::string& folder) {
     std::map<std::string, std::string> files; // name -> path
     std::error_code error;
     constexpr std::size_t most = 100'000; // somebody may have typed "/"
@@ -96,10 +141,15 @@ void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const st
         if (const auto found = files.find(std::filesystem::path(e.scene().images[id].path).filename().string());
             found != files.end())
             places.emplace_back(id, found->second);
-    if (places.empty())
-        e.notices.add(LogLevel::warning, "None of the missing images is in " + folder);
-    else
-        relink(e, std::move(places));
+    std::vector<std::pair<MeshId, std::string>> mesh_places;
+    for (const MeshId id : meshes)
+        if (const auto found = files.find(std::filesystem::path(e.scene().meshes[id].source_file).filename().string());
+            found != files.end())
+            mesh_places.emplace_back(id, found->second);
+    if (places.empty() && mesh_places.empty())
+        e.notices.add(LogLevel::warning, "None of the missing files is in " + folder);
+    if (!places.empty()) relink(e, std::move(places));
+    relink(e, std::move(mesh_places));
 }
 
 void missing_files(Editor& e) {
@@ -107,17 +157,35 @@ void missing_files(Editor& e) {
     e.scene().images.each([&](ImageId id, const scene::Image& image) {
         if (!image.data && !image.path.empty()) missing.push_back(id);
     });
-    if (missing.empty()) return;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(colors::warning, "%zu image%s not found; %s shown grey.", missing.size(),
-                       missing.size() == 1 ? " was" : "s were", missing.size() == 1 ? "it is" : "they are");
+    std::vector<MeshId> meshes; // that may be found; Include and so on are found by opening the scene again
+    std::size_t lines = 0;
+    e.scene().meshes.each([&](MeshId id, const scene::Mesh& mesh) {
+        if (!scene::is_missing(mesh)) return;
+        if (mesh.source_file.empty() || !scene::missing_line(mesh).starts_with("Shape"))
+            ++lines;
+        else
+            meshes.push_back(id);
+    });
+    if (missing.empty() && meshes.empty() && lines == 0) return;
+    const auto say = [](std::size_t count, const char* one, const char* many) {
+        if (count > 0) ImGui::TextColored(colors::warning, "%zu %s", count, count == 1 ? one : many);
+    };
+    say(missing.size(), "image was not found; it is shown grey.", "images were not found; they are shown grey.");
+    say(meshes.size(), "mesh was not found; it is not shown, and kept in the file.",
+        "meshes were not found; they are not shown, and kept in the file.");
+    say(lines, "part of the file could not be read; it is kept in the file.",
+        "parts of the file could not be read; they are kept in the file.");
+    if (missing.empty() && meshes.empty()) {
+        ImGui::Separator();
+        return;
+    }
     const std::filesystem::path document(e.session().path());
     if (flow_button("Look in a folder..."))
         browse(e, {.title = "The folder they are in",
                    .folder = true,
                    .start = document.parent_path(),
-                   .done = [missing](Editor& editor, const std::filesystem::path& folder) {
-                       relink_from_folder(editor, missing, folder.string());
+                   .done = [missing, meshes](Editor& editor, const std::filesystem::path& folder) {
+                       relink_from_folder(editor, missing, meshes, folder.string());
                    }});
     tip("Finds files of the same names in that folder and all within it");
     e.mark("report.find_all");
@@ -137,6 +205,26 @@ void missing_files(Editor& e) {
                        }});
         tip("Choose the file that stands for it");
         e.mark("report.find." + e.scene().images[id].name);
+        ImGui::PopID();
+    }
+    for (const MeshId id : meshes) {
+        ImGui::PushID(int(id.value));
+        ImGui::PushID("mesh");
+        const std::string file = std::filesystem::path(e.scene().meshes[id].source_file).filename().string();
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(file.c_str());
+        tip(e.scene().meshes[id].source_file.c_str());
+        ImGui::SameLine();
+        if (ImGui::Button("Find..."))
+            browse(e, {.title = "Find " + file,
+                       .filters = {{"Meshes", {"ply", "obj", "stl", "glb", "gltf"}}, {"All files", {}}},
+                       .start = document.parent_path(),
+                       .done = [id](Editor& editor, const std::filesystem::path& path) {
+                           if (editor.scene().meshes.find(id)) relink(editor, {{id, path.string()}});
+                       }});
+        tip("Choose the file that stands for it");
+        e.mark("report.find." + e.scene().meshes[id].name);
+        ImGui::PopID();
         ImGui::PopID();
     }
     ImGui::Separator();

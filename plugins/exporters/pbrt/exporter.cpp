@@ -123,6 +123,13 @@ std::string Exporter::unique_name(const char* kind, const std::string& name) {
     return result;
 }
 
+std::string Exporter::extern_name(const char* kind, const Kept& k) {
+    const KeptLine line = k.whole.size() == 1 ? split_directive(k.whole[0]) : KeptLine{};
+    if (line.word != "extern") return "";
+    names_[kind].insert(line.name);
+    return line.name;
+}
+
 void Exporter::flag(Params& params, const char* name, bool value) const {
     const char* word = value ? "true" : "false";
     params.add("bool", name, v3() ? quote(word) : word);

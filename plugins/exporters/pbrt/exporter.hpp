@@ -64,6 +64,8 @@ class Exporter {
     Kept kept(const RestageText& text, const std::string& what);
     void comment(const std::vector<std::string>& lines, const char* indent = "");
     std::string unique_name(const char* kind, const std::string& name);
+    // The name of what a missing Include may define, and nobody has edited: it is named, not written. "" = another.
+    std::string extern_name(const char* kind, const Kept& kept);
     void flag(Params& params, const char* name, bool value) const; // v3 writes "true", v4 true
 
     // write_head.cpp: camera, film, filter, sampler, integrator, options
@@ -84,6 +86,8 @@ class Exporter {
     std::string texture(RestageHandle); // writes it and what it needs first; its name, "" = cannot be
     void put_argument(Params&, const Values&, const char* id, const char* name, bool is_float, float otherwise);
     void put_image_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
+    void put_mapping(Params&, const Values&, const std::string& what);
+    bool put_procedural(Params&, const RestageTexture&, const Values&, const std::string& what, std::string& type);
     void put_scale_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
     std::array<float, 3> average(RestageHandle texture, int depth = 0); // of a texture, for approximations
 
@@ -116,7 +120,9 @@ class Exporter {
     void write_object(const std::string& name, const std::vector<RestageHandle>& members);
     void write_instance(RestageHandle, const char* indent, const double* relative_to);
     void report_alpha(const RestageInstance&, const std::string& type);
+    std::vector<std::string> missing_lines(const RestageMesh&, const RestageInstance&, const Kept&);
     std::vector<std::string> shape_lines(RestageHandle mesh, const RestageInstance&, const Kept&);
+    std::string shape_line(const std::string& type, Params&, const RestageInstance&, const Kept&);
     std::string ply_file(RestageHandle mesh, const RestageMesh&);
     void transform(const double m[16], const char* indent);
     std::vector<std::string> group_path(RestageHandle group);

@@ -194,8 +194,7 @@ void Exporter::sampler_and_integrator(const Kept& k) {
     integrator.remove("maxdepth");
     integrator.add_int("maxdepth", settings.max_depth);
     text_ += "Sampler " + quote(s.name) + " " + sampler.text() + "\n";
-    text_ += (i.word == "SurfaceIntegrator" ? "SurfaceIntegrator " : "Integrator ") + quote(i.name) + " " +
-             integrator.text() + "\n";
+    text_ += "Integrator " + quote(i.name) + " " + integrator.text() + "\n";
 }
 
 } // namespace restage::pbrt_out

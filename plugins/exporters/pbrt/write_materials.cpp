@@ -119,6 +119,7 @@ std::string Exporter::material(RestageHandle handle) {
     const std::string what = std::string("material \"") + m.text.name + "\"";
     const Kept k = kept(m.text, what);
     const Values values(m.values, m.value_count);
+    if (const std::string name = extern_name("material", k); !name.empty()) return materials_[handle] = name;
     Params params;
     const bool outside = std::exchange(lossy_, false);
     bool stands_in = false; // pbrt has the nearest only

@@ -11,6 +11,9 @@ namespace restage::pbrt_out {
 
 namespace {
 
+constexpr std::string_view missing = "missing "; // a placeholder's primitive begins so (scene/placeholder.hpp)
+bool is_missing(const RestageMesh& mesh) { return std::string_view(mesh.primitive).starts_with(missing); }
+
 constexpr std::uint32_t most_inline_triangles = 100;
 
 // Everything but the place; equal = may share an object.
@@ -220,11 +223,16 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     const auto shape_text = shape_lines(i.mesh, i, k); // may write files and textures first
     const bool many = shape_text.size() > 1; // then the name is the block's
     if (many) mark(indent, "name", {i.text.name});
-    text_ += std::string(indent) + "AttributeBegin\n";
-    if (!many) mark(deep.c_str(), "name", {i.text.name});
-    if (i.group && !relative_to) mark(deep.c_str(), "group", group_path(i.group));
     RestageMesh mesh{};
     in_.mesh(in_.ctx, i.mesh, &mesh);
+    // v3 scopes names to attribute blocks: what a file that is missing here defines must outlive its block.
+    const bool open = v3() && std::string_view(mesh.primitive).starts_with("missing Include") &&
+                      !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_REVERSE_ORIENTATION)) &&
+                      !i.has_medium_interface && !relative_to;
+    const char* block = open ? "Transform" : "Attribute";
+    text_ += std::string(indent) + block + "Begin\n";
+    if (!many) mark(deep.c_str(), "name", {i.text.name});
+    if (i.group && !relative_to) mark(deep.c_str(), "group", group_path(i.group));
     const auto file = meshes_.find(i.mesh);
     const std::string implied = file == meshes_.end() ? i.text.name : mesh_name_of(file->second);
     if (mesh.text.name != implied) mark(deep.c_str(), "mesh", {mesh.text.name});
@@ -256,7 +264,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     text_ += deep + "NamedMaterial " + quote(material(i.material)) + "\n";
     for (const std::string& line : shape_text)
         text_ += deep + line + "\n";
-    text_ += std::string(indent) + "AttributeEnd\n";
+    text_ += std::string(indent) + block + "End\n";
 }
 
 std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
@@ -306,21 +314,53 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
         approximated(what, "a lamp of alpha 0 shines in pbrt-v4, unseen");
 }
 
+// What could not be read, as it was. Shapes take what the instance says of them; Include and ObjectInstance do not.
+std::vector<std::string> Exporter::missing_lines(const RestageMesh& mesh, const RestageInstance& i, const Kept& k) {
+    const std::string what = std::string("instance \"") + i.text.name + "\"";
+    const bool ours = std::string_view(mesh.text.verbatim_format) == format();
+    std::vector<std::string> out;
+    for (const std::string& line : lines(std::string_view(mesh.primitive).substr(missing.size()))) {
+        const KeptLine l = split_directive(line);
+        const bool is_shape = l.word == "Shape";
+        if (!ours && !(is_shape && l.name == "plymesh") && l.word != "ObjectInstance") {
+            dropped(what,
+                    std::string("a placeholder of ") + mesh.text.verbatim_format + ", written as a comment: " + line);
+            out.push_back("# " + line);
+            continue;
+        }
+        if (!is_shape) {
+            out.push_back(line);
+            continue;
+        }
+        Params params;
+        params.add_raw(l.rest);
+        params.retype(v3());
+        out.push_back(shape_line(l.name, params, i, k));
+    }
+    if (out.empty()) dropped(what, std::string("what it stands for cannot be written as ") + format());
+    if (*mesh.source_file)
+        dropped(what, std::string("its file is not there, it is named as it was: ") + mesh.source_file);
+    return out;
+}
+
+std::string Exporter::shape_line(const std::string& type, Params& params, const RestageInstance& i, const Kept& k) {
+    const bool mask = (i.flags & RESTAGE_INSTANCE_ALPHA_MASK) != 0;
+    report_alpha(i, type);
+    if (i.alpha_texture)
+        params.add("texture", "alpha", quote(texture(i.alpha_texture)));
+    else if (i.alpha != 1 && !(mask && i.alpha > 0 && !v3()))
+        params.add_float("alpha", i.alpha);
+    for (const std::string& line : k.lines)
+        params.add_raw(line);
+    return "Shape " + quote(type) + " " + params.text();
+}
+
 std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const RestageInstance& i, const Kept& k) {
     RestageMesh mesh{};
     if (!in_.mesh(in_.ctx, handle, &mesh))
         throw ExportError("", std::string("instance \"") + i.text.name + "\" has no mesh");
-    const bool mask = (i.flags & RESTAGE_INSTANCE_ALPHA_MASK) != 0;
-    const auto finish = [&](const std::string& type, Params& params) {
-        report_alpha(i, type);
-        if (i.alpha_texture)
-            params.add("texture", "alpha", quote(texture(i.alpha_texture)));
-        else if (i.alpha != 1 && !(mask && i.alpha > 0 && !v3()))
-            params.add_float("alpha", i.alpha);
-        for (const std::string& line : k.lines)
-            params.add_raw(line);
-        return "Shape " + quote(type) + " " + params.text();
-    };
+    if (is_missing(mesh)) return missing_lines(mesh, i, k);
+    const auto finish = [&](const std::string& type, Params& params) { return shape_line(type, params, i, k); };
     std::vector<std::string> out; // the shapes that the triangles stand for: one, or many curves
     for (const std::string& primitive : lines(mesh.primitive)) {
         const std::size_t space = std::min(primitive.find(' '), primitive.size());

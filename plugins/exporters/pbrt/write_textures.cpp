@@ -60,8 +60,13 @@ std::string Exporter::image_file(RestageHandle handle) {
         out_.write(file, pfm_bytes(image));
         return file;
     }
-    dropped(std::string("image \"") + image.text.name + "\"", std::string("its file is not there: ") + image.path);
-    return file = image.path;
+    dropped(std::string("image \"") + image.text.name + "\"",
+            std::string("its file is not there, it is named as it was: ") + image.path);
+    Params as_written; // what the importer kept of a file it did not find
+    for (const std::string& line : lines(image.text.verbatim))
+        as_written.add_raw(line);
+    as_written.map_strings([&](const std::string& name) { return file = name; });
+    return file.empty() ? file = image.path : file;
 }
 
 // `"rgb tex" [..]`, `"float tex" ..` or `"texture tex" "name"`.
@@ -167,23 +172,88 @@ std::array<float, 3> Exporter::average(RestageHandle handle, int depth) {
     return values.color("average", grey); // an imagemap's mean is not known here
 }
 
+// uscale and so on; or the kinds of mapping that are not rendered here.
+void Exporter::put_mapping(Params& params, const Values& values, const std::string& what) {
+    for (const auto& [id, otherwise] : {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
+        if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
+    if (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0)
+        approximated(what, "it is turned on the surface, and pbrt's mapping only scales and shifts; the turn is left out");
+    if (values.number("uvset", 0) == 1)
+        approximated(what, "it lies on the second texture coordinates of its meshes, and pbrt's have one; it lies on those");
+    const std::string mapping = values.choice("mapping", "uv");
+    if (mapping == "uv") return;
+    params.add_string("mapping", mapping);
+    for (const char* id : {"v1", "v2"})
+        if (values.find(id)) {
+            const auto v = values.color(id, {0, 0, 0});
+            params.add(v3() ? "vector" : "vector3", id, number(v[0]) + " " + number(v[1]) + " " + number(v[2]));
+        }
+}
+
+// Classes that are not rendered here, but that both versions have. False: it is another.
+bool Exporter::put_procedural(Params& params, const RestageTexture& t, const Values& values, const std::string& what,
+                              std::string& type) {
+    const bool is_float = t.is_float != 0;
+    const auto put_all = [&](std::initializer_list<const char*> ids, bool first_is_one) {
+        bool one = first_is_one;
+        for (const char* id : ids) {
+            put_argument(params, values, id, id, is_float, one ? 1.f : 0.f);
+            one = !one;
+        }
+    };
+    if (type == "checkerboard") {
+        params.add_int("dimension", 3);
+        put_all({"tex1", "tex2"}, true);
+    } else if (type == "dots") {
+        put_all({"inside", "outside"}, true);
+        put_mapping(params, values, what);
+    } else if (type == "bilerp") {
+        put_all({"v00", "v01", "v10", "v11"}, false);
+        put_mapping(params, values, what);
+    } else if (type == "directionmix" && !v3()) {
+        put_all({"tex1", "tex2"}, false);
+        const auto v = values.color("dir", {0, 1, 0});
+        params.add("vector3", "dir", number(v[0]) + " " + number(v[1]) + " " + number(v[2]));
+    } else if (type == "fbm" || type == "wrinkled" || type == "windy" || type == "marble") {
+        if (type == "marble" && is_float) return false; // of colours only, in both
+        if (type != "windy") {
+            params.add_int("octaves", static_cast<long long>(values.number("octaves", 8)));
+            params.add_float("roughness", values.number("roughness", 0.5f));
+        }
+        if (type == "marble")
+            params.add_float("scale", values.number("scale", 1))
+                .add_float("variation", values.number("variation", 0.2f));
+    } else if (type == "uv" && !is_float) {
+        put_mapping(params, values, what);
+        if (v3()) return true;
+        type = "bilerp"; // the same where uv are in [0,1]
+        params.add_rgb("v00", {0, 0, 0}).add_rgb("v01", {0, 1, 0}).add_rgb("v10", {1, 0, 0}).add_rgb("v11", {1, 1, 0});
+        approximated(what, "pbrt-v4 has no texture \"uv\"; a bilerp is written, the same where uv are in [0,1]");
+    } else {
+        return false;
+    }
+    return true;
+}
+
 std::string Exporter::texture(RestageHandle handle) {
     if (const auto it = textures_.find(handle); it != textures_.end()) return it->second;
     RestageTexture t{};
     if (!in_.texture(in_.ctx, handle, &t)) return "";
     textures_[handle] = ""; // a circle finds nothing
     const std::string what = std::string("texture \"") + t.text.name + "\"", type = t.type;
-    const Kept k = kept(t.text, what);
+    std::string place, rest; // the transform it is defined in means the same to both versions
+    for (const std::string& line : lines(t.text.verbatim))
+        (line.starts_with("Transform [") ? place : rest) += line + "\n";
+    const Kept k = kept({t.text.name, rest.c_str(), t.text.verbatim_format}, what);
     const Values values(t.values, t.value_count);
     const bool is_float = t.is_float != 0;
     Params params;
     std::string written = type;
-    bool mapped = false;
     if (type == "constant") {
         put_argument(params, values, "value", "value", is_float, 1);
     } else if (type == "imagemap") {
         put_image_texture(params, t, values, what);
-        mapped = true;
+        put_mapping(params, values, what);
     } else if (type == "scale") {
         put_scale_texture(params, t, values, what);
     } else if (type == "mix") {
@@ -193,27 +263,26 @@ std::string Exporter::texture(RestageHandle handle) {
     } else if (type == "checkerboard" && !values.find("average")) {
         put_argument(params, values, "tex1", "tex1", is_float, 1);
         put_argument(params, values, "tex2", "tex2", is_float, 0);
-        mapped = true;
-    } else if (k.lines.empty() && !k.foreign.empty()) {
+        put_mapping(params, values, what);
+    } else if (!put_procedural(params, t, values, what, written) && k.lines.empty()) {
         written = "constant"; // of the other version: its average is the best there is
-        approximated(what + " (" + type + ")",
-                     std::string("its parameters are not ") + format() + "'s; its average is written");
+        approximated(what + " (" + type + ")", std::string(format()) + " has no such texture; its average is written");
         put_argument(params, values, "average", "value", is_float, 0.5f);
     }
-    if (mapped)
-        for (const auto& [id, otherwise] :
-             {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
-            if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
-    if (mapped && (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0))
-        approximated(what, "it is turned on the surface, and pbrt's mapping only scales and shifts; the turn is left out");
-    if (mapped && values.number("uvset", 0) == 1)
-        approximated(what, "it lies on the second texture coordinates of its meshes, and pbrt's have one; it lies on those");
     for (const std::string& line : k.lines)
         params.add_raw(line);
     comment(k.foreign);
     const std::string name = unique_name("texture", t.text.name);
-    text_ += "Texture " + quote(name) + (is_float ? " \"float\" " : " \"spectrum\" ") + quote(written) + " " +
-             finished(params) + "\n";
+    const char* block = v3() ? "Transform" : "Attribute"; // v3 scopes names to attribute blocks
+    if (!place.empty()) text_ += std::string(block) + "Begin\n" + place;
+    const bool only_scalar = !v3() && !is_float && (written == "fbm" || written == "wrinkled" || written == "windy");
+    const std::string scalar = only_scalar ? unique_name("texture", name + " scalar") : name;
+    text_ += "Texture " + quote(scalar) + (is_float || only_scalar ? " \"float\" " : " \"spectrum\" ") +
+             quote(written) + " " + finished(params) + "\n";
+    if (only_scalar) // v4 has them as scalars alone
+        text_ += "Texture " + quote(name) + " \"spectrum\" \"scale\" \"rgb tex\" [ 1 1 1 ] \"texture scale\" [ " +
+                 quote(scalar) + " ]\n";
+    if (!place.empty()) text_ += std::string(block) + "End\n";
     return textures_[handle] = name;
 }
 

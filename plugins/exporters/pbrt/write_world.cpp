@@ -10,7 +10,15 @@ std::string Exporter::medium(RestageHandle handle) {
     if (!in_.medium(in_.ctx, handle, &m)) return "";
     const std::string what = std::string("medium \"") + m.text.name + "\"";
     const Kept k = kept(m.text, what);
+    if (const std::string name = extern_name("medium", k); !name.empty()) return media_[handle] = name;
     Params params;
+    for (const std::string& line : k.whole) // a kind that is not rendered
+        params.add_raw(line);
+    if (!k.whole.empty()) {
+        const std::string name = media_[handle] = unique_name("medium", m.text.name);
+        text_ += "MakeNamedMedium " + quote(name) + " " + finished(params) + "\n";
+        return name;
+    }
     params.add_string("type", "homogeneous");
     params.add_rgb("sigma_a", {m.sigma_a[0], m.sigma_a[1], m.sigma_a[2]});
     params.add_rgb("sigma_s", {m.sigma_s[0], m.sigma_s[1], m.sigma_s[2]});

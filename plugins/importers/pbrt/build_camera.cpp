@@ -181,8 +181,15 @@ void Builder::film_and_settings() {
     if (integrator_) {
         settings.max_depth =
             static_cast<std::uint32_t>(std::clamp(integrator_->params.integer("maxdepth", 5), 0, 1 << 20));
-        kept += integrator_->word + " " + quote(integrator_->name) + " " + to_text(integrator_->params, " ") + "\n";
-        if (integrator_->name != "path" && integrator_->name != "volpath")
+        const bool in_pbrt = pbrt_has(Verb::integrator, integrator_->name, import_.v3());
+        if (in_pbrt)
+            kept += "Integrator " + quote(integrator_->name) + " " + to_text(integrator_->params, " ") + "\n";
+        else
+            import_.warned(integrator_->at, integrator_->word + " " + quote(integrator_->name),
+                           std::string(import_.format()) +
+                               " has none of that name; the picture is path-traced, and path "
+                               "is written");
+        if (in_pbrt && integrator_->name != "path" && integrator_->name != "volpath")
             import_.approximated(integrator_->at, "Integrator " + quote(integrator_->name),
                                  "the picture is path-traced; written back as it is");
     }
@@ -194,7 +201,11 @@ void Builder::film_and_settings() {
                 ? s.integer("xsamples", 4) * std::max(1, s.integer("ysamples", 4))
                 : s.integer("pixelsamples", sampler_->name == "random" || sampler_->name == "independent" ? 4 : 16);
         settings.samples = static_cast<std::uint32_t>(std::clamp(samples, 0, 1 << 24));
-        kept += sampler_->word + " " + quote(sampler_->name) + " " + to_text(s, " ") + "\n";
+        if (pbrt_has(Verb::sampler, sampler_->name, import_.v3()))
+            kept += sampler_->word + " " + quote(sampler_->name) + " " + to_text(s, " ") + "\n";
+        else
+            import_.warned(sampler_->at, "Sampler " + quote(sampler_->name),
+                           std::string(import_.format()) + " has none of that name; another is written");
     }
     settings.text = import_.text("", kept.c_str());
     import_.out.settings(import_.out.ctx, &settings);

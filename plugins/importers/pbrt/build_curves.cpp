@@ -8,6 +8,15 @@
 namespace restage::pbrt {
 
 void Builder::curve(const Directive& d, const Matrix& to_world, const std::string& name, const std::string& mesh_name) {
+    if (const std::string type = d.params.string("type", "flat");
+        type != "flat" && type != "cylinder" && type != "ribbon") {
+        import_.warned(d.at, "Shape \"curve\"", "there is no type " + quote(type) + " of curves; cylinder is taken");
+        Directive cylinder = d;
+        for (Param& param : cylinder.params.params)
+            if (param.name == "type") param.strings = {"cylinder"};
+        curve(cylinder, to_world, name, mesh_name);
+        return;
+    }
     if (state_.area_light) import_.dropped(d.at, "AreaLightSource on a curve", "pbrt lets curves not emit");
     const RestageInstance instance = instance_of(d, to_world);
     static const char* const shape_params[] = {"P",      "N",      "degree",     "basis", "type",       "width",
@@ -33,6 +42,7 @@ void Builder::curve(const Directive& d, const Matrix& to_world, const std::strin
             to_batch = relative;
         }
     }
+    const bool is_new = group == nullptr;
     if (!group) {
         group = &curves_.emplace_back();
         curves_by_state_.emplace(key, group);
@@ -44,7 +54,15 @@ void Builder::curve(const Directive& d, const Matrix& to_world, const std::strin
         group->verbatim = verbatim;
         group->at = d.at;
     }
-    group->batch.add(d, to_batch);
+    try {
+        group->batch.add(d, to_batch);
+    } catch (const ImportError&) {
+        if (is_new) { // nothing is in it
+            std::erase_if(curves_by_state_, [&](const auto& entry) { return entry.second == group; });
+            curves_.pop_back();
+        }
+        throw;
+    }
 }
 
 void Builder::flush_curves() {

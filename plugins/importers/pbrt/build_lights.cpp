@@ -4,6 +4,7 @@
 // illuminance multiply it. pbrt-v3: value times `scale`, which may be a colour.
 #include "builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -90,7 +91,8 @@ void Builder::light(const Directive& d) {
         }
     } else {
         d.params.mark_all_used();
-        import_.dropped(d.at, what, "there is no such light in pbrt");
+        import_.lost(d.at, what, "there is no such light in pbrt; its place is kept");
+        placeholder(d, d.name + " light", what + " " + to_text(d.params, " "));
         return;
     }
     value = value * scale;
@@ -129,7 +131,7 @@ void Builder::infinite_light(const Directive& d) {
     RestageHandle pixels = 0;
     if (!file.empty()) {
         // v3 reads environment images as they are (infinite.cpp: ReadImage); v4 decodes 8-bit ones as sRGB.
-        pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, false);
+        pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, true);
         if (illuminance > 0)
             import_.approximated(d.at, what,
                                  "\"illuminance\" of a picture is not reached; the picture's own values are used");
@@ -138,21 +140,30 @@ void Builder::infinite_light(const Directive& d) {
         scale *= illuminance / std::numbers::pi;
     }
     kept += import_.keep_unused(d.params, what);
-    if (!file.empty() && pixels == 0) return; // the missing image is in the report
     value = value * scale;
+    std::error_code code;
+    const bool is_missing = pixels != 0 && !std::filesystem::is_regular_file(import_.resolve(file, d.at), code);
+    const std::string line = what + " " + to_text(d.params, " ");
     PendingEnvironment& pending = environment_;
-    if (pending.set && pending.has_image) {
-        import_.dropped(d.at, what, "there is one environment only, and the one before has a picture");
+    if (pending.set && (is_missing || (pending.has_image && !pending.is_missing))) {
+        import_.dropped(d.at, what, "there is one environment only, and one comes before; its place is kept");
+        placeholder(d, "environment", line);
         return;
     }
-    if (pending.set && pixels == 0) { // both constant
+    if (pending.set && pixels == 0 && !pending.has_image) { // both constant
         pending.value.scale[0] += static_cast<float>(value.r);
         pending.value.scale[1] += static_cast<float>(value.g);
         pending.value.scale[2] += static_cast<float>(value.b);
+        pending.lines.emplace_back(line, std::array<Matrix, 2>{state_.ctm[0], state_.ctm[1]});
         import_.approximated(d.at, what, "added to the environment before it");
         return;
     }
-    if (pending.set) import_.dropped(pending.at, what, "there is one environment only, and one with a picture follows");
+    if (pending.set)
+        displace_environment(pending.is_missing ? "there is one environment only, and one that is there follows"
+                                                : "there is one environment only, and one with a picture follows");
+    pending.lines = {{line, {state_.ctm[0], state_.ctm[1]}}};
+    pending.from = &d;
+    pending.is_missing = is_missing;
     pending.set = true;
     pending.has_image = pixels != 0;
     pending.at = d.at;
@@ -166,6 +177,17 @@ void Builder::infinite_light(const Directive& d) {
     pending.verbatim = kept + exact_light(d, "scale", "L", pending.value.scale, scale);
     const Matrix to_world = ctm(d);
     std::memcpy(pending.value.light_to_world, to_world.m.data(), sizeof pending.value.light_to_world);
+}
+
+// The lights that the environment was made of so far keep their places.
+void Builder::displace_environment(const std::string& why) {
+    import_.dropped(environment_.at, "LightSource \"infinite\"", why + "; its place is kept");
+    for (const auto& [line, ctm] : environment_.lines) {
+        const std::array<Matrix, 2> now{state_.ctm[0], state_.ctm[1]};
+        std::copy(ctm.begin(), ctm.end(), state_.ctm);
+        placeholder(*environment_.from, "environment", line);
+        std::copy(now.begin(), now.end(), state_.ctm);
+    }
 }
 
 void Builder::flush_environment() {

@@ -201,6 +201,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
                                    .value_count = values.size()};
     const RestageHandle handle = import_.out.material(import_.out.ctx, &desc);
     if (plugin == "interface") interfaces_.insert(handle);
+    if (plugin == "hair") hair_.insert(handle);
     if (anonymous) materials_by_content_[key] = handle;
     if (!anonymous) material_names_[handle] = name;
     return handle;
@@ -231,25 +232,7 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
     plugin = "diffuse";
     Rgb color = half;
     if (type == "subsurface" || type == "kdsubsurface") {
-        note = "light under the surface is not simulated; a coated diffuse one of its colour stands for it";
-        plugin = "coateddiffuse";
-        for (const char* name : {"reflectance", "Kd"})
-            if (const auto given = import_.color(d.params, name, Role::albedo)) color = *given;
-        const auto a = import_.color(d.params, "sigma_a", Role::unbounded),
-                   s = import_.color(d.params, "sigma_s", Role::unbounded);
-        if (a && s) { // diffuse reflectance of a half space from the albedo, Hanrahan's fit is finer than this needs
-            const auto of = [](double absorbed, double scattered) {
-                const double albedo = absorbed + scattered > 0 ? scattered / (absorbed + scattered) : 1;
-                const double t = std::sqrt(3 * (1 - albedo));
-                return albedo / 2 * (1 + std::exp(-4.0 / 3 * 1.44 * t)) *
-                       std::exp(-t); // Jensen et al. 2001, Eq. 15, A of eta 1.3
-            };
-            color = {of(a->r, s->r), of(a->g, s->g), of(a->b, s->b)};
-        }
-        values.color("reflectance", color);
-        put_index(values, "eta", d, "eta", 1.33);
-        put_roughness(values, d, "", 0);
-        values.choice("remap", !d.params.boolean("remaproughness", true) ? "none" : import_.v3() ? "v3" : "v4");
+        note = subsurface(d, type, values, plugin);
     } else if (type == "hair") { // material_of_plugin reads it where the plugin is there
         note = "no plugin provides hair; a diffuse one of the hair's colour stands for it";
         color = hair_color(d);
@@ -259,6 +242,18 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
             "coat are other formulas, light under the surface is not simulated";
         plugin = "principled";
         disney(d, values);
+    } else if (type == "shinymetal") { // pbrt-v2: a rough and a smooth layer, each a metal of that colour
+        note = "of pbrt-v2; a rough metal of its colour Ks stands for it, its mirror is left out";
+        plugin = "conductor";
+        values.boolean("use_reflectance", true);
+        put_color(values, "reflectance", d, "Ks", Role::albedo, {1, 1, 1});
+        // Blinn's exponent is 1 / roughness; the slope of as wide a lobe: Walter et al. 2007, Sec. 5.2.
+        const double roughness = std::max(float_argument(d, "roughness", 0.1).value.r, 1e-6);
+        const double alpha = std::sqrt(2 / (1 / roughness + 2));
+        values.number("uroughness", alpha);
+        values.number("vroughness", alpha);
+        values.choice("remap", "none");
+        values.choice("distribution", "ggx");
     } else if (type == "fourier") {
         note = "measured data is not read; a grey diffuse one stands for it";
     } else if (type == "measured") {

@@ -17,11 +17,68 @@ std::string stem_of(const std::string& file) { // "models/cup.ply.gz" -> "cup"
     return stem;
 }
 
+// The shape as it stands in the file, but what the instance holds of it.
+std::string shape_line(const Directive& d, bool v3) {
+    std::string line = "Shape " + quote(d.name);
+    for (const Param& param : d.params.params) {
+        if (param.name == "alpha" || (v3 && is_material_parameter(param.name))) continue;
+        (line += ' ') += to_text(param);
+        param.used = true;
+    }
+    return line;
+}
+
+// Which broken shapes pbrt leaves out with a message, and goes on. The others end it.
+bool goes_on_without(const std::string& shape, bool v3) {
+    return shape == "trianglemesh" || shape == "bilinearmesh" || shape == "curve" ||
+           (v3 && (shape == "plymesh" || shape == "loopsubdiv"));
+}
+
+bool keeps_lengths(const double (&m)[16]) {
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+            const double dot = m[4 * a] * m[4 * b] + m[4 * a + 1] * m[4 * b + 1] + m[4 * a + 2] * m[4 * b + 2];
+            if (std::abs(dot - (a == b ? 1 : 0)) > 1e-4) return false;
+        }
+    return true;
+}
+
 void set_matrix(double (&to)[16], const Matrix& from) { std::memcpy(to, from.m.data(), sizeof to); }
 
 bool is_affine(const Matrix& m) { return m.at(3, 0) == 0 && m.at(3, 1) == 0 && m.at(3, 2) == 0 && m.at(3, 3) == 1; }
 
 } // namespace
+
+RestageHandle Builder::missing_mesh(const std::string& name, const std::string& line, const std::string& file) {
+    RestageHandle& handle = mesh_cache_["missing\n" + line];
+    if (handle) return handle;
+    // One triangle without area: nothing hits it.
+    const float positions[9] = {};
+    const std::uint32_t indices[3] = {0, 1, 2};
+    const std::string primitive = "missing " + line;
+    const RestageMesh out{.text = import_.text(name.c_str(), ""),
+                          .vertex_count = 3,
+                          .triangle_count = 1,
+                          .positions = positions,
+                          .normals = nullptr,
+                          .uvs = nullptr,
+                          .indices = indices,
+                          .source_file = file.c_str(),
+                          .primitive = primitive.c_str()};
+    return handle = import_.out.mesh(import_.out.ctx, &out);
+}
+
+void Builder::placeholder(const Directive& d, const std::string& name, const std::string& line,
+                          const std::string& file) {
+    const Matrix to_world = ctm(d);
+    if (!is_affine(to_world) || !(std::abs(determinant3(to_world)) > 0)) return;
+    const std::string called = take_name({name});
+    RestageInstance instance = instance_of(d, to_world);
+    if ((instance.mesh = missing_mesh(called, line, file)) == 0) return;
+    const Mesh none;
+    const std::string emitted = state_.area_light && d.verb != Verb::light_source ? emission(d, none, instance) : "";
+    place(instance, called, emitted);
+}
 
 RestageHandle Builder::ply_mesh(const Directive& d, const std::string& name, const Mesh*& data) {
     const std::string file = d.params.string("filename", "");
@@ -36,8 +93,9 @@ RestageHandle Builder::ply_mesh(const Directive& d, const std::string& name, con
     std::string reason;
     const auto bytes = FileBytes::open(path, reason);
     if (!bytes) {
-        import_.dropped(d.at, "Shape \"plymesh\" " + quote(file), reason + ": " + path);
-        return 0;
+        import_.lost(d.at, "Shape \"plymesh\" " + quote(file), reason + ": " + path + "; its place is kept");
+        if (state_.area_light) data = &(emitter_meshes_[path] = Mesh{});
+        return missing_mesh(name, shape_line(d, import_.v3()), path);
     }
     Mesh mesh = read_ply(path, bytes->view(), d.at);
     if (mesh.has_bent_quads)
@@ -92,9 +150,9 @@ RestageHandle Builder::mesh(const Directive& d, const std::string& name, const M
     } else if (d.name == "nurbs") {
         mesh = make_nurbs(import_, d);
     } else {
-        d.params.mark_all_used();
-        import_.dropped(d.at, "Shape " + quote(d.name), "there is no such shape in pbrt");
-        return 0;
+        import_.lost(d.at, "Shape " + quote(d.name), "there is no such shape in pbrt; its place is kept");
+        if (state_.area_light) data = &(emitter_meshes_[primitive] = Mesh{});
+        return missing_mesh(name, shape_line(d, import_.v3()));
     }
     if (const std::size_t repaired = repair_normals(mesh))
         import_.approximated(d.at, "Shape " + quote(d.name),
@@ -141,18 +199,33 @@ void Builder::shape(const Directive& d) {
             is_affine(to_world) ? "its transformation flattens it to nothing" : "its transformation is not affine");
         return;
     }
-    if (d.name == "curve") {
-        curve(d, to_world, name, mesh_name);
-        return;
-    }
     const Mesh* data = nullptr;
-    const RestageHandle handle = mesh(d, mesh_name, data);
+    const Mesh none;
+    RestageHandle handle = 0;
+    try {
+        if (d.name == "curve") {
+            curve(d, to_world, name, mesh_name);
+            return;
+        }
+        handle = mesh(d, mesh_name, data);
+    } catch (const ImportError& error) {
+        if (!goes_on_without(d.name, import_.v3()) || (error.stops_pbrt && !import_.v3())) throw;
+        import_.lost(error.at, "Shape " + quote(d.name), error.message + "; left out, as pbrt does, its place is kept");
+        handle =
+            missing_mesh(mesh_name, shape_line(d, import_.v3()),
+                         d.name == "plymesh" ? import_.resolve(d.params.string("filename", ""), d.at).string() : "");
+        data = &none;
+    }
     if (handle == 0) {
         d.params.mark_all_used();
         return;
     }
     RestageInstance instance = instance_of(d, to_world);
     instance.mesh = handle;
+    if (hair_.count(instance.material))
+        import_.approximated(
+            d.at, "Material \"hair\" on Shape " + quote(d.name),
+            "pbrt takes the place across the fibre from v; here it follows from the view, as on curves");
     const std::string emitted = state_.area_light && data ? emission(d, *data, instance) : "";
     place(instance, name, import_.keep_unused(d.params, "Shape " + quote(d.name)) + emitted);
 }
@@ -229,7 +302,13 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
     double scale = light_scale(d, radiance);
     const bool two_sided = d.params.boolean("twosided", false);
     const double power = d.params.number("power", -1); // v4: of each light, and each triangle is one
-    if (power > 0) {
+    const bool has_area = mesh.triangle_count() > 0;
+    if (shape.name == "sphere" && !keeps_lengths(instance.object_to_world))
+        import_.approximated(
+            d.at, "AreaLightSource on a scaled sphere",
+            "pbrt chooses points of it as if it were not scaled, which is not the light of this shape; "
+            "it shines here as it is scaled");
+    if (power > 0 && has_area) {
         Matrix to_world;
         std::memcpy(to_world.m.data(), instance.object_to_world, sizeof instance.object_to_world);
         const bool by_triangle = shape.name == "trianglemesh" || shape.name == "plymesh" || shape.name == "loopsubdiv";
@@ -260,9 +339,11 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
     instance.emission[1] = static_cast<float>(radiance.g);
     instance.emission[2] = static_cast<float>(radiance.b);
     std::string exact = exact_light(d, "emission", "L", instance.emission, scale);
-    if (d.params.find("filename")) {
+    const bool picture = d.params.find("filename") != nullptr;
+    if (picture)
         import_.approximated(d.at, "AreaLightSource with a picture",
                              "emits evenly, with the strength of a white picture; written back as it is");
+    if (picture || (power > 0 && !has_area)) { // all of it, as long as the colour is this
         exact = "=emission";
         for (const float x : instance.emission)
             exact += " " + shortest(static_cast<double>(x));
@@ -276,12 +357,17 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
 }
 
 void Builder::object_instance(const Directive& d) {
-    in_world(d);
+    if (!in_world(d)) return;
+    if (!open_object_.empty() && import_.v3()) { // api.cpp, pbrtObjectInstance
+        import_.lost(d.at, "ObjectInstance " + quote(d.name), "inside ObjectBegin; left out, as pbrt does");
+        return;
+    }
     if (!open_object_.empty())
         throw ImportError{d.at, "ObjectInstance inside ObjectBegin; pbrt does not nest objects: move it out"};
     const auto found = objects_.find(d.name.empty() ? " " : d.name);
     if (found == objects_.end()) {
-        import_.dropped(d.at, "ObjectInstance " + quote(d.name), "no ObjectBegin has that name");
+        import_.lost(d.at, "ObjectInstance " + quote(d.name), "no ObjectBegin has that name; its place is kept");
+        placeholder(d, d.name, "ObjectInstance " + quote(d.name));
         return;
     }
     const Matrix placed = ctm(d);

@@ -3,6 +3,8 @@
 #include "builder.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 
 namespace restage::pbrt {
 
@@ -23,17 +25,17 @@ RestageHandle Builder::find_texture(const Directive& d, const char* name, bool i
     const auto& own = is_float ? state_.names->float_textures : state_.names->color_textures;
     if (const auto found = own.find(texture); found != own.end()) {
         if (found->second == 0)
-            import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
-                            "it could not be made; the default stands for it");
+            import_.lost(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
+                         "it could not be made; the default stands for it");
         return found->second;
     }
     const auto& other = is_float ? state_.names->color_textures : state_.names->float_textures;
     const bool wrong_kind = other.count(texture) > 0;
-    import_.dropped(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
-                    wrong_kind
-                        ? (is_float ? "it is a spectrum texture where a float one is needed; the default stands for it"
-                                    : "it is a float texture where a spectrum one is needed; the default stands for it")
-                        : "no texture has that name; the default stands for it");
+    import_.lost(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
+                 wrong_kind
+                     ? (is_float ? "it is a spectrum texture where a float one is needed; the default stands for it"
+                                 : "it is a float texture where a spectrum one is needed; the default stands for it")
+                     : "no texture has that name; the default stands for it");
     return 0;
 }
 
@@ -62,6 +64,7 @@ Argument Builder::color_argument(const Directive& d, const char* name, Role role
 
 void Builder::put_float(Values& values, const char* id, const Directive& d, const char* name, double otherwise) {
     const Argument argument = float_argument(d, name, otherwise);
+    if (files_are_missing_ && !argument.texture) keep_exact(id, d, name);
     if (argument.texture)
         values.texture(id, RESTAGE_FLOAT, argument.texture);
     else
@@ -82,6 +85,12 @@ void Builder::put_color(Values& values, const char* id, const Directive& d, cons
 void Builder::keep_exact(const char* id, const Directive& d, const char* name) {
     if (!d.params.has(name)) return;
     const Param& param = *d.params.find(name);
+    if (param.type == "texture" && files_are_missing_ && param.strings.size() == 1) { // one of them may define it
+        for (const auto* map : {&state_.names->float_textures, &state_.names->color_textures})
+            if (map->count(param.strings[0])) return;
+        exact_ += std::string("=") + id + " " + to_text(param) + "\n";
+        return;
+    }
     const bool is_rgb = (param.type == "rgb" || param.type == "color") && param.color_space == ColorSpace::srgb;
     if (is_rgb || param.type == "texture" || param.type == "float") return;
     exact_ += std::string("=") + id + " " + to_text(param) + "\n";
@@ -91,14 +100,16 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
                              bool keep_missing) {
     const std::string path = import_.resolve(file, d.at).string();
     std::error_code code;
+    std::string as_written; // of what is not there
     if (!std::filesystem::is_regular_file(path, code)) {
-        import_.dropped(d.at, "image " + quote(file), "there is no such file: " + path);
+        import_.lost(d.at, "image " + quote(file), "there is no such file: " + path);
         if (!keep_missing) return 0;
+        as_written = "\"string filename\" [ " + quote(file) + " ]\n";
     }
     RestageHandle& handle = images_[path + '\n' + std::to_string(encoding) + '\n' + std::to_string(gamma)];
     if (handle) return handle;
     const std::string name = std::filesystem::path(path).stem().string();
-    RestageImage image{.text = import_.text(name.c_str(), ""),
+    RestageImage image{.text = import_.text(name.c_str(), as_written.c_str()),
                        .path = path.c_str(),
                        .encoding = static_cast<std::uint32_t>(encoding),
                        .gamma = gamma};
@@ -109,7 +120,7 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
 RestageHandle Builder::image_texture(const Directive& d, const char* what) {
     const std::string file = d.params.string("filename", "");
     if (file.empty()) {
-        import_.dropped(d.at, std::string(what) + " " + quote(d.name), "it names no file");
+        import_.lost(d.at, std::string(what) + " " + quote(d.name), "it names no file");
         return 0;
     }
     // How 8-bit texels are encoded; float files are linear whatever this says. pbrt-v3 imagemap.cpp: "gamma" is sRGB,
@@ -119,7 +130,13 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
     float gamma = 2.2f;
     const std::string extension = lower_extension(file);
     const std::string asked = d.params.string("encoding", "sRGB");
-    if (import_.v3() || d.params.has("gamma")) {
+    const Param* power = d.params.has("gamma") ? d.params.find("gamma", "float") : nullptr;
+    if (power && power->numbers.size() == 1 && power->numbers[0] > 0) { // pbrt-v2: texels to this power
+        gamma = static_cast<float>(power->numbers[0]);
+        encoding = gamma == 1 ? RESTAGE_LINEAR : RESTAGE_GAMMA;
+        import_.warned(power->at, "\"float gamma\" of " + std::string(what) + " " + quote(d.name),
+                       "of pbrt-v2; texels are taken to this power, which pbrt-v3 leaves out");
+    } else if (import_.v3() || d.params.has("gamma")) {
         encoding =
             d.params.boolean("gamma", extension == ".tga" || extension == ".png") ? RESTAGE_SRGB : RESTAGE_LINEAR;
     } else if (extension == ".png") {
@@ -129,8 +146,8 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
             encoding = RESTAGE_GAMMA;
             gamma = static_cast<float>(parse_double(asked.substr(6)).value_or(2.2));
         } else if (asked != "sRGB") {
-            import_.approximated(d.at, std::string(what) + " " + quote(d.name),
-                                 "encoding " + quote(asked) + " is unknown; sRGB is taken");
+            import_.warned(d.at, std::string(what) + " " + quote(d.name),
+                           "encoding " + quote(asked) + " is unknown; sRGB is taken");
         }
     }
     return image(d, file, encoding, gamma, true);
@@ -146,13 +163,19 @@ void Builder::texture(const Directive& d) {
     if (is_float && d.third == "constant" && d.params.has("value") && d.params.number("value", 1) <= 0)
         zero_textures_.insert(handle);
     Names& names = writable_names();
-    (is_float ? names.float_textures : names.color_textures)[d.name] = handle;
+    RestageHandle& named = (is_float ? names.float_textures : names.color_textures)[d.name];
+    if (named) import_.warned(d.at, "Texture " + quote(d.name), "is defined again; from here on this one counts");
+    named = handle;
 }
 
 RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     const Rgb zero{0, 0, 0}, one{1, 1, 1}, half{0.5, 0.5, 0.5};
     const std::string what = "Texture " + quote(d.name);
     Values values;
+    std::string kept; // what the renderer cannot show
+    bool placed = false; // depends on the transform it is defined in
+    const bool type_is_rendered =
+        d.third == "imagemap" || (d.third == "checkerboard" && d.params.integer("dimension", 2) == 2);
     RestageTexture out{.type = d.third.c_str(), .is_float = is_float ? 1u : 0u};
     const auto argument = [&](const char* name, Rgb otherwise) {
         return is_float ? float_argument(d, name, otherwise.r) : color_argument(d, name, Role::albedo, otherwise);
@@ -165,24 +188,36 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
             values.color(id, a.value);
     };
     const auto put_mapping = [&] {
-        const std::string mapping = d.params.string("mapping", "uv");
-        if (mapping != "uv") import_.approximated(d.at, what, "mapping " + quote(mapping) + " is done by uv instead");
         for (const char* id : {"uscale", "vscale"})
             values.number(id, d.params.number(id, 1));
         for (const char* id : {"udelta", "vdelta"})
             values.number(id, d.params.number(id, 0));
-        if (mapping != "uv") { // written back, since the renderer does not need them
-            d.params.find("v1");
-            d.params.find("v2");
+        const std::string mapping = d.params.string("mapping", "uv");
+        const char* others[] = {"spherical", "cylindrical", "planar"};
+        const auto other = std::find(std::begin(others), std::end(others), mapping);
+        if (other == std::end(others)) {
+            if (mapping != "uv") import_.warned(d.at, what, "mapping " + quote(mapping) + " is unknown; uv is taken");
+            return;
         }
+        if (type_is_rendered) import_.approximated(d.at, what, "mapping " + quote(mapping) + " is done by uv instead");
+        values.choice("mapping", *other); // written back
+        for (const char* id : {"v1", "v2"})
+            if (d.params.has(id)) {
+                const auto v = d.params.triple(id, {0, 0, 0});
+                values.color(id, {v[0], v[1], v[2]});
+            }
+        placed = true;
     };
-    std::string kept; // what the renderer cannot show
-    const auto keep_all = [&](Rgb average, const char* note) {
+    // What is not rendered: its own values, for exporters, and an average to be seen.
+    const auto put_average = [&](Rgb average, const char* note) {
         values.color("average", average);
-        d.params.mark_all_used();
-        kept = to_text(d.params, "\n");
-        if (!kept.empty()) kept += '\n';
         import_.approximated(d.at, what + " (" + d.third + ")", note);
+    };
+    const auto put_noise = [&](bool has_octaves) { // in space: where the texture's transform puts it
+        placed = true;
+        if (!has_octaves) return;
+        values.integer("octaves", d.params.integer("octaves", 8));
+        values.number("roughness", d.params.number("roughness", 0.5));
     };
     const std::string& type = d.third;
     if (type == "constant") {
@@ -215,37 +250,76 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         const std::string wrap = d.params.string("wrap", "repeat");
         const char* modes[] = {"repeat", "black", "clamp"};
         const auto mode = std::find(std::begin(modes), std::end(modes), wrap);
-        if (mode == std::end(modes)) import_.approximated(d.at, what, "wrap " + quote(wrap) + " is done as repeat");
+        if (mode == std::end(modes)) import_.warned(d.at, what, "wrap " + quote(wrap) + " is done as repeat");
         values.choice("wrap", mode == std::end(modes) ? "repeat" : *mode);
         put_mapping();
         for (const char* quiet : {"filter", "maxanisotropy", "trilinear"}) // how, not what
             if (d.params.has(quiet)) (kept += to_text(*d.params.find(quiet))) += '\n';
     } else if (type == "checkerboard" || type == "dots" || type == "bilerp" || type == "directionmix") {
-        const bool corners = type == "bilerp", dots = type == "dots";
-        std::vector<Argument> parts;
-        if (corners)
-            parts = {argument("v00", zero), argument("v01", one), argument("v10", zero), argument("v11", one)};
-        else
-            parts = {argument(dots ? "inside" : "tex1", type == "directionmix" ? zero : one),
-                     argument(dots ? "outside" : "tex2", type == "directionmix" ? one : zero)};
+        const char *corners[] = {"v00", "v01", "v10", "v11"}, *sides[] = {"inside", "outside"},
+                   *pair[] = {"tex1", "tex2"};
+        const std::span<const char* const> ids = type == "bilerp" ? std::span<const char* const>(corners)
+                                                 : type == "dots" ? std::span<const char* const>(sides)
+                                                                  : std::span<const char* const>(pair);
         Rgb average;
-        for (const Argument& part : parts)
-            average = average + part.value * (1.0 / static_cast<double>(parts.size()));
-        keep_all(average, "shades as the average of its colours");
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            const bool first_is_one = type == "dots" || type == "checkerboard";
+            const Rgb otherwise = (i % 2 == 0) == first_is_one ? one : zero;
+            put(ids[i], ids[i], otherwise);
+            const Argument part = argument(ids[i], otherwise);
+            average = average + part.value * (1.0 / static_cast<double>(ids.size()));
+        }
+        put_average(average, "shades as the average of its colours");
+        if (type == "checkerboard") {
+            values.integer("dimension", 3);
+            d.params.find("dimension");
+            placed = true;
+        } else if (type == "directionmix") {
+            const auto v = d.params.triple("dir", {0, 1, 0});
+            values.color("dir", {v[0], v[1], v[2]});
+            placed = true;
+        } else {
+            put_mapping();
+        }
     } else if (type == "marble") { // the mean of its nine colours (pbrt-v3 marble.cpp)
-        keep_all({0.52, 0.52, 0.56}, "shades as its average colour");
+        put_average({0.52, 0.52, 0.56}, "shades as its average colour");
+        put_noise(true);
+        values.number("scale", d.params.number("scale", 1));
+        values.number("variation", d.params.number("variation", 0.2));
     } else if (type == "uv") {
-        keep_all({0.5, 0.5, 0}, "shades as its average colour");
-    } else if (type == "fbm" || type == "wrinkled" || type == "windy" || type == "ptex") {
-        keep_all(half, "shades as a grey of 0.5");
+        put_average({0.5, 0.5, 0}, "shades as its average colour");
+        put_mapping();
+    } else if (type == "fbm" || type == "wrinkled" || type == "windy") {
+        put_average(half, "shades as a grey of 0.5");
+        put_noise(type != "windy");
     } else {
-        keep_all(half, "no such texture class in pbrt; shades as a grey of 0.5");
+        const bool known = type == "ptex";
+        put_average(half, known ? "shades as a grey of 0.5" : "no such texture class in pbrt; shades as a grey of 0.5");
+        if (!known) import_.lost(d.at, what, "there is no texture class " + quote(type) + " in pbrt");
+        d.params.mark_all_used();
+        kept = to_text(d.params, "\n");
+        if (!kept.empty()) kept += '\n';
+        missing_files_of(d, what);
+    }
+    if (placed && !(state_.ctm[0] == Matrix{})) { // of no version
+        kept += "Transform [";
+        for (const double m : state_.ctm[0].m)
+            kept += " " + shortest(m);
+        kept += " ]\n";
     }
     kept += import_.keep_unused(d.params, what);
     out.text = import_.text(d.name.c_str(), kept.c_str());
     out.values = values.data();
     out.value_count = values.size();
-    return import_.out.texture(import_.out.ctx, &out);
+    const RestageHandle made = import_.out.texture(import_.out.ctx, &out);
+    if (type == "constant")
+        if (const Argument value = argument("value", one); !value.texture) constants_[made] = value.value;
+    return made;
+}
+
+std::optional<Rgb> Builder::constant_of(RestageHandle texture) const {
+    const auto found = constants_.find(texture);
+    return found == constants_.end() ? std::nullopt : std::optional(found->second);
 }
 
 RestageHandle Builder::scaled_texture(RestageHandle texture, double scale, bool is_float) {

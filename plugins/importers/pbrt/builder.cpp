@@ -25,14 +25,18 @@ std::optional<ColorSpace> color_space_named(const std::string& name) {
 } // namespace
 
 bool Builder::run(SceneFile& scene) {
-    for (const MissingFile& file : scene.missing)
-        import_.dropped(file.at, file.word + " " + quote(file.name),
-                        file.reason + "; what it holds is missing from the scene");
-    if (!import_.v3()) // v4 looks names up when the file has been read
-        for (const Directive& directive : scene.directives)
-            if (directive.verb == Verb::make_named_material &&
-                (!directive.params.has("plugin") || is_for_plugin(directive)))
-                later_materials_.emplace(directive.name, &directive);
+    for (const Slip& slip : scene.slips) {
+        if (slip.only_v3 && !import_.v3()) throw ImportError{slip.at, slip.what + ": " + slip.note};
+        import_.warned(slip.at, slip.what, slip.note);
+    }
+    files_are_missing_ = scene.has_missing_file;
+    for (const Directive& directive : scene.directives) {
+        if (import_.v3()) break; // v4 looks names up when the file has been read
+        if (directive.verb == Verb::make_named_material &&
+            (!directive.params.has("plugin") || is_for_plugin(directive)))
+            later_materials_.emplace(directive.name, &directive);
+        if (directive.verb == Verb::make_named_medium) later_media_.emplace(directive.name, &directive);
+    }
     for (const Directive& directive : scene.directives)
         if (directive.verb == Verb::film) film_ = &directive; // a camera before it may ask for its size
     std::size_t done = 0;
@@ -42,6 +46,7 @@ bool Builder::run(SceneFile& scene) {
             !import_.out.progress(import_.out.ctx,
                                   static_cast<float>(done) / static_cast<float>(scene.directives.size()), "reading"))
             return false;
+        directive.params.lenient = import_.v3();
         for (Param& param : directive.params.params)
             param.color_space = state_.color_space;
         if (directive.verb != Verb::shape && directive.verb != Verb::film)
@@ -56,21 +61,42 @@ bool Builder::run(SceneFile& scene) {
 void Builder::finish(const SceneFile& scene) {
     if (!scene.has_world_begin)
         throw ImportError{scene.end,
-                          "there is no WorldBegin: this file is no whole scene; open the file that includes it"};
+                          "there is no WorldBegin: this file is no whole scene; open the file that includes it" +
+                              std::string(scene.has_missing_file ? ", or find the files that it includes" : "")};
+    for (; import_.v3() && !stack_.empty(); stack_.pop_back()) { // api.cpp, pbrtWorldEnd
+        const Directive& opened = *stack_.back().opened;
+        import_.warned(opened.at, opened.word, "is not closed; it is at the end of the file");
+        if (opened.verb == Verb::object_begin) end_object();
+    }
     if (!stack_.empty()) {
         const Directive& opened = *stack_.back().opened;
         throw ImportError{scene.end, "the file ends inside the " + opened.word + " of line " +
                                          std::to_string(opened.at.line) + "; close it or restore the rest of the file"};
     }
     if (import_.v3() && !scene.has_world_end)
-        import_.approximated(scene.end, "WorldEnd", "missing; the file may have been cut short");
+        import_.warned(scene.end, "WorldEnd", "missing; the file may have been cut short");
     flush_curves();
     film_and_settings();
     flush_environment();
 }
 
-bool Builder::in_world(const Directive& directive) const {
+// An Include or Import that is not there. Before WorldBegin it can only be settings; after it, it is placed where it
+// was.
+void Builder::missing_file(const Directive& d) {
+    import_.lost(d.at, d.word + " " + quote(d.name), d.third + ": " + d.second + "; its place is kept");
+    const std::string line = d.word + " " + quote(d.name);
+    if (world_)
+        placeholder(d, std::filesystem::path(d.name).filename().string(), line, d.second);
+    else
+        option_lines_ += line + "\n";
+}
+
+bool Builder::in_world(const Directive& directive) {
     if (world_) return true;
+    if (import_.v3()) { // VERIFY_WORLD of api.cpp
+        import_.lost(directive.at, directive.word, "it must come after WorldBegin; left out, as pbrt does");
+        return false;
+    }
     throw ImportError{directive.at, directive.word + " must come after WorldBegin"};
 }
 
@@ -114,8 +140,15 @@ void Builder::pop(const Directive& directive, bool only_transform) {
                 return opened.verb == Verb::import_begin;
         }
     };
+    if (stack_.empty() && directive.verb != Verb::object_end) {
+        import_.warned(directive.at, directive.word, "without a Begin before it; left out, as pbrt does");
+        return;
+    }
     if (stack_.empty()) throw ImportError{directive.at, directive.word + " without a Begin before it; remove it"};
     Saved& top = stack_.back();
+    if (import_.v3() && !matches(*top.opened) && directive.verb != Verb::object_end &&
+        top.opened->verb != Verb::object_begin && top.opened->verb != Verb::import_begin)
+        return pop_v3(directive);
     if (!matches(*top.opened))
         throw ImportError{directive.at, directive.word + " closes the " + top.opened->word + " of line " +
                                             std::to_string(top.opened->at.line) + "; the Begins and Ends do not match"};
@@ -134,6 +167,37 @@ void Builder::pop(const Directive& directive, bool only_transform) {
     stack_.pop_back();
 }
 
+// pbrt-v3 keeps two stacks: AttributeBegin puts onto both, TransformBegin onto that of transforms. An End that does not
+// fit takes the top of its own.
+void Builder::pop_v3(const Directive& directive) {
+    Saved& top = stack_.back();
+    import_.warned(directive.at, directive.word,
+                   "closes the " + top.opened->word + " of line " + std::to_string(top.opened->at.line) +
+                       "; the Begins and Ends do not match, and pbrt goes on");
+    if (directive.verb == Verb::transform_end) { // the attributes stay open
+        state_.ctm[0] = top.state.ctm[0];
+        state_.ctm[1] = top.state.ctm[1];
+        state_.active = top.state.active;
+        return;
+    }
+    const auto attributes = std::find_if(
+        stack_.rbegin(), stack_.rend(), [](const Saved& saved) { return saved.opened->verb == Verb::attribute_begin; });
+    if (attributes == stack_.rend()) return;
+    const Matrix ctm[2] = {top.state.ctm[0], top.state.ctm[1]};
+    const unsigned active = top.state.active;
+    const Matrix below[2] = {attributes->state.ctm[0], attributes->state.ctm[1]};
+    const Directive* inner = top.opened;
+    state_ = attributes->state;
+    state_.ctm[0] = ctm[0];
+    state_.ctm[1] = ctm[1];
+    state_.active = active;
+    // What is left of the two is a transform, that of the AttributeBegin.
+    attributes->opened = inner;
+    attributes->state.ctm[0] = below[0];
+    attributes->state.ctm[1] = below[1];
+    stack_.pop_back();
+}
+
 void Builder::transform_step(const Directive& d) {
     const std::vector<double>& v = d.numbers;
     Matrix by;
@@ -149,6 +213,10 @@ void Builder::transform_step(const Directive& d) {
             break;
         case Verb::look_at: {
             const auto view = look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]});
+            if (!view && import_.v3()) { // transform.cpp
+                import_.warned(d.at, "LookAt", "eye and target are the same, or up points along the view; left out");
+                return;
+            }
             if (!view)
                 throw ImportError{d.at,
                                   "LookAt: eye and target are the same, or up points along the view; move one of them"};
@@ -173,6 +241,10 @@ void Builder::transform_step(const Directive& d) {
 }
 
 void Builder::option_step(Directive& d) {
+    if (world_ && d.verb != Verb::option && import_.v3()) { // VERIFY_OPTIONS of api.cpp
+        import_.lost(d.at, d.word, "it must come before WorldBegin; left out, as pbrt does");
+        return;
+    }
     if (world_ && d.verb != Verb::option)
         throw ImportError{d.at, d.word + " must come before WorldBegin; move it there"};
     switch (d.verb) {
@@ -204,6 +276,10 @@ void Builder::option_step(Directive& d) {
             import_.kept(d.at, "Option " + quote(d.name), "pbrt's own; written back as it is");
             break;
         default: // Accelerator, TransformTimes: nothing the picture shows
+            if (d.verb == Verb::accelerator && !pbrt_has(d.verb, d.name, import_.v3())) {
+                import_.warned(d.at, "Accelerator " + quote(d.name), "pbrt has none of that name; left out");
+                break;
+            }
             option_lines_ += d.word;
             if (!d.name.empty()) option_lines_ += " " + quote(d.name);
             for (const double value : d.numbers)
@@ -233,7 +309,8 @@ void Builder::step(Directive& d) {
                 state_.ctm[0] = found->second[0];
                 state_.ctm[1] = found->second[1];
             } else {
-                import_.dropped(d.at, "CoordSysTransform " + quote(d.name), "no CoordinateSystem has that name");
+                import_.warned(d.at, "CoordSysTransform " + quote(d.name),
+                               "no CoordinateSystem has that name; left out, as pbrt does");
             }
             break;
         case Verb::active_transform:
@@ -246,8 +323,8 @@ void Builder::step(Directive& d) {
             if (const auto space = color_space_named(d.name))
                 state_.color_space = *space;
             else
-                throw ImportError{
-                    d.at, "ColorSpace " + quote(d.name) + " is unknown; pbrt knows srgb, dci-p3, rec2020, aces2065-1"};
+                import_.warned(d.at, "ColorSpace " + quote(d.name),
+                               "pbrt knows srgb, dci-p3, rec2020, aces2065-1; the one before goes on");
             break;
         case Verb::attribute:
             for (Param& param : d.params.params) {
@@ -265,10 +342,17 @@ void Builder::step(Directive& d) {
         case Verb::transform_times:
             option_step(d);
             break;
+        case Verb::missing_file:
+            missing_file(d);
+            break;
         case Verb::ignored:
             import_.dropped(d.at, d.word + " " + quote(d.name), "of pbrt-v1 and v2; nothing stands for it");
             break;
         case Verb::world_begin:
+            if (world_ && import_.v3()) {
+                import_.warned(d.at, "WorldBegin", "a second one; left out, as pbrt does");
+                break;
+            }
             if (world_) throw ImportError{d.at, "a second WorldBegin; remove it"};
             if (!stack_.empty())
                 throw ImportError{d.at, "WorldBegin inside " + stack_.back().opened->word + "; close that first"};
@@ -294,7 +378,10 @@ void Builder::step(Directive& d) {
             pop(d, import_.v3());
             break;
         case Verb::object_begin:
-            in_world(d);
+            if (!in_world(d)) {
+                push(d);
+                break;
+            }
             if (!open_object_.empty())
                 throw ImportError{
                     d.at, "ObjectBegin inside an object; close " + quote(open_object_) + " with ObjectEnd first"};
@@ -305,7 +392,7 @@ void Builder::step(Directive& d) {
             break;
         case Verb::object_end:
             pop(d, false);
-            end_object();
+            if (!open_object_.empty()) end_object();
             break;
         case Verb::object_instance:
             object_instance(d);
@@ -315,6 +402,11 @@ void Builder::step(Directive& d) {
             state_.exterior = d.second;
             break;
         case Verb::make_named_medium:
+            if (!import_.v3() && later_media_.erase(d.name) == 0) { // made ahead, or there twice
+                if (made_media_.erase(d.name) == 0)
+                    import_.lost(d.at, "medium " + quote(d.name), "there is one of that name already; that one counts");
+                break;
+            }
             add_attributes(d, "medium");
             medium(d);
             break;
@@ -330,14 +422,25 @@ void Builder::step(Directive& d) {
             } else if (materials_of_plugins_.erase(d.name) > 0) {
                 break;
             }
-            if (later_materials_.erase(d.name) == 0 && !import_.v3() && state_.names->materials.count(d.name))
+            if (later_materials_.erase(d.name) == 0 && !import_.v3() && state_.names->materials.count(d.name)) {
+                if (made_materials_.erase(d.name) == 0)
+                    import_.lost(d.at, "material " + quote(d.name),
+                                 "there is one of that name already; that one counts");
                 break; // made ahead
+            }
+            if (import_.v3() && state_.names->materials.count(d.name))
+                import_.warned(d.at, "material " + quote(d.name), "is defined again; from here on this one counts");
             const RestageHandle handle = material(d, d.name, d.params.string("type", import_.v3() ? "matte" : ""));
             writable_names().materials[d.name] = handle;
             writable_names().material_sources[d.name] = &d;
             break;
         }
         case Verb::named_material:
+            if (import_.v3() && !state_.names->materials.count(d.name) && !files_are_missing_) {
+                import_.warned(d.at, "NamedMaterial " + quote(d.name),
+                               "no material has that name; the one before goes on");
+                break;
+            }
             state_.material = named_material(d, d.name);
             if (const auto source = state_.names->material_sources.find(d.name);
                 source != state_.names->material_sources.end())
@@ -346,23 +449,23 @@ void Builder::step(Directive& d) {
                 state_.material_from = nullptr;
             break;
         case Verb::material:
-            in_world(d);
+            if (!in_world(d)) break;
             add_attributes(d, "material");
             state_.material = material(d, "", d.name);
             state_.material_from = &d;
             break;
         case Verb::area_light_source:
-            in_world(d);
+            if (!in_world(d)) break;
             add_attributes(d, "light");
             state_.area_light = d.name.empty() || d.name == "none" || next_.material_shines ? nullptr : &d;
             break;
         case Verb::light_source:
-            in_world(d);
+            if (!in_world(d)) break;
             add_attributes(d, "light");
             light(d);
             break;
         case Verb::shape:
-            in_world(d);
+            if (!in_world(d)) break;
             add_attributes(d, "shape");
             shape(d);
             break;
@@ -382,11 +485,24 @@ RestageHandle Builder::named_material(const Directive& directive, const std::str
         const RestageHandle handle = material(made, name, made.params.string("type", ""));
         --material_depth_;
         writable_names().materials[name] = handle;
+        made_materials_.insert(name);
         return handle;
     }
-    import_.approximated(directive.at, directive.word + " " + quote(name),
-                         "no material has that name; a grey diffuse one stands for it");
-    return default_material(directive);
+    import_.warned(directive.at, directive.word + " " + quote(name),
+                   "no material has that name; a grey diffuse one stands for it");
+    if (!files_are_missing_) return default_material(directive);
+    // A missing file may define it: it keeps its name, and is not defined when it is written ("extern").
+    Values values;
+    values.color("reflectance", {0.5, 0.5, 0.5});
+    values.number("sigma", 0);
+    const std::string verbatim = "=* extern " + quote(name) + "\n";
+    const RestageMaterialDesc desc{.text = import_.text(name.c_str(), verbatim.c_str()),
+                                   .type = "diffuse",
+                                   .values = values.data(),
+                                   .value_count = values.size()};
+    const RestageHandle handle = import_.out.material(import_.out.ctx, &desc);
+    writable_names().materials[name] = handle;
+    return handle;
 }
 
 } // namespace restage::pbrt

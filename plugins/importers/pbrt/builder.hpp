@@ -54,9 +54,11 @@ class Builder {
     void pop(const Directive& directive, bool only_transform);
     void finish(const SceneFile& scene);
     void add_attributes(Directive& directive, const char* target);
+    void pop_v3(const Directive& directive); // an End that does not fit its Begin
     Names& writable_names();
     const Matrix& ctm(const Directive& directive); // at shutter opening; motion is reported
-    bool in_world(const Directive& directive) const;
+    bool in_world(const Directive& directive); // v3: false where it must be left out
+    void missing_file(const Directive& directive);
 
     // build_names.cpp
     void read_comments(const Directive& directive);
@@ -77,6 +79,7 @@ class Builder {
     void put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise);
     void keep_exact(const char* id, const Directive& d, const char* name);
     RestageHandle find_texture(const Directive& directive, const char* name, bool is_float);
+    std::optional<Rgb> constant_of(RestageHandle texture) const; // of a texture that is one colour everywhere
     RestageHandle scaled_texture(RestageHandle texture, double scale, bool is_float);
 
     // build_materials*.cpp
@@ -89,6 +92,8 @@ class Builder {
     bool is_rgl(const Directive& d) const; // pbrt-v4's own measured data: another format than MERL's
     bool is_for_plugin(const Directive& d) const; // names one, and it is there
     Rgb hair_color(const Directive& d);
+    std::string subsurface(const Directive& d, const std::string& type, Values& values, std::string& plugin);
+    Argument subsurface_reflectance(const Directive& d, const std::string& type, double eta);
     void approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     void disney(const Directive& d, Values& values);
     void put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id,
@@ -102,6 +107,10 @@ class Builder {
 
     // build_shapes.cpp
     void shape(const Directive& directive);
+    // What could not be read stays: a mesh without triangles that stands for these lines, and an instance of it.
+    RestageHandle missing_mesh(const std::string& name, const std::string& line, const std::string& file = "");
+    void placeholder(const Directive& directive, const std::string& name, const std::string& line,
+                     const std::string& file = "");
     RestageHandle mesh(const Directive& directive, const std::string& name, const Mesh*& data);
     RestageHandle ply_mesh(const Directive& directive, const std::string& name, const Mesh*& data);
     // All of an instance but mesh, name and emission.
@@ -125,6 +134,7 @@ class Builder {
     bool realistic_camera(const Directive& directive, RestageCamera& out);
     void film_and_settings();
     void medium(const Directive& directive);
+    void missing_files_of(const Directive& directive, const std::string& what);
     RestageHandle medium_named(const std::string& name, const Directive& directive);
 
     Import& import_;
@@ -145,10 +155,14 @@ class Builder {
     std::string option_lines_; // verbatim, of directives that only pbrt understands
     std::map<std::string, const Directive*> later_materials_; // v4: NamedMaterial may come first
     std::set<std::string> materials_of_plugins_; // by such a line; pbrt's own of that name is skipped
+    std::set<std::string> made_materials_, made_media_; // ahead of their line
     int material_depth_ = 0;                                  // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
+    std::map<std::string, const Directive*> later_media_; // v4: MediumInterface may come first
+    bool files_are_missing_ = false; // of Include and Import: what they define is kept by its name
     std::set<RestageHandle> interfaces_; // materials without a surface
     std::set<RestageHandle> zero_textures_; // constants of 0: pbrt-v4 knows lamps of such an alpha
+    std::set<RestageHandle> hair_;
 
     struct Object {
         std::vector<RestageInstance> instances;
@@ -171,6 +185,7 @@ class Builder {
     std::map<std::string, Mesh> emitter_meshes_;
     std::map<std::string, RestageHandle> images_, materials_by_content_;
     std::map<std::pair<RestageHandle, double>, RestageHandle> scaled_textures_;
+    std::map<RestageHandle, Rgb> constants_; // textures of one colour
     std::string exact_; // "=id parameter" lines: what a value was before it became RGB
     RestageHandle default_material_ = 0;
     std::map<RestageHandle, std::string> material_names_; // of named ones
@@ -190,7 +205,12 @@ class Builder {
         RestageEnvironment value{};
         std::string name, verbatim;
         Location at;
+        // As they stand in the file, with their transforms: what another light takes the place of.
+        std::vector<std::pair<std::string, std::array<Matrix, 2>>> lines;
+        const Directive* from = nullptr;
+        bool is_missing = false; // its picture is not there
     } environment_;
+    void displace_environment(const std::string& why);
 };
 
 } // namespace restage::pbrt

@@ -34,6 +34,7 @@ enum class Verb {
     make_named_medium,
     material,
     medium_interface,
+    missing_file, // an Include or Import: `name` as it is written, `second` where it was looked for, `third` why not
     named_material,
     object_begin,
     object_end,
@@ -68,14 +69,10 @@ struct Directive {
     bool ours = false; // of a line `#restage ...`: a comment to pbrt
 };
 
-struct MissingFile {
-    Location at;
-    std::string word, name, reason;
-};
-
 struct SceneFile {
     std::deque<Directive> directives; // does not move when it grows
-    std::vector<MissingFile> missing; // of Include and Import: reported, the rest goes on
+    std::vector<Slip> slips;           // of the text, in order
+    bool has_missing_file = false;
     bool has_world_begin = false, has_world_end = false;
     Location end;
 };
@@ -84,6 +81,9 @@ struct SceneFile {
 // everything the scene names. `goes_on` is asked now and then; when it says no, parsing stops and nullopt is returned.
 std::optional<SceneFile> parse(Sources& sources, const std::filesystem::path& folder,
                                const std::function<bool()>& goes_on);
+
+// Is there a Sampler, Integrator or Accelerator of that name? Others are v2's, or slips; pbrt stops at them.
+bool pbrt_has(Verb kind, std::string_view name, bool v3);
 
 bool is_directive(std::string_view word);
 

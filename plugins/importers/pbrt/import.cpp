@@ -66,9 +66,11 @@ void Import::flush_report() {
 std::string Import::keep_unused(const ParamList& params, const std::string& what) {
     std::string verbatim;
     params.each_unused([&](const Param& param) {
-        kept(
-            param.at, what,
-            "parameter \"" + param.type + " " + param.name + "\" means nothing to the renderer; written back as it is");
+        const std::string name = "parameter \"" + param.type + " " + param.name + "\" ";
+        if (param.misfit)
+            warned(param.at, what, name + "has a value of the wrong kind; the default stands for it");
+        else
+            kept(param.at, what, name + "means nothing to the renderer; written back as it is");
         (verbatim += to_text(param)) += '\n';
     });
     return verbatim;
@@ -115,7 +117,7 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
     std::string reason;
     auto bytes = FileBytes::open(path, reason);
     if (!bytes) {
-        dropped(at, "spectrum " + quote(name), reason + ": " + path + "; the default stands for it");
+        lost(at, "spectrum " + quote(name), reason + ": " + path + "; the default stands for it");
         return std::nullopt;
     }
     Sources own; // messages name the spectrum file itself
@@ -135,10 +137,29 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
         reason = "line " + std::to_string(error.at.line) + ": " + error.message;
     }
     if (!out_spectrum)
-        dropped(at, "spectrum " + quote(name),
-                (reason.empty() ? std::string("wavelengths must rise and each needs a value") : reason) + ": " + path +
-                    "; the default stands for it");
+        lost(at, "spectrum " + quote(name),
+             (reason.empty() ? std::string("wavelengths must rise and each needs a value") : reason) + ": " + path +
+                 "; the default stands for it");
     return out_spectrum;
+}
+
+// pbrt-v3 leaves out a last number without a partner, and sorts (paramset.cpp, spectrum.cpp).
+void Import::mend_pairs(const Param& param, std::vector<double>& numbers) {
+    const std::string what = "\"spectrum " + param.name + "\"";
+    if (numbers.size() % 2 != 0) {
+        numbers.pop_back();
+        warned(param.at, what, "an odd number of values is given; the last one is left out");
+    }
+    std::vector<std::pair<double, double>> pairs;
+    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
+        pairs.emplace_back(numbers[i], numbers[i + 1]);
+    const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    if (std::is_sorted(pairs.begin(), pairs.end(), before)) return;
+    warned(param.at, what, "its wavelengths do not rise; they are sorted");
+    std::stable_sort(pairs.begin(), pairs.end(), before);
+    numbers.clear();
+    for (const auto& [wavelength, value] : pairs)
+        numbers.insert(numbers.end(), {wavelength, value});
 }
 
 std::optional<Spectrum> Import::spectrum(const Param& param) {
@@ -146,7 +167,9 @@ std::optional<Spectrum> Import::spectrum(const Param& param) {
         if (auto named = named_spectrum(param.strings[0])) return named;
         return read_spectrum(param.strings[0], param.at);
     }
-    auto out_spectrum = from_pairs(param.numbers, v3() ? Ends::constant : Ends::zero);
+    std::vector<double> numbers = param.numbers;
+    if (v3()) mend_pairs(param, numbers);
+    auto out_spectrum = from_pairs(numbers, v3() ? Ends::constant : Ends::zero);
     if (!out_spectrum)
         throw ImportError{
             param.at, "\"spectrum " + param.name + "\" needs pairs of wavelength [nm] and value, wavelengths rising"};
@@ -177,6 +200,16 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
     if (!params.has(name)) return std::nullopt;
     const Param* param = params.find(name);
     if (param->type == "texture") return std::nullopt;
+    if (params.lenient) { // pbrt-v3 knows a parameter by its type as well; of three numbers it takes whole colours
+        const bool spectrum_type = param->type == "spectrum";
+        const bool rgb = param->type == "rgb" || param->type == "color" || param->type == "xyz";
+        const std::size_t needed = rgb ? 3 : 1;
+        if (!spectrum_type && param->numbers.size() < needed) {
+            param->used = false;
+            param->misfit = true;
+            return std::nullopt;
+        }
+    }
     const auto need = [&](std::size_t count, const char* what) {
         if (param->numbers.size() < count || param->numbers.empty())
             throw ImportError{param->at, "\"" + param->type + " " + param->name + "\" needs " + what};

@@ -47,6 +47,14 @@ class Import {
 
     // A line of the report. Lines that say the same of the same kind of thing are folded into the first one.
     void report(RestageFate fate, Location at, std::string what, std::string note);
+    // The file is at fault, and pbrt would warn and go on (or stop, where a file it names is not there): `warned`:
+    // something else stands for it; `lost`: nothing does.
+    void warned(Location at, std::string what, std::string note) {
+        report(RESTAGE_APPROXIMATED, at, std::move(what), std::move(note));
+    }
+    void lost(Location at, std::string what, std::string note) {
+        report(RESTAGE_DROPPED, at, std::move(what), std::move(note));
+    }
     void kept(Location at, std::string what, std::string note) { report(RESTAGE_KEPT, at, what, note); }
     void approximated(Location at, std::string what, std::string note) { report(RESTAGE_APPROXIMATED, at, what, note); }
     void dropped(Location at, std::string what, std::string note) { report(RESTAGE_DROPPED, at, what, note); }
@@ -74,6 +82,7 @@ class Import {
 
   private:
     std::optional<Spectrum> spectrum(const Param& param);
+    void mend_pairs(const Param& param, std::vector<double>& numbers);
     std::optional<Spectrum> read_spectrum(const std::string& name, Location at);
     Rgb limited(Rgb color, const Param& param, Role role);
 

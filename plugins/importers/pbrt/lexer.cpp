@@ -59,10 +59,11 @@ double parse_number(std::string_view text, Location at) {
     return value;
 }
 
-void Lexer::push(std::uint32_t file) {
+void Lexer::push(std::uint32_t file, bool included) {
     const std::string_view text = sources_.text(file);
     Frame frame{
         .file = file, .at = text.data(), .end = text.data() + text.size(), .line_start = text.data(), .line = 1};
+    frame.included = included;
     if (text.starts_with("\xEF\xBB\xBF")) { // a byte order mark
         frame.at += 3;
         frame.line_start += 3;
@@ -130,15 +131,37 @@ const Token& Lexer::peek() {
 
 Location Lexer::here() { return peek().at; }
 
+bool Lexer::leave_included() {
+    if (!frames_.back().included || frames_.size() < 2) return false;
+    frames_.pop_back();
+    return true;
+}
+
+double Lexer::number_in(const Token& word) {
+    const char* begin = word.text.data();
+    const char* end = begin + word.text.size();
+    double value = 0;
+    const char* number = begin != end && *begin == '+' ? begin + 1 : begin;
+    const auto [stop, code] = std::from_chars(number, end, value);
+    if (code != std::errc() || stop == end || stop == number || !std::isfinite(value))
+        return parse_number(word.text, word.at); // in full, or it says what is wrong
+    slips_.push_back({word.at, "number " + quoted(word.text),
+                      "pbrt reads " + std::string(begin, stop) + " and leaves the rest out; separate numbers by spaces",
+                      false});
+    return value;
+}
+
 bool Lexer::number(double& value) {
     if (has_peeked_) {
         if (peeked_.kind != TokenKind::word || !starts_number(peeked_.text.front())) return false;
         has_peeked_ = false;
-        value = parse_number(peeked_.text, peeked_.at);
+        value = number_in(peeked_);
         return true;
     }
+    do {
+        skip_blanks(frames_.back());
+    } while (frames_.back().at == frames_.back().end && leave_included());
     Frame& frame = frames_.back();
-    skip_blanks(frame);
     if (frame.at == frame.end || !starts_number(*frame.at)) return false;
     const char* begin = *frame.at == '+' ? frame.at + 1 : frame.at;
     const auto [stop, code] = std::from_chars(begin, frame.end, value);
@@ -146,14 +169,15 @@ bool Lexer::number(double& value) {
         frame.at = stop;
         return true;
     }
-    const Token token = scan(); // says what is wrong with it
-    value = parse_number(token.text, token.at);
+    value = number_in(scan()); // says what is wrong with it
     return true;
 }
 
 Token Lexer::scan() {
+    do {
+        skip_blanks(frames_.back());
+    } while (frames_.back().at == frames_.back().end && leave_included());
     Frame& frame = frames_.back();
-    skip_blanks(frame);
     const Location at = place(frame, frame.at);
     const bool ours = frame.ours_from != nullptr;
     if (frame.at == frame.end) return {TokenKind::end_of_file, {}, at, ours};

@@ -30,8 +30,9 @@ class Lexer {
   public:
     explicit Lexer(Sources& sources) : sources_(sources) {}
 
-    // Reads `file` next, then goes on where it was.
-    void push(std::uint32_t file);
+    // Reads `file` next, then goes on where it was. `included`: its tokens and those that follow are one stream, as
+    // pbrt has it: a file may end between a shape's parameters. Else its end is a token.
+    void push(std::uint32_t file, bool included = false);
     void pop() { frames_.pop_back(); }
     std::size_t depth() const { return frames_.size(); }
     // Is `name` being read already, here or further up? (an Include cycle)
@@ -40,8 +41,11 @@ class Lexer {
     // end_of_file is returned again and again until pop().
     Token next();
     const Token& peek();
-    // If the next token is a number, takes it: the fast way through long arrays. Throws on "1.2.3", NaN and overflow.
+    // If the next token is a number, takes it: the fast way through long arrays. Throws on NaN and overflow.
     bool number(double& value);
+    // The number a word begins with, as pbrt takes it (strtof): what follows, as in "0," or "1.2.3", is a slip.
+    double number_in(const Token& word);
+    std::vector<Slip> take_slips() { return std::move(slips_); }
     Location here();
     // Comments on lines of their own, without the '#', since they were last taken; the next token's included if it was
     // peeked at.
@@ -56,7 +60,9 @@ class Lexer {
         const char* line_start = nullptr;
         std::uint32_t line = 1;
         const char* ours_from = nullptr; // behind the last `#restage `, while its line lasts
+        bool included = false;
     };
+    bool leave_included(); // at its end: the frame around it goes on
     void skip_comment(Frame& frame);
     void skip_blanks(Frame& frame);
     Location place(const Frame& frame, const char* at) const;
@@ -69,6 +75,7 @@ class Lexer {
     std::deque<std::string> unescaped_; // strings whose escapes had to be resolved
     Token peeked_;
     bool has_peeked_ = false;
+    std::vector<Slip> slips_;
 };
 
 // A number in full, as pbrt reads it ("+1", "1.", ".5", "1e-3"); throws ImportError with the remedy.

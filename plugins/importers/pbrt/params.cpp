@@ -12,11 +12,8 @@ namespace {
     throw ImportError{param.at, "parameter \"" + param.type + " " + param.name + "\" should be " + expected};
 }
 
-double one_number(const Param& param) {
-    if (param.numbers.size() != 1)
-        wrong(param, param.numbers.empty() ? "a number"
-                                           : "one number; " + std::to_string(param.numbers.size()) + " are given");
-    return param.numbers[0];
+std::string expected_number(const Param& param) {
+    return param.numbers.empty() ? "a number" : "one number; " + std::to_string(param.numbers.size()) + " are given";
 }
 
 } // namespace
@@ -39,6 +36,14 @@ const Param* ParamList::find(std::string_view name, std::string_view type) const
     return nullptr;
 }
 
+bool ParamList::taken(const Param& param, bool fits, const std::string& expected) const {
+    if (fits) return true;
+    if (!lenient) wrong(param, expected);
+    param.used = false;
+    param.misfit = true;
+    return false;
+}
+
 bool ParamList::has(std::string_view name) const {
     for (const Param& param : params)
         if (param.name == name) return true;
@@ -47,28 +52,27 @@ bool ParamList::has(std::string_view name) const {
 
 double ParamList::number(std::string_view name, double otherwise) const {
     const Param* param = find(name);
-    return param ? one_number(*param) : otherwise;
+    return param && taken(*param, param->numbers.size() == 1, expected_number(*param)) ? param->numbers[0] : otherwise;
 }
 
 int ParamList::integer(std::string_view name, int otherwise) const {
     const Param* param = find(name);
-    if (!param) return otherwise;
-    const double value = one_number(*param);
-    if (value != std::floor(value) || std::abs(value) > 2147483647.0) wrong(*param, "a whole number of 32 bits");
+    if (!param || !taken(*param, param->numbers.size() == 1, expected_number(*param))) return otherwise;
+    const double value = param->numbers[0];
+    if (!taken(*param, value == std::floor(value) && std::abs(value) <= 2147483647.0, "a whole number of 32 bits"))
+        return otherwise;
     return static_cast<int>(value);
 }
 
 bool ParamList::boolean(std::string_view name, bool otherwise) const {
     const Param* param = find(name);
-    if (!param) return otherwise;
-    if (param->bools.size() != 1) wrong(*param, "true or false");
+    if (!param || !taken(*param, param->bools.size() == 1, "true or false")) return otherwise;
     return param->bools[0] != 0;
 }
 
 std::string ParamList::string(std::string_view name, std::string otherwise) const {
     const Param* param = find(name);
-    if (!param) return otherwise;
-    if (param->strings.size() != 1) wrong(*param, "one \"string\"");
+    if (!param || !taken(*param, param->strings.size() == 1, "one \"string\"")) return otherwise;
     return param->strings[0];
 }
 
@@ -77,7 +81,7 @@ std::string ParamList::texture(std::string_view name) const {
         if (it->name == name) {
             if (it->type != "texture") return {};
             it->used = true;
-            if (it->strings.size() != 1) wrong(*it, "the \"name\" of one texture");
+            if (!taken(*it, it->strings.size() == 1, "the \"name\" of one texture")) return {};
             return it->strings[0];
         }
     return {};
@@ -85,15 +89,15 @@ std::string ParamList::texture(std::string_view name) const {
 
 std::array<double, 3> ParamList::triple(std::string_view name, std::array<double, 3> otherwise) const {
     const Param* param = find(name);
-    if (!param) return otherwise;
-    if (param->numbers.size() != 3) wrong(*param, "three numbers");
+    if (!param || !taken(*param, param->numbers.size() == 3, "three numbers")) return otherwise;
     return {param->numbers[0], param->numbers[1], param->numbers[2]};
 }
 
 const std::vector<double>* ParamList::numbers(std::string_view name) const {
     const Param* param = find(name);
     if (!param) return nullptr;
-    if (param->numbers.empty() && (!param->strings.empty() || !param->bools.empty())) wrong(*param, "numbers");
+    if (!taken(*param, !param->numbers.empty() || (param->strings.empty() && param->bools.empty()), "numbers"))
+        return nullptr;
     return &param->numbers;
 }
 
@@ -105,10 +109,12 @@ std::vector<std::uint32_t> ParamList::indices(std::string_view name, std::size_t
     out.reserve(param->numbers.size());
     for (std::size_t i = 0; i < param->numbers.size(); ++i) {
         const double value = param->numbers[i];
-        if (!(value >= 0 && value < static_cast<double>(bound)) || value != std::floor(value))
+        const bool whole = value == std::floor(value);
+        if (!(value >= 0 && value < static_cast<double>(bound)) || !whole)
             throw ImportError{param->at, "\"" + param->name + "\" number " + std::to_string(i) + " is " +
                                              shortest(value) + ", but there are " + std::to_string(bound) +
-                                             " vertices; indices count from 0"};
+                                             " vertices; indices count from 0",
+                              !whole};
         out.push_back(static_cast<std::uint32_t>(value));
     }
     return out;
@@ -121,7 +127,7 @@ void ParamList::mark_all_used() const {
 
 void ParamList::each_unused(const std::function<void(const Param&)>& visit) const {
     for (const Param& param : params)
-        if (!param.used && !param.from_attribute) visit(param);
+        if ((!param.used && !param.from_attribute) || param.misfit) visit(param);
 }
 
 std::string shortest(double value) {

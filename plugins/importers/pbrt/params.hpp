@@ -21,11 +21,14 @@ struct Param {
     ColorSpace color_space = ColorSpace::srgb;
     bool from_attribute = false; // an `Attribute` default: may go unused
     mutable bool used = false;
+    mutable bool misfit = false; // asked for, but of the wrong kind: the default was taken
 };
 
 class ParamList {
   public:
     std::vector<Param> params;
+    // As pbrt-v3 takes them: a value of the wrong kind is no value (it stays unused, marked `misfit`), not an error.
+    bool lenient = false;
 
     // The parameter of that name (the last one given), marked as used; nullptr if absent.
     const Param* find(std::string_view name) const;
@@ -42,6 +45,8 @@ class ParamList {
     // Integers in [lowest, highest]; throws naming the first that is not.
     std::vector<std::uint32_t> indices(std::string_view name, std::size_t bound) const;
 
+    // For a parameter that was found: `fits`, or it is an error, or (lenient) taken for absent.
+    bool taken(const Param& param, bool fits, const std::string& expected) const;
     void mark_all_used() const;
     // Each parameter that nobody asked for, Attribute defaults excepted.
     void each_unused(const std::function<void(const Param&)>& visit) const;

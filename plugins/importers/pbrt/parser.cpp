@@ -63,6 +63,7 @@ const std::unordered_map<std::string_view, Rule>& rules() {
         {"WorldBegin", {Verb::world_begin, Shape::bare}},
         {"WorldEnd", {Verb::world_end, Shape::bare}},
         // pbrt-v1 and v2, still met in the wild.
+        {"SearchPath", {Verb::ignored, Shape::name}},
         {"Exterior", {Verb::ignored, Shape::name_params}},
         {"Interior", {Verb::ignored, Shape::name_params}},
         {"Renderer", {Verb::ignored, Shape::name_params}},
@@ -90,7 +91,11 @@ class Parser {
                     scene_.directives.push_back({.verb = Verb::import_end, .at = token.at, .word = "end of Import"});
                 }
                 lexer_.pop();
-                if (lexer_.depth() == 0) return std::move(scene_);
+                if (lexer_.depth() == 0) {
+                    for (Slip& slip : lexer_.take_slips())
+                        scene_.slips.push_back(std::move(slip));
+                    return std::move(scene_);
+                }
                 continue;
             }
             directive(token);
@@ -248,19 +253,21 @@ class Parser {
         return out;
     }
 
-    static void add(Param& param, const Token& token) {
+    void add(Param& param, const Token& token) {
         if (token.kind == TokenKind::text)
             param.strings.emplace_back(token.text);
         else if (token.text == "true" || token.text == "false")
             param.bools.push_back(token.text == "true");
         else
-            param.numbers.push_back(parse_number(token.text, token.at));
+            param.numbers.push_back(lexer_.number_in(token));
     }
 
-    static void as_bools(Param& param) { // v3 writes "true", v4 writes true
+    void as_bools(Param& param) { // v3 writes "true", v4 writes true
         for (const std::string& text : param.strings) {
             if (text != "true" && text != "false")
-                throw ImportError{param.at, "\"bool " + param.name + "\" is " + quote(text) + "; write true or false"};
+                scene_.slips.push_back({param.at, "\"bool " + param.name + "\"",
+                                        "it is " + quote(text) + ", which pbrt takes for false; write true or false",
+                                        true});
             param.bools.push_back(text == "true");
         }
         param.strings.clear();
@@ -288,7 +295,11 @@ class Parser {
         std::string reason;
         auto bytes = FileBytes::open(name, reason);
         if (!bytes) {
-            scene_.missing.push_back({directive.at, directive.word, name, reason});
+            directive.verb = Verb::missing_file;
+            directive.second = name;
+            directive.third = reason;
+            scene_.has_missing_file = true;
+            scene_.directives.push_back(std::move(directive));
             return;
         }
         if (import) {
@@ -297,7 +308,7 @@ class Parser {
         } else {
             carried_ = std::move(directive.comments);
         }
-        lexer_.push(sources_.add(name, std::move(*bytes)));
+        lexer_.push(sources_.add(name, std::move(*bytes)), !import);
     }
 
     Sources& sources_;

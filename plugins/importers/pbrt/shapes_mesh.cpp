@@ -10,14 +10,25 @@ namespace restage::pbrt {
 namespace {
 
 // `width` numbers a vertex; throws when the count does not divide or a value does not fit a float.
-std::vector<float> vertex_array(const Directive& shape, const char* name, std::size_t width) {
+std::vector<float> vertex_array(Import& import, const Directive& shape, const char* name, std::size_t width) {
     const Param* param = shape.params.has(name) ? shape.params.find(name) : nullptr;
     std::vector<float> out;
     if (!param) return out;
+    const std::size_t excess = param->numbers.size() % width;
+    if (import.v3() && excess > 0) { // parser.cpp, AddParam
+        import.warned(param->at, "\"" + param->name + "\" of Shape \"" + shape.name + "\"",
+                      std::to_string(excess) + " numbers too many; the last ones are left out");
+        Directive whole;
+        whole.name = shape.name;
+        whole.params.params = {*param};
+        auto& numbers = whole.params.params[0].numbers;
+        numbers.resize(numbers.size() - excess);
+        return vertex_array(import, whole, name, width);
+    }
     if (!param->strings.empty() || !param->bools.empty() || param->numbers.size() % width != 0)
         throw ImportError{param->at, "\"" + param->name + "\" of Shape \"" + shape.name + "\" needs " +
                                          std::to_string(width) + " numbers a vertex; " +
-                                         std::to_string(param->numbers.size()) + " are given"};
+                                         std::to_string(param->numbers.size()) + " are given", true};
     out.reserve(param->numbers.size());
     for (const double value : param->numbers) {
         if (!(std::abs(value) < 1e38))
@@ -30,9 +41,14 @@ std::vector<float> vertex_array(const Directive& shape, const char* name, std::s
 // A per-vertex array that pbrt discards when its length is wrong.
 std::vector<float> matching(Import& import, const Directive& shape, const char* name, std::size_t width,
                             std::size_t vertices) {
-    std::vector<float> out = vertex_array(shape, name, width);
+    std::vector<float> out = vertex_array(import, shape, name, width);
+    if (import.v3() && width == 2 && out.size() > width * vertices) { // triangle.cpp: more uv than will be used
+        import.warned(shape.at, "\"" + std::string(name) + "\" of Shape \"" + shape.name + "\"",
+                      "more of them than vertices; the last ones are left out");
+        out.resize(width * vertices);
+    }
     if (!out.empty() && out.size() != width * vertices) {
-        import.dropped(
+        import.lost(
             shape.at, "\"" + std::string(name) + "\" of Shape \"" + shape.name + "\"",
             "it has " + std::to_string(out.size() / width) + " entries for " + std::to_string(vertices) + " vertices");
         out.clear();
@@ -52,7 +68,7 @@ void drop_face_indices(Import& import, const Directive& shape) {
 
 Mesh make_triangle_mesh(Import& import, const Directive& shape) {
     Mesh mesh;
-    mesh.positions = vertex_array(shape, "P", 3);
+    mesh.positions = vertex_array(import, shape, "P", 3);
     const std::size_t vertices = mesh.vertex_count();
     if (vertices == 0) throw ImportError{shape.at, "Shape \"trianglemesh\" has no vertices; give \"point3 P\""};
     mesh.indices = shape.params.indices("indices", vertices);
@@ -60,8 +76,8 @@ Mesh make_triangle_mesh(Import& import, const Directive& shape) {
     if (mesh.indices.empty())
         throw ImportError{shape.at, "Shape \"trianglemesh\" has no faces; give \"integer indices\""};
     if (mesh.indices.size() % 3 != 0) {
-        import.dropped(shape.at, "Shape \"trianglemesh\"",
-                       "its indices are no multiple of 3; the last ones are left out");
+        import.warned(shape.at, "Shape \"trianglemesh\"",
+                      "its indices are no multiple of 3; the last ones are left out");
         mesh.indices.resize(mesh.indices.size() / 3 * 3);
     }
     mesh.uvs = matching(import, shape, shape.params.has("uv") ? "uv" : "st", 2, vertices);
@@ -73,11 +89,16 @@ Mesh make_triangle_mesh(Import& import, const Directive& shape) {
 // A bilinear patch p00, p10, p01, p11 (pbrt-v4 book, sec. 6.6): flat ones are two triangles, bent ones a grid. The
 // normal is dp/du x dp/dv of pbrt, or the interpolated N.
 Mesh make_bilinear(Import& import, const Directive& shape) {
-    const std::vector<float> p = vertex_array(shape, "P", 3);
+    const std::vector<float> p = vertex_array(import, shape, "P", 3);
     const std::size_t vertices = p.size() / 3;
     if (vertices == 0) throw ImportError{shape.at, "Shape \"bilinearmesh\" has no vertices; give \"point3 P\""};
     auto corners = shape.params.indices("indices", vertices);
     if (corners.empty() && vertices == 4) corners = {0, 1, 2, 3};
+    if (corners.size() > 4 && corners.size() % 4 != 0) {
+        import.warned(shape.at, "Shape \"bilinearmesh\"",
+                      "its indices are no multiple of 4; the last ones are left out");
+        corners.resize(corners.size() / 4 * 4);
+    }
     if (corners.empty() || corners.size() % 4 != 0)
         throw ImportError{shape.at, "Shape \"bilinearmesh\" needs four \"integer indices\" a patch"};
     const std::vector<float> uv = matching(import, shape, "uv", 2, vertices),

@@ -19,9 +19,16 @@ struct Location {
     std::uint32_t line = 0, column = 0; // 1-based; 0 = the file as a whole
 };
 
+struct Slip { // what pbrt warns of, or takes without a word, and goes on
+    Location at;
+    std::string what, note;
+    bool only_v3 = false; // v4 stops there
+};
+
 struct ImportError { // "mine, but malformed"
     Location at;
     std::string message; // what is wrong and what to do about it
+    bool stops_pbrt = false; // also within a shape that pbrt would leave out otherwise
 };
 
 // Bytes of a file: mapped where possible, inflated when it starts with the gzip magic number.

@@ -13,6 +13,13 @@ bool one_of(std::string_view text, std::initializer_list<std::string_view> names
     return std::find(names.begin(), names.end(), text) != names.end();
 }
 
+const std::initializer_list<std::string_view>
+    samplers_v3 = {"lowdiscrepancy", "02sequence", "maxmindist", "halton", "sobol", "random", "stratified"},
+    samplers_v4 = {"zsobol", "paddedsobol", "halton", "sobol", "pmj02bn", "independent", "stratified"},
+    integrators_v3 = {"whitted", "directlighting", "path", "volpath", "bdpt", "mlt", "ambientocclusion", "sppm"},
+    integrators_v4 = {"path", "function", "simplepath",       "lightpath",  "simplevolpath", "volpath",
+                      "bdpt", "mlt",      "ambientocclusion", "randomwalk", "sppm"};
+
 struct Vote {
     int weight = 0; // > 0: v3, < 0: v4
     std::string why;
@@ -20,7 +27,7 @@ struct Vote {
 
 Vote material(const std::string& type) {
     if (one_of(type, {"matte", "plastic", "metal", "glass", "mirror", "substrate", "uber", "translucent", "disney",
-                      "fourier", "kdsubsurface"}))
+                      "fourier", "kdsubsurface", "shinymetal"}))
         return {4, "material \"" + type + "\""};
     if (one_of(type, {"diffuse", "coateddiffuse", "conductor", "dielectric", "thindielectric", "diffusetransmission",
                       "coatedconductor", "interface", "measured"}))
@@ -125,6 +132,17 @@ Vote by_param(const Directive& d, const Param& param) {
 }
 
 } // namespace
+
+bool pbrt_has(Verb kind, std::string_view name, bool v3) {
+    switch (kind) {
+        case Verb::sampler:
+            return one_of(name, v3 ? samplers_v3 : samplers_v4);
+        case Verb::integrator:
+            return one_of(name, v3 ? integrators_v3 : integrators_v4);
+        default: // Accelerator
+            return one_of(name, {"bvh", "kdtree"});
+    }
+}
 
 Version detect_version(const SceneFile& scene, const Sources& sources, std::string& evidence) {
     int balance = 0;

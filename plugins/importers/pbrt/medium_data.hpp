@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The media that pbrt knows by name, for MakeNamedMedium "preset" and Material "subsurface" "name".
+#pragma once
+
+#include "spectrum.hpp"
+
+#include <string_view>
+
+namespace restage::pbrt {
+
+struct MediumPreset { // per millimetre, as pbrt takes them: the scene's unit stands for it
+    const char* name;
+    Rgb scattering, absorption; // scattering is reduced: sigma_s (1 - g)
+};
+
+const MediumPreset* medium_preset(std::string_view name); // null = unknown
+inline constexpr const char* default_medium = "Wholemilk";
+
+} // namespace restage::pbrt
