@@ -95,8 +95,10 @@ if(TARGET TinyGLTF::TinyGLTF)
 else()
     restage_dep_headers(tinygltf tiny_gltf.h)
 endif()
-find_package(tinyobjloader CONFIG REQUIRED)
-restage_dep(tinyobjloader tinyobjloader::tinyobjloader tinyobjloader)
+restage_dep_headers(png spng.h LIBRARY spng)
+find_package(JPEG REQUIRED) # libjpeg-turbo
+restage_dep(jpeg JPEG::JPEG)
+restage_dep_headers(webp webp/decode.h LIBRARY webp)
 restage_dep_headers(stb stb_image.h SUFFIXES stb) # headers; whoever needs the code defines STB_..._IMPLEMENTATION once
 restage_dep_headers(ply rply.h LIBRARY rply)
 

@@ -2,6 +2,7 @@
 #include "assets.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -77,7 +78,7 @@ Result<std::vector<Asset>> read_assets(const fs::path& config, std::vector<std::
     std::error_code none;
     if (!fs::exists(config, none)) return all;
     RESTAGE_TRY(const std::string text, read_file(config.string()));
-    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto json = parse_json<nlohmann::json>(text).value_or(nlohmann::json());
     if (!json.is_object()) return fail(config.string() + ": not a JSON object; see README.md for what it holds");
     const auto list = [&](const char* key, auto&& add) -> Result<void> {
         const auto found = json.find(key);
@@ -106,7 +107,7 @@ Result<void> add_asset_folder(const fs::path& config, const fs::path& folder) {
     std::error_code none;
     if (fs::exists(config, none)) {
         RESTAGE_TRY(const std::string text, read_file(config.string()));
-        json = nlohmann::json::parse(text, nullptr, false);
+        json = parse_json<nlohmann::json>(text).value_or(nlohmann::json());
         if (!json.is_object()) return fail(config.string() + ": not a JSON object: it is left as it is");
     }
     if (!json["folders"].is_array()) json["folders"] = nlohmann::json::array();

@@ -2,6 +2,7 @@
 #include "preferences.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,7 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     Preferences preferences;
     if (config_dir.empty()) return preferences;
     const auto text = read_file(file_in(config_dir));
-    const auto j = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+    const auto j = text ? parse_json<nlohmann::json>(*text).value_or(nlohmann::json()) : nlohmann::json();
     if (!j.is_object()) return preferences;
     if (const auto seen = j.find("hint_seen"); seen != j.end() && seen->is_boolean()) preferences.hint_seen = *seen;
     if (const auto keys = j.find("keys"); keys != j.end() && *keys == "blender") preferences.keys = KeyPreset::blender;

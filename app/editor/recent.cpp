@@ -2,6 +2,7 @@
 #include "recent.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -23,7 +24,7 @@ void put_first(std::vector<std::string>& list, const std::filesystem::path& path
 
 Recent::Recent(std::filesystem::path file) : file_(std::move(file)) {
     const auto text = read_file(file_);
-    const auto j = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+    const auto j = text ? parse_json<nlohmann::json>(*text).value_or(nlohmann::json()) : nlohmann::json();
     const auto take = [&](const char* name, std::vector<std::string>& list) {
         if (!j.is_object() || !j.contains(name) || !j[name].is_array()) return;
         for (const auto& item : j[name])

@@ -2,12 +2,14 @@
 // Reading, atomic writing and the program's folders.
 #include "base/file.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #if defined(_WIN32)
 #define WIN32_LEAN_AND_MEAN
@@ -15,6 +17,7 @@
 #include <windows.h>
 #else
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -73,24 +76,69 @@ Result<fs::path> home_folder(const char* variable, const char* below_home) {
 
 } // namespace
 
-Result<std::string> read_file(const fs::path& path) {
+Result<RegularFile> RegularFile::open(const fs::path& path) {
+    const auto is = [&](const char* what) { return fail(path.string() + ": is " + what + ", not a regular file"); };
+#if defined(_WIN32)
     std::error_code code;
-    if (fs::is_directory(path, code)) return fail(path.string() + ": is a folder, a file was expected");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_file(path, "rb"), std::fclose);
+    const auto kind = fs::status(path, code);
+    if (fs::is_directory(kind)) return is("a folder");
+    if (fs::exists(kind) && !fs::is_regular_file(kind)) return is("a device");
+    std::FILE* file = open_file(path, "rb");
     if (!file) return fail(path.string() + ": cannot be opened: " + reason(errno));
+    return RegularFile(path, file, fs::file_size(path, code));
+#else
+    // O_NONBLOCK: a pipe without a writer, or a device, must not keep us in open; of regular files it means nothing.
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (fd < 0) {
+        if (errno == ENXIO) return is("a socket or a device"); // what cannot be opened at all
+        return fail(path.string() + ": cannot be opened: " + reason(errno));
+    }
+    struct stat info{};
+    std::FILE* file = fstat(fd, &info) == 0 && S_ISREG(info.st_mode) ? fdopen(fd, "rb") : nullptr;
+    if (file) return RegularFile(path, file, static_cast<std::uint64_t>(info.st_size));
+    ::close(fd);
+    if (S_ISDIR(info.st_mode)) return is("a folder");
+    return is(S_ISFIFO(info.st_mode) ? "a pipe" : "a device");
+#endif
+}
+
+RegularFile::RegularFile(fs::path path, std::FILE* file, std::uint64_t size)
+    : path_(std::move(path)), file_(file), size_(size) {}
+
+RegularFile::RegularFile(RegularFile&& other) noexcept
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, nullptr)), size_(other.size_) {}
+
+RegularFile::~RegularFile() {
+    if (file_) std::fclose(file_);
+}
+
+std::FILE* RegularFile::release() { return std::exchange(file_, nullptr); }
+
+Result<std::string> RegularFile::read(std::uint64_t most) {
     std::string bytes;
-    const auto size = fs::file_size(path, code);
-    if (!code && size < (std::uintmax_t{1} << 40)) // only a hint: pipes and /proc have none
-        bytes.resize(static_cast<std::size_t>(size));
+    bytes.resize(static_cast<std::size_t>(std::min(most, size_))); // a guess: files grow, and in /proc none has a size
     std::size_t filled = 0;
-    for (;;) {
-        if (filled == bytes.size()) bytes.resize(bytes.size() + 65536);
-        const std::size_t got = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
+    while (filled < most) {
+        if (filled == bytes.size())
+            bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(most, bytes.size() + 65536)));
+        const std::size_t got = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file_);
         filled += got;
         if (got == 0) break;
     }
-    if (std::ferror(file.get())) return fail(path.string() + ": cannot be read: " + reason(errno));
+    if (std::ferror(file_)) return fail(path_.string() + ": cannot be read: " + reason(errno));
     bytes.resize(filled);
+    return bytes;
+}
+
+Result<std::string> read_file(const fs::path& path, std::uint64_t most) {
+    RESTAGE_TRY(RegularFile file, RegularFile::open(path));
+    const auto too_large = [&](std::uint64_t size) {
+        return fail(path.string() + ": has " + std::to_string(size) + " bytes, more than the " + std::to_string(most) +
+                    " that are read");
+    };
+    if (file.size() > most) return too_large(file.size());
+    RESTAGE_TRY(std::string bytes, file.read(most + 1));
+    if (bytes.size() > most) return too_large(bytes.size()); // it grew, or had not said
     return bytes;
 }
 

@@ -13,8 +13,31 @@
 
 namespace restage {
 
-// The bytes of a file. "scene.pbrt: cannot be read: No such file or directory"
-Result<std::string> read_file(const std::filesystem::path&);
+constexpr std::uint64_t most_file_bytes = std::uint64_t{16} << 30; // that read_file takes unless it is told otherwise
+
+// A regular file, open for reading: never a folder, a device, a pipe or a socket, which may have no end or wait for
+// ever. Opening does not wait either. `what` of the errors: "is a pipe, not a regular file".
+class RegularFile {
+  public:
+    static Result<RegularFile> open(const std::filesystem::path&);
+    RegularFile(RegularFile&&) noexcept;
+    RegularFile& operator=(RegularFile&&) = delete;
+    ~RegularFile();
+    std::uint64_t size() const { return size_; } // when it was opened; 0 for files of /proc
+    // Up to `most` bytes from where the last call ended; fewer at the end only.
+    Result<std::string> read(std::uint64_t most);
+    std::FILE* release(); // for std::fclose
+
+  private:
+    RegularFile(std::filesystem::path path, std::FILE* file, std::uint64_t size);
+    std::filesystem::path path_;
+    std::FILE* file_;
+    std::uint64_t size_;
+};
+
+// The bytes of a regular file of at most `most` bytes. "scene.pbrt: cannot be opened: No such file or directory",
+// "wood.png: is a pipe, not a regular file", "scene.bin: has 99 bytes, more than the 64 that are read".
+Result<std::string> read_file(const std::filesystem::path&, std::uint64_t most = most_file_bytes);
 
 // Readers see the old file or the whole new one, also after a crash. Missing folders are an error.
 Result<> write_file_atomic(const std::filesystem::path&, std::string_view bytes);

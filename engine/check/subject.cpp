@@ -2,6 +2,7 @@
 #include "check/subject.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 
 #include <fmt/format.h>
 #include <chrono>
@@ -33,7 +34,7 @@ Subject::Subject(fs::path f, CheckOptions o, std::function<void()> a)
       }) {
     // The keys of the manifest that are ours alone; what is wrong with it is the manifest step's affair.
     const auto text = read_file(folder / "plugin.json");
-    const auto json = nlohmann::json::parse(text ? *text : "", nullptr, false);
+    const auto json = parse_json<nlohmann::json>(text ? *text : "").value_or(nlohmann::json());
     if (json.is_object() && json.contains("exceptions") && json["exceptions"].is_array())
         for (const auto& e : json["exceptions"])
             if (e.is_object()) exceptions_[e.value("step", "")] = {e.value("limit", 0.0), e.value("why", "")};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/supervise.hpp"
 
+#include "base/json.hpp"
 #include "base/process.hpp"
 #include "check/pictures.hpp"
 #include "check/report.hpp"
@@ -114,7 +115,7 @@ Result<PluginReport> check_plugin(const Supervision& s) {
     process.on_out = [&](std::string_view line) {
         const std::size_t at = line.find(mark);
         if (at == line.npos) return; // the plugin's own words
-        const auto event = ordered_json::parse(line.substr(at + mark.size()), nullptr, false);
+        const auto event = parse_json<ordered_json>(line.substr(at + mark.size())).value_or(ordered_json());
         if (!event.is_object()) return;
         const std::string kind = event.value("event", "");
         if (kind == "begin") {
@@ -164,7 +165,7 @@ Result<std::vector<fs::path>> find_plugins(const fs::path& program, std::span<co
     std::string json;
     list.on_out = [&](std::string_view line) { json += std::string(line) + "\n"; };
     RESTAGE_TRY(const ProcessOutcome outcome, run_process(list));
-    const auto parsed = ordered_json::parse(json, nullptr, false);
+    const auto parsed = parse_json<ordered_json>(json).value_or(ordered_json());
     if (!outcome.ok() || !parsed.is_array())
         return fail("listing the plugins failed (" + outcome.what +
                     "): name the folder of each plugin that is to be checked");

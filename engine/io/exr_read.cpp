@@ -8,6 +8,7 @@
 
 #include <ImfArray.h>
 #include <ImfChannelList.h>
+#include <ImfCompression.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -34,11 +35,30 @@ struct Window {
     Imath::Box2i box;
 };
 
+// How many texels a byte of a complete file can stand for: one channel of 16 bits, deflate's 1032:1, RLE's 128:2.
+// PIZ and DWA shrink a block of one colour to nothing, however wide it is; each of its 32 or 256 rows at most has 8
+// bytes in the table of offsets.
+std::uint64_t most_texels_per_byte(Imf::Compression compression, std::int64_t width) {
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+            return 1;
+        case Imf::RLE_COMPRESSION:
+            return 64;
+        case Imf::ZIP_COMPRESSION:
+        case Imf::ZIPS_COMPRESSION:
+        case Imf::PXR24_COMPRESSION:
+            return 1032;
+        default:
+            return 256 * static_cast<std::uint64_t>(std::max<std::int64_t>(width, 1)) / 8;
+    }
+}
+
 Result<Window> data_window(const Imf::Header& header, std::size_t file_size) {
     const Imath::Box2i& box = header.dataWindow();
     const auto width = std::int64_t{box.max.x} - box.min.x + 1, height = std::int64_t{box.max.y} - box.min.y + 1;
     RESTAGE_CHECK(check_image_size(static_cast<std::uint64_t>(std::max<std::int64_t>(width, 0)),
-                                   static_cast<std::uint64_t>(std::max<std::int64_t>(height, 0)), file_size));
+                                   static_cast<std::uint64_t>(std::max<std::int64_t>(height, 0)), file_size,
+                                   most_texels_per_byte(header.compression(), width)));
     return Window{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), box};
 }
 

@@ -12,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <new>
 
 namespace restage::io {
 
@@ -19,7 +20,9 @@ namespace {
 
 constexpr std::uint64_t max_extent = 1u << 17;       // texels a side
 constexpr std::uint64_t max_texels = 1ull << 28;     // 16384 x 16384; 4 GiB as float RGBA
-constexpr std::uint64_t max_texels_per_byte = 10000; // 1-bit PNG at deflate's best (1032:1) reaches 8256
+constexpr std::uint64_t most_image_bytes = 5ull << 30; // max_texels as plain float RGBA, and a gigabyte of names
+constexpr const char* out_of_memory =
+    "out of memory: the picture is too large for this machine, or for the limit that was set";
 constexpr float largest_half = 65504.f;
 
 float decode(float encoded, RestageEncoding encoding, float gamma) {
@@ -82,17 +85,6 @@ std::string replace_non_finite(std::vector<float>& values) {
     return fmt::format("{} values are NaN and became 0, {} are infinite and became {}", nan, infinite, largest_half);
 }
 
-Result<DecodedImage> decode(const std::string& path, bool header_only) {
-    RESTAGE_TRY(const std::string bytes, read_file(path));
-    auto decoded = bytes.empty()   ? Result<DecodedImage>(fail("the file is empty"))
-                   : is_exr(bytes) ? decode_exr(bytes, header_only)
-                   : is_pfm(bytes) ? decode_pfm(bytes, header_only)
-                   : is_hdr(bytes) ? decode_hdr(bytes, header_only)
-                                   : decode_stb(bytes, header_only);
-    if (!decoded) return fail(path, decoded.error());
-    return decoded;
-}
-
 } // namespace
 
 float srgb_to_linear(float encoded) {
@@ -105,20 +97,7 @@ float linear_to_srgb(float linear) {
     return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t file_size) {
-    if (width == 0 || height == 0) return fail(fmt::format("the header says {} x {}: no pixels", width, height));
-    if (width > max_extent || height > max_extent || width * height > max_texels)
-        return fail(fmt::format("the header says {} x {} pixels, more than this program holds ({} in all, {} a side)",
-                                width, height, max_texels, max_extent));
-    if (width * height > file_size * max_texels_per_byte)
-        return fail(
-            fmt::format("the header says {} x {} pixels, but the file has only {} bytes", width, height, file_size));
-    return {};
-}
-
-Result<scene::PixelData> read_image(const std::string& path, RestageEncoding encoding, float gamma,
-                                    std::string* warning) {
-    RESTAGE_TRY(DecodedImage decoded, decode(path, false));
+scene::PixelData linear_image(DecodedImage decoded, RestageEncoding encoding, float gamma) {
     scene::PixelData image{.width = decoded.width, .height = decoded.height, .channels = decoded.channels};
     if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&decoded.values))
         image.values = linearise(*bytes, decoded.channels, encoding, gamma);
@@ -131,13 +110,61 @@ Result<scene::PixelData> read_image(const std::string& path, RestageEncoding enc
         image.channels = 4;
     }
     assert(image.values.size() == std::size_t{image.width} * image.height * image.channels);
-    auto note = replace_non_finite(image.values);
-    if (warning) *warning = note.empty() ? note : path + ": " + note;
     return image;
 }
 
+Result<DecodedImage> decode_image_bytes(std::string_view bytes, bool header_only) {
+    try {
+        if (bytes.empty()) return fail("the file is empty");
+        auto image = is_exr(bytes)    ? decode_exr(bytes, header_only)
+                     : is_pfm(bytes)  ? decode_pfm(bytes, header_only)
+                     : is_hdr(bytes)  ? decode_hdr(bytes, header_only)
+                     : is_png(bytes)  ? decode_png(bytes, header_only)
+                     : is_jpeg(bytes) ? decode_jpeg(bytes, header_only)
+                     : is_webp(bytes) ? decode_webp(bytes, header_only)
+                                      : decode_stb(bytes, header_only);
+        if (!image) return image;
+        if (auto* values = std::get_if<std::vector<float>>(&image->values))
+            if (const auto note = replace_non_finite(*values); !note.empty())
+                image->warning += (image->warning.empty() ? "" : "; ") + note;
+        return image;
+    } catch (const std::bad_alloc&) {
+        return fail(out_of_memory);
+    }
+}
+
+Result<DecodedImage> decode_image_file(const std::string& path, bool header_only) {
+    RESTAGE_TRY(const std::string bytes, read_file(path, most_image_bytes));
+    auto decoded = decode_image_bytes(bytes, header_only);
+    if (!decoded) return fail(path, decoded.error());
+    return decoded;
+}
+
+Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t file_size,
+                          std::uint64_t most_texels_per_byte) {
+    if (width == 0 || height == 0) return fail(fmt::format("the header says {} x {}: no pixels", width, height));
+    if (width > max_extent || height > max_extent || width * height > max_texels)
+        return fail(fmt::format("the header says {} x {} pixels, more than this program holds ({} in all, {} a side)",
+                                width, height, max_texels, max_extent));
+    if (most_texels_per_byte > 0 && width * height > file_size * most_texels_per_byte)
+        return fail(
+            fmt::format("the header says {} x {} pixels, but the file has only {} bytes", width, height, file_size));
+    return {};
+}
+
+Result<scene::PixelData> read_image(const std::string& path, RestageEncoding encoding, float gamma,
+                                    std::string* warning) {
+    RESTAGE_TRY(DecodedImage decoded, decode_image_file(path));
+    if (warning) *warning = decoded.warning.empty() ? "" : path + ": " + decoded.warning;
+    try {
+        return linear_image(std::move(decoded), encoding, gamma);
+    } catch (const std::bad_alloc&) {
+        return fail(path, Error{out_of_memory});
+    }
+}
+
 Result<scene::PixelData> read_image_header(const std::string& path) {
-    RESTAGE_TRY(const DecodedImage decoded, decode(path, true));
+    RESTAGE_TRY(const DecodedImage decoded, decode_image_file(path, true));
     return scene::PixelData{
         .width = decoded.width, .height = decoded.height, .channels = decoded.channels == 2 ? 4 : decoded.channels};
 }

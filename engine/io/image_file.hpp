@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files in and out: TGA, PNG, JPG, BMP, HDR, EXR, PFM. What comes in is linear and has row 0 on top.
+// Image files in and out: PNG, JPG, WebP, BMP, TGA, HDR, EXR, PFM. What comes in is linear and has row 0 on top.
 // Layered EXR files are exr.hpp's; measuring one picture against another is image_compare.hpp's.
 #pragma once
 

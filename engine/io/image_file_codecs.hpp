@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "scene/scene.hpp"
 
 #include <cstdint>
 #include <string>
@@ -16,6 +17,7 @@ namespace restage::io {
 struct DecodedImage {
     std::uint32_t width = 0, height = 0, channels = 0; // 1..4; row 0 on top
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
+    std::string warning{}; // what is wrong with a picture that can be shown all the same, or ""
 };
 
 // Messages of decoders do not name the file: read_image does.
@@ -27,11 +29,26 @@ Result<> check_exr_header(std::string_view bytes);
 Result<DecodedImage> decode_exr(std::string_view bytes, bool header_only);
 bool is_hdr(std::string_view bytes);
 Result<DecodedImage> decode_hdr(std::string_view bytes, bool header_only);
-// PNG, JPG, BMP, TGA.
+bool is_png(std::string_view bytes);
+Result<DecodedImage> decode_png(std::string_view bytes, bool header_only);
+bool is_jpeg(std::string_view bytes);
+Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only);
+bool is_webp(std::string_view bytes);
+Result<DecodedImage> decode_webp(std::string_view bytes, bool header_only);
+// BMP, TGA: those without a sure sign at their beginning.
 Result<DecodedImage> decode_stb(std::string_view bytes, bool header_only);
 
-// An error when a picture of this size cannot be meant: no pixels, too many to hold, or far more than a file of
-// `file_size` bytes can hold in any format.
-Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t file_size);
+// Of any format, told apart by the first bytes; NaN and infinity of float files replaced, as read_image says. Errors of
+// the first do not name the file, those of the second do.
+Result<DecodedImage> decode_image_bytes(std::string_view bytes, bool header_only = false);
+Result<DecodedImage> decode_image_file(const std::string& path, bool header_only = false);
+
+// Numbers of 8 and 16 bits become linear, grey with alpha RGBA; as read_image says.
+scene::PixelData linear_image(DecodedImage, RestageEncoding, float gamma);
+
+// An error when a picture of this size cannot be meant: no pixels, too many to hold, or more than a file of `file_size`
+// bytes can hold when a byte stands for `most_texels_per_byte` at most; 0: the format's packing knows no bound.
+Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64_t file_size,
+                          std::uint64_t most_texels_per_byte = 0);
 
 } // namespace restage::io

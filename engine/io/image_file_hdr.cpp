@@ -144,7 +144,8 @@ bool is_hdr(std::string_view bytes) { return bytes.starts_with("#?RADIANCE") || 
 Result<DecodedImage> decode_hdr(std::string_view bytes, bool header_only) {
     Reader in{bytes};
     RESTAGE_TRY(const Resolution size, read_header(in));
-    RESTAGE_CHECK(check_image_size(size.width, size.height, bytes.size()));
+    // A row takes eight bytes at least: a texel and a run of it.
+    RESTAGE_CHECK(check_image_size(size.width, size.height, bytes.size(), 1 + size.width / 8));
     DecodedImage image{.width = size.width, .height = size.height, .channels = 3};
     if (header_only) return image;
 

@@ -51,7 +51,7 @@ Result<DecodedImage> decode_pfm(std::string_view bytes, bool header_only) {
     RESTAGE_TRY(const auto scale, next_number<double>(bytes, at, "the scale"));
     if (!(scale < 0 || scale > 0)) return fail("PFM header: the scale must not be 0: its sign tells the byte order");
     ++at; // exactly one white-space character
-    RESTAGE_CHECK(check_image_size(width, height, bytes.size()));
+    RESTAGE_CHECK(check_image_size(width, height, bytes.size(), 1));
     DecodedImage image{.width = width, .height = height, .channels = bytes[1] == 'F' ? 3u : 1u};
     if (header_only) return image;
 

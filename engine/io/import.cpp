@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/import.hpp"
 
+#include "base/file.hpp"
 #include "io/scene_writer.hpp"
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -20,14 +19,8 @@ constexpr std::size_t head_bytes = 4096;
 Result<std::string> read_head(const std::string& path) {
     std::error_code code;
     if (fs::is_directory(path, code)) return fail(path + ": is a folder; name the scene file in it");
-    std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (!file) return fail(path + ": cannot be opened: " + std::generic_category().message(errno));
-    std::string head(head_bytes, '\0');
-    head.resize(std::fread(head.data(), 1, head.size(), file));
-    const bool failed = std::ferror(file) != 0;
-    std::fclose(file);
-    if (failed) return fail(path + ": cannot be read");
-    return head;
+    RESTAGE_TRY(RegularFile file, RegularFile::open(path));
+    return file.read(head_bytes);
 }
 
 std::string known_formats(const plugin::Registry& registry) {
@@ -74,6 +67,7 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it read " + path));
     const bool loaded = importer->load(path.c_str(), &writer.table()) != 0;
     note.reset();
+    writer.drop_decoded();
     if (writer.cancelled()) return fail(path + ": stopped on request");
     if (!writer.error().empty()) return fail(writer.error());
     if (!loaded) return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");

@@ -79,7 +79,9 @@ SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)
               .report = Calls::report,
               .error = Calls::error,
               .progress = Calls::progress,
-              .material_table = Calls::material_table};
+              .material_table = Calls::material_table,
+              .decode_image = Calls::decode_image,
+              .release_image = Calls::release_image};
 }
 
 } // namespace restage::io

@@ -12,20 +12,28 @@
 
 #include <restage/scene_io.h>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <tuple>
 
 namespace restage::io {
 
+struct DecodedImage;
+
 class SceneWriter : public Exchange {
   public:
     SceneWriter(const plugin::Registry&, Progress);
+    SceneWriter(const SceneWriter&) = delete;
+    SceneWriter& operator=(const SceneWriter&) = delete;
 
     const RestageSceneWriter1& table() const { return table_; } // its ctx is this
 
     // Names what has no name, gives a scene without camera one, decodes images, validates. Call once, after load.
     Result<> finish(Jobs&, bool read_images);
+
+    // Call once load has returned: what the importer decoded and did not release goes.
+    void drop_decoded();
 
     scene::Scene scene;
     bool unexposed = false; // RestageFilm::unexposed
@@ -49,6 +57,8 @@ class SceneWriter : public Exchange {
     std::map<std::string, std::set<std::string>> names_;    // by kind
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
     std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;
+    std::map<void*, std::shared_ptr<const DecodedImage>> decoded_; // given to the importer
+    std::string decode_problem_;
 };
 
 } // namespace restage::io

@@ -2,6 +2,7 @@
 #include "plugin/manifest.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 #include "plugin/library.hpp"
 
 #include <algorithm>
@@ -158,16 +159,9 @@ const char* to_string(Kind kind) {
 }
 
 Result<Manifest> parse_manifest(const std::string& text, const std::string& file) {
-    json object;
-    try {
-        object = json::parse(text);
-    } catch (const json::parse_error& e) {
-        const std::string what =
-            e.what(); // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ..."
-        const std::size_t colon = what.find(": ");
-        return fail(file + ":" + line_and_column(text, e.byte) +
-                    ": not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2)));
-    }
+    const auto parsed = parse_json<json>(text);
+    if (!parsed) return fail(file + ":" + parsed.error().message);
+    const json& object = *parsed;
     if (!object.is_object()) return fail(file + ": the manifest must be one JSON object { ... }");
     RESTAGE_CHECK(check_keys(object, text, file));
     Manifest out;

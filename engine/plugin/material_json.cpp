@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Material tables written as JSON: the same lines as RestageMaterial1 and RestageParam, by name. Whether they make
 // sense is asked by check_table, as for tables that come from a library.
+#include "base/json.hpp"
 #include "plugin/material_source.hpp"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ struct JsonReader {
 };
 
 Result<std::unique_ptr<JsonMaterials>> JsonMaterials::parse(const std::string& text, const std::string& file) {
-    const json manifest = json::parse(text, nullptr, false);
+    const json manifest = parse_json<json>(text).value_or(json());
     const auto it = manifest.is_object() ? manifest.find("materials") : manifest.end();
     if (!manifest.is_object() || it == manifest.end() || !it->is_array() || it->empty())
         return fail(file + ": \"materials\" must be a list of at least one material");

@@ -138,13 +138,10 @@ Result<std::shared_ptr<const Table>> TableReader::read(const std::string& param,
 Result<std::shared_ptr<const Table>> TableReader::read_file(const std::string& param, const std::string& path) {
     if (!table_) return fail(path + ": the plugin that reads it (" + plugin_id_ + ") has been replaced");
     Reading r;
-    std::error_code code;
     if (!fs::path(path).is_absolute()) return fail(path + ": the path of a table must be absolute");
-    if (fs::is_directory(path, code)) return fail(path + ": is a folder; name the file in it");
-    r.file.reset(std::fopen(path.c_str(), "rb"));
-    if (!r.file) return fail(path + ": cannot be opened: " + std::generic_category().message(errno));
-    r.length = fs::file_size(path, code);
-    if (code) return fail(path + ": cannot be read: " + code.message());
+    RESTAGE_TRY(RegularFile regular, RegularFile::open(path));
+    r.length = regular.size();
+    r.file.reset(regular.release());
     const RestageTableFile1 file{.size = sizeof(RestageTableFile1),
                                  .reserved = 0,
                                  .ctx = &r,

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -70,6 +71,9 @@ struct ReadOptions {
     std::shared_ptr<const IsolateOptions> isolate = nullptr; // scenes are read in a process of their own
     std::filesystem::path base; // stands for the one the project names; "" = that
     bool drop_lost = false;     // changes to things the base has no more are left out and reported, not an error
+    // Gives the pixels of an image that is a file; null = it has none, and that has been reported. Empty: the file is
+    // read.
+    std::function<Result<std::shared_ptr<const scene::PixelData>>(const scene::Image&)> pixels{};
     BaseProblem* problem = nullptr; // set when reading fails for this reason
     bool expose = true; // exposure.hpp; false where only the objects of a file are wanted
 };

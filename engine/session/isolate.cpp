@@ -2,8 +2,10 @@
 #include "session/isolate.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 #include "base/process.hpp"
 #include "base/temporary.hpp"
+#include "io/image_handover.hpp"
 #include "scene/edit.hpp"
 #include "session/project.hpp"
 #include "session/session.hpp"
@@ -14,7 +16,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace restage::session {
 
@@ -52,7 +56,7 @@ std::string report_text(const io::Report& report) {
 
 io::Report read_report(const std::string& text) {
     io::Report report;
-    const json entries = json::parse(text, nullptr, false);
+    const json entries = parse_json<json>(text).value_or(json());
     if (!entries.is_array()) return report;
     for (const json& e : entries)
         if (e.is_array() && e.size() == 5 && e[0].is_number_integer() && e[2].is_number_unsigned() &&
@@ -62,17 +66,79 @@ io::Report read_report(const std::string& text) {
     return report;
 }
 
+// Pictures that the scene names by path: decoded here, in the child, under its limits.
+using PictureKey = std::tuple<std::string, int, float>;
+constexpr std::uint64_t most_picture_bytes = std::uint64_t{16} << 30; // handed over, of one scene
+
+PictureKey key_of(const scene::Image& image) { return {image.path, static_cast<int>(image.encoding), image.gamma}; }
+
+fs::path pictures_folder(const fs::path& out) { return out.parent_path() / "pictures"; }
+
+// "[[path, encoding, gamma, file], ...]"; what is wrong with one becomes a line of the report.
+Result<std::string> hand_over_pictures(io::ImportedScene& imported, const fs::path& out) {
+    struct Job {
+        scene::Image image;
+        std::string file, problem, warning;
+    };
+    std::vector<Job> work;
+    imported.scene.images.each([&](scene::Id<scene::Image> id, const scene::Image& image) {
+        if (!image.data && !image.path.empty()) work.push_back({image, std::to_string(id.value), {}, {}});
+    });
+    std::error_code code;
+    fs::create_directories(pictures_folder(out), code);
+    if (code) return fail(pictures_folder(out).string() + ": cannot be made: " + code.message());
+    std::atomic<std::uint64_t> total{0};
+    Jobs().parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Job& job = work[i];
+            const fs::path file = pictures_folder(out) / job.file;
+            const auto size = io::hand_over_image(job.image.path, file, &job.warning);
+            if (!size) {
+                job.problem = size.error().message;
+            } else if ((total += *size) > most_picture_bytes) {
+                job.problem = job.image.path + ": the scene's pictures take more than 16 GiB";
+                std::error_code ignored;
+                fs::remove(file, ignored);
+            }
+        }
+    });
+    json list = json::array();
+    for (const Job& job : work) {
+        const std::string who = "image \"" + job.image.name + "\"";
+        if (!job.problem.empty())
+            imported.report.add(RESTAGE_DROPPED, who, job.problem, job.image.path);
+        else if (!job.warning.empty())
+            imported.report.add(RESTAGE_APPROXIMATED, who, job.warning, job.image.path);
+        if (job.problem.empty())
+            list.push_back({job.image.path, static_cast<int>(job.image.encoding), job.image.gamma, job.file});
+    }
+    return list.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::map<PictureKey, std::string> read_picture_list(const std::string& text) {
+    std::map<PictureKey, std::string> files;
+    const json list = parse_json<json>(text).value_or(json());
+    for (const json& e : list)
+        if (e.is_array() && e.size() == 4 && e[0].is_string() && e[1].is_number_integer() && e[2].is_number() &&
+            e[3].is_string() && e[3].get<std::string>().find('/') == std::string::npos)
+            files[{e[0].get<std::string>(), e[1].get<int>(), e[2].get<float>()}] = e[3].get<std::string>();
+    return files;
+}
+
 } // namespace
 
 Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry) {
     io::ImportOptions options;
-    options.read_images = false; // they are not the importer's; who asked reads them
+    options.read_images = false; // they are handed over one by one
     options.progress = [](float done, std::string_view what) {
         fmt::print("{:.4f} {}\n", done, what);
         std::fflush(stdout);
         return true;
     };
     RESTAGE_TRY(io::ImportedScene imported, io::import_scene(path, registry, options));
+    options.progress(0.95f, "images");
+    RESTAGE_TRY(const std::string pictures, hand_over_pictures(imported, out));
+    RESTAGE_CHECK(write_file_atomic(pictures_folder(out) / "list", pictures));
     const std::map<std::string, std::string> note{
         {"importer", imported.importer}, {"format", imported.scene.format}, {"report", report_text(imported.report)},
         {"unexposed", imported.unexposed ? "yes" : "no"}};
@@ -114,7 +180,17 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
         }
         return fail(path + ": reading it ended with " + outcome.what + "; nothing of it was taken");
     }
-    RESTAGE_TRY(const Document document, read_project(out.string(), registry));
+    ReadOptions reading;
+    RESTAGE_TRY(const std::string list, read_file(pictures_folder(out) / "list"));
+    const std::map<PictureKey, std::string> pictures = read_picture_list(list);
+    reading.pixels = [&](const scene::Image& image) -> Result<std::shared_ptr<const scene::PixelData>> {
+        const auto found = pictures.find(key_of(image));
+        if (found == pictures.end()) return nullptr; // the child has reported why
+        RESTAGE_TRY(scene::PixelData pixels,
+                    io::take_over_image(pictures_folder(out) / found->second, image.encoding, image.gamma));
+        return std::make_shared<const scene::PixelData>(std::move(pixels));
+    };
+    RESTAGE_TRY(const Document document, read_project(out.string(), registry, reading));
     io::ImportedScene imported;
     scene::apply(imported.scene, document.changes);
     const auto noted = [&](const char* key) {

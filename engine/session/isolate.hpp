@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading a scene in a process of its own: for files from people one does not know. What crashes, hangs or eats memory
 // there, in an importer or in a library it uses, is an error here. The child runs `restage import-child`, which hands
-// the scene over as a project that holds everything; pictures that the scene names by path are read here, by us.
+// the scene over as a project that holds everything, and beside it, as plain numbers, the pictures that the scene names
+// by path: they are decoded in the child as well, within its limits.
 #pragma once
 
 #include "io/import.hpp"

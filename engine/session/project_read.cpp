@@ -5,6 +5,7 @@
 #include "session/project_values.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 #include "io/image_file.hpp"
 #include "io/material_tables.hpp"
 #include "scene/bounds.hpp"
@@ -122,16 +123,9 @@ class Reader : public ValueReader {
 
   private:
     Result<json> parse(const std::string& text) const {
-        json j;
-        try {
-            j = json::parse(text);
-        } catch (const json::parse_error& e) {
-            const std::size_t at = std::min(e.byte ? e.byte - 1 : 0, text.size());
-            const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n') + 1;
-            const std::size_t start = at ? text.rfind('\n', at - 1) : std::string::npos;
-            return fail(fmt::format("{}:{}:{}: this is no project file, or it is damaged: JSON expected", path_, line,
-                                    at - (start == std::string::npos ? std::size_t(-1) : start)));
-        }
+        auto parsed = parse_json<json>(text);
+        if (!parsed) return fail(path_ + ":" + parsed.error().message + "; this is no project file, or it is damaged");
+        json& j = *parsed;
         const auto version = j.is_object() ? j.find("restage") : j.end();
         if (!j.is_object() || version == j.end() || !version->is_number_integer())
             return fail(path_ + ": this is JSON, but no Restage project");
@@ -139,7 +133,7 @@ class Reader : public ValueReader {
             return fail(
                 fmt::format("{}: a newer Restage wrote this project (version {}, this one knows {}); open it there",
                             path_, version->get<int>(), project_version));
-        return j;
+        return std::move(j);
     }
 
     std::string absolute(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
@@ -303,6 +297,11 @@ class Reader : public ValueReader {
         if (!below.empty()) unknown[kind] = std::move(below);
     }
 
+    static Result<std::shared_ptr<const PixelData>> read_pixels(const Image& image) {
+        RESTAGE_TRY(PixelData pixels, io::read_image(image.path, image.encoding, image.gamma));
+        return std::make_shared<const PixelData>(std::move(pixels));
+    }
+
     // Files of new and changed images, all cores at once.
     void read_images() {
         std::vector<Image*> work;
@@ -312,9 +311,9 @@ class Reader : public ValueReader {
         std::vector<std::string> problems(work.size());
         Jobs().parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
             for (std::size_t i = begin; i < end; ++i) {
-                auto pixels = io::read_image(work[i]->path, work[i]->encoding, work[i]->gamma);
+                auto pixels = options_.pixels ? options_.pixels(*work[i]) : read_pixels(*work[i]);
                 if (pixels)
-                    work[i]->data = std::make_shared<const PixelData>(std::move(*pixels));
+                    work[i]->data = std::move(*pixels);
                 else
                     problems[i] = pixels.error().message;
             }

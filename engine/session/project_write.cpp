@@ -6,6 +6,7 @@
 #include "session/project_json.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -286,7 +287,7 @@ void put_back(json& into, const json& unknown) {
 std::string project_text(const ProjectContent& content, const std::filesystem::path& folder) {
     json j = Writer(content, folder).document();
     if (!content.unknown.empty()) {
-        json unknown = json::parse(content.unknown, nullptr, false);
+        json unknown = parse_json<json>(content.unknown).value_or(json());
         if (unknown.is_object()) put_back(j, unknown);
     }
     erase_marks(j);

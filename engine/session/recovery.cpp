@@ -2,6 +2,7 @@
 #include "session/recovery.hpp"
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -151,7 +152,7 @@ std::vector<Recoverable> find_recoverable(const fs::path& folder) {
             drop_lock(lock);
         }
         const auto text = read_file(entry.path());
-        const auto j = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+        const auto j = text ? parse_json<nlohmann::json>(*text).value_or(nlohmann::json()) : nlohmann::json();
         const auto note = j.is_object() && j.contains("recovery") ? j["recovery"] : nlohmann::json::object();
         const auto value = [&](const char* key) {
             return note.contains(key) && note[key].is_string() ? note[key].get<std::string>() : std::string();

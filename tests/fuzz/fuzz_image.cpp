@@ -7,15 +7,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    using namespace restage::io;
-    if (size == 0) return 0;
-    if (is_exr(bytes))
-        (void)decode_exr(bytes, false);
-    else if (is_pfm(bytes))
-        (void)decode_pfm(bytes, false);
-    else if (is_hdr(bytes))
-        (void)decode_hdr(bytes, false);
-    else
-        (void)decode_stb(bytes, false);
+    (void)restage::io::decode_image_bytes(bytes);
     return 0;
 }

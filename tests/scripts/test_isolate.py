@@ -66,3 +66,32 @@ def test_an_importer_that_misbehaves_ends_itself_alone(tmp_path, case, limits, s
     if case == "importer_crashes":  # and is known from now on
         listed = run("--plugin-path", tmp_path / "plugins", "plugins", env=env).stdout
         assert f"it crashed (SIGABRT) while it read {scene}" in listed
+
+
+def test_pipes_and_deep_nesting_are_sentences(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "deep.gltf").write_text('{"asset": {"version": "2.0"}, "extras": ' + "[" * 20000 + "]" * 20000 + "}")
+    (tmp_path / "image.pbrt").write_text(
+        'WorldBegin\nTexture "t" "spectrum" "imagemap" "string filename" "pipe"\n'
+        'Material "diffuse" "texture reflectance" "t"\nShape "sphere"\nInclude "pipe"\n'
+    )
+    (tmp_path / "a.obj").write_text("mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for first in ([], ["--isolate"]):
+        deep = run(*first, "info", tmp_path / "deep.gltf")
+        assert deep.returncode == 1 and "nested more than 256 deep" in deep.stderr
+        assert run(*first, "info", tmp_path / "pipe").returncode == 1
+        for name, lines in (("image.pbrt", 2), ("a.obj", 1)):
+            report = json.loads(run(*first, "info", tmp_path / name, "--json").stdout)["report"]
+            assert sum("regular file" in json.dumps(line) for line in report) == lines, report
+
+
+def test_pictures_are_decoded_by_the_child(tmp_path):
+    """An isolated scene has the pixels, and what a picture costs is the child's: a limit of memory ends it alone."""
+    png = Path(__file__).resolve().parents[1] / "data" / "images" / "rgb8.png"
+    (tmp_path / "a.pbrt").write_text(
+        f'WorldBegin\nTexture "t" "spectrum" "imagemap" "string filename" "{png}"\n'
+        'Material "diffuse" "texture reflectance" "t"\nShape "sphere"\n'
+    )
+    plain = json.loads(run("info", tmp_path / "a.pbrt", "--json").stdout)
+    isolated = json.loads(run("--isolate", "info", tmp_path / "a.pbrt", "--json").stdout)
+    assert isolated == plain

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // base: the hash against published values, files that are whole or absent, loops that cover each index once.
 #include "base/file.hpp"
+#include "base/json.hpp"
 #include "base/jobs.hpp"
 #include "base/log.hpp"
 #include "temporary_folder.hpp"
 
 #include <atomic>
+#include <sys/stat.h>
+#include <nlohmann/json.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -76,6 +79,32 @@ TEST_CASE("file errors name the file and the reason", "[base]") {
     fs::create_directories(folder / "taken" / "inside");
     REQUIRE_FALSE(write_file_atomic(folder / "taken", "x"));
     CHECK(files_in(folder) == 0);
+}
+
+TEST_CASE("what is no regular file is refused at once, and so is what is too large", "[base]") {
+    const test::TemporaryFolder folder;
+    const fs::path pipe = folder / "pipe.png";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0); // nobody writes into it: opening it would wait for ever
+    CHECK(read_file(pipe).error().message == pipe.string() + ": is a pipe, not a regular file");
+    CHECK(read_file("/dev/zero").error().message == "/dev/zero: is a device, not a regular file");
+    REQUIRE(write_file_atomic(folder / "five", "12345"));
+    CHECK(read_file(folder / "five", 5).value() == "12345");
+    CHECK(read_file(folder / "five", 4).error().message.find("has 5 bytes, more than the 4") != std::string::npos);
+    CHECK_FALSE(read_file("/proc/self/status", 10)); // says that it has none
+    REQUIRE(write_file_atomic(folder / "sparse", ""));
+    fs::resize_file(folder / "sparse", std::uintmax_t{1} << 40); // takes no room on the disk
+    CHECK_FALSE(read_file(folder / "sparse"));
+}
+
+TEST_CASE("JSON that is nested too deep is refused with its place, whatever its strings say", "[base]") {
+    const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+    CHECK(parse_json<nlohmann::json>(nested(most_json_depth)));
+    const auto deep = parse_json<nlohmann::json>("\n " + nested(20000));
+    REQUIRE_FALSE(deep);
+    CHECK(deep.error().message.starts_with("2:" + std::to_string(most_json_depth + 2) + ": JSON nested more than"));
+    const std::string text = "{\"a\": \"" + std::string(1000, '[') + "\\\"" + std::string(1000, '{') + "\"}";
+    CHECK(parse_json<nlohmann::json>(text));
+    CHECK(parse_json<nlohmann::json>("{\n  \"a\": }").error().message.starts_with("2:8: not JSON: syntax error"));
 }
 
 TEST_CASE("files without a size are read to their end", "[base]") {

@@ -47,8 +47,9 @@ TEST_CASE("image_file: the sRGB curve is the piecewise one") {
 }
 
 TEST_CASE("image_file: every lossless 8-bit format holds its texels, row 0 on top") {
-    const std::string name = GENERATE("rgb8.png", "rgba8.png", "palette.png", "rgb16.png", "rgb24.bmp", "rgb24.tga",
-                                      "rgb24_rle.tga", "rgba32_rle.tga", "rgb16.tga");
+    const std::string name =
+        GENERATE("rgb8.png", "rgba8.png", "palette.png", "rgb16.png", "rgb24.bmp", "rgb24.tga", "rgb24_rle.tga",
+                 "rgba32_rle.tga", "rgb16.tga", "interlaced.png", "gamma.png", "rgb8.webp", "rgba8.webp");
     CAPTURE(name);
     const auto image = io::read_image(data_image(name), RESTAGE_LINEAR);
     REQUIRE(image);
@@ -81,6 +82,59 @@ TEST_CASE("image_file: JPG within its loss") {
     CHECK(grey->channels == 1);
     const float luma = 0.299f * 200 + 0.587f * 100 + 0.114f * 50;
     CHECK(distance(texel(*grey, 3, 3), {luma, luma, luma}) <= 2);
+}
+
+TEST_CASE("image_file: all bits of a number are kept, and few bits are spread over the range") {
+    const auto wide = io::read_image(data_image("grey16.png"), RESTAGE_LINEAR);
+    REQUIRE(wide);
+    REQUIRE(wide->channels == 1);
+    for (int i = 0; i < 128; ++i)
+        CHECK(wide->values[i] * 65535 == Approx(256 * i + 77).margin(0.01));
+
+    const auto few = io::read_image(data_image("grey2.png"), RESTAGE_LINEAR); // tRNS: level 2 is clear
+    REQUIRE(few);
+    REQUIRE(few->channels == 4);
+    for (int i = 0; i < 4; ++i) {
+        CHECK(few->values[4 * i] == Approx(i / 3.0));
+        CHECK(few->values[4 * i + 3] == (i == 2 ? 0 : 1));
+    }
+
+    const auto palette = io::read_image(data_image("palette1.png"), RESTAGE_LINEAR); // tRNS: the first colour's alpha
+    REQUIRE(palette);
+    REQUIRE(palette->channels == 4);
+    CHECK(distance(texel(*palette, 0, 0), {200, 100, 50}) < 1e-3);
+    CHECK(palette->values[3] == Approx(64 / 255.0));
+    CHECK(distance(texel(*palette, 0, 1), {20, 60, 220}) < 1e-3);
+    CHECK(palette->values[16 * 4 + 3] == 1);
+}
+
+TEST_CASE("image_file: inks become the light that passes them, Adobe's inverted ones as well") {
+    const auto adobe = io::read_image(data_image("cmyk.jpg"), RESTAGE_LINEAR);
+    REQUIRE(adobe);
+    REQUIRE(adobe->channels == 3);
+    CHECK(distance(texel(*adobe, 3, 3), {200, 100, 50}) <= 6);
+    const auto plain = io::read_image(data_image("cmyk_plain.jpg"), RESTAGE_LINEAR); // K is 255
+    REQUIRE(plain);
+    CHECK(distance(texel(*plain, 3, 3), {0, 0, 0}) <= 3);
+}
+
+TEST_CASE("image_file: a large picture of one colour takes few bytes, and is whole") {
+    const auto solid = io::read_image(data_image("solid1.png"), RESTAGE_LINEAR);
+    REQUIRE(solid);
+    CHECK(solid->width == 2048);
+    CHECK(solid->height == 2048);
+    CHECK(distance(texel(*solid, 2047, 2047), {200, 100, 50}) < 1e-3);
+}
+
+TEST_CASE("image_file: damage that leaves a picture is a warning") {
+    const TemporaryFolder folder;
+    auto bytes = read_file(data_image("baseline.jpg"));
+    REQUIRE(bytes);
+    bytes->insert(bytes->size() - 2, "\x12\x34\x56"); // between the last scan and the end
+    REQUIRE(write_file_atomic(folder / "a.jpg", *bytes));
+    std::string warning;
+    REQUIRE(io::read_image(folder / "a.jpg", RESTAGE_LINEAR, 2.2f, &warning));
+    CHECK(warning.find("a.jpg: JPEG: ") != std::string::npos);
 }
 
 TEST_CASE("image_file: encoding applies to colour, never to alpha") {
@@ -214,7 +268,8 @@ TEST_CASE("image_file: a file cut anywhere is an error that names it") {
     REQUIRE(io::write_image(folder / "whole.exr", image));
     const std::string name =
         GENERATE("rgb8.png", "palette.png", "rgb16.png", "baseline.jpg", "progressive.jpg", "grey.jpg", "rgb24.bmp",
-                 "rgb24.tga", "rgb24_rle.tga", "rgb16.tga", "grey8.tga", "whole.hdr", "whole.pfm", "whole.exr");
+                 "rgb24.tga", "rgb24_rle.tga", "rgb16.tga", "grey8.tga", "interlaced.png", "grey16.png", "rgb8.webp",
+                 "cmyk.jpg", "whole.hdr", "whole.pfm", "whole.exr");
     const std::string path = name.starts_with("whole") ? (folder / name).string() : data_image(name);
     CAPTURE(path);
     const auto whole = read_file(path);

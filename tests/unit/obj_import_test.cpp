@@ -138,6 +138,105 @@ TEST_CASE("obj: what is missing is reported with its place, and the rest opens",
     CHECK(says(in, RESTAGE_APPROXIMATED, "a.obj:17", "normal 9 of 0"));
 }
 
+TEST_CASE("obj: what other programs write is read", "[obj]") {
+    ModelFiles files;
+    files.write("m.mtl", "\xef\xbb\xbfnewmtl wire 255 000 000\nKd 1 0 0\nillum 1\nnewmtl wire 000 255 000\nKd 0 1 \\\n"
+                         "0\nillum 1\n");
+    const auto areas = [](const io::ImportedScene& in) {
+        double sum = 0;
+        in.scene.instances.each([&](auto, const scene::Instance& i) {
+            const auto& m = *in.scene.meshes[i.mesh].data;
+            for (const auto& t : m.triangles)
+                sum += 0.5 * glm::length(glm::cross(glm::dvec3(m.positions[t.y]) - glm::dvec3(m.positions[t.x]),
+                                                    glm::dvec3(m.positions[t.z]) - glm::dvec3(m.positions[t.x])));
+        });
+        return sum;
+    };
+    const auto load = [&](const std::string& text) {
+        files.write("a.obj", text);
+        return files.load("a.obj");
+    };
+    // A byte order mark in both, names with blanks, a line that goes on.
+    const auto wire = load(std::string("\xef\xbb\xbfmtllib m.mtl\n") + square +
+                           "usemtl wire 255 000 000\nf 1 2 \\\n 3\nusemtl wire 000 255 000\nf 1 3 4\n");
+    REQUIRE(wire.scene.instances.live() == 2);
+    for (const int i : {1, 2}) {
+        const auto& instance = wire.scene.instances[{static_cast<std::uint32_t>(i)}];
+        const auto color = wire.scene.materials[instance.material].params.color("reflectance", {});
+        CHECK(color == (i == 1 ? std::array<float, 3>{1, 0, 0} : std::array<float, 3>{0, 1, 0}));
+    }
+    // Slashes with nothing behind them, lines that end as on old Macs, negative indices, numbers with a plus.
+    CHECK(areas(load(std::string(square) + "f 1// 2// 3// 4//\n")) == Approx(1));
+    CHECK(areas(load(std::string(square) + "f 1/1/ 2/2/ 3/3/\n")) == Approx(0.5));
+    CHECK(areas(load(std::string(square) + "f 1/ 2/ 3/\n")) == Approx(0.5));
+    CHECK(areas(load("v 0 0 0\rv +1 0 0\rv 1 1e0 0\rf -3 -2 -1\r")) == Approx(0.5));
+    // Concave: 14 as a fan. With many corners: a comb of 300 teeth, each of area 1, on a bar of area 300.
+    CHECK(areas(load("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n")) == Approx(10));
+    std::string comb = "v 0 -1 0\nv 300 -1 0\n", face = "f 1 2";
+    for (int tooth = 300; tooth > 0; --tooth) {
+        comb += "v " + std::to_string(tooth) + " 0 0\nv " + std::to_string(tooth) + "e0 0 0\nv " +
+                std::to_string(tooth - 0.5) + " 2 0\n";
+        for (int k = 2; k >= 0; --k)
+            face += " " + std::to_string(2 + 3 * (301 - tooth) - k);
+    }
+    CHECK(areas(load(comb + "v 0 0 0\n" + face + " 903\n")) == Approx(300 + 300));
+}
+
+TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
+    ModelFiles files;
+    files.write("utm.obj", "v 500000.125 5400000.25 100\nv 500001.125 5400000.25 100\nv 500000.125 5400000.375 100\n"
+                           "f 1 2 3\n");
+    const auto in = files.load("utm.obj");
+    const auto& instance = in.scene.instances[{1}];
+    const auto& mesh = *in.scene.meshes[instance.mesh].data;
+    const auto world = [&](int i) {
+        return glm::dvec3(instance.object_to_world * glm::dvec4(glm::dvec3(mesh.positions[i]), 1));
+    };
+    CHECK(world(0).x == Approx(500000.125).epsilon(1e-12));
+    CHECK(world(1).x - world(0).x == Approx(1).epsilon(1e-6));
+    CHECK(world(2).y - world(0).y == Approx(0.125).epsilon(1e-6));
+    CHECK(says(in, RESTAGE_KEPT, "", "large for their differences"));
+}
+
+TEST_CASE("obj: options of textures may leave out numbers, and names may have blanks", "[obj]") {
+    ModelFiles files;
+    files.write("m.mtl", "newmtl a\nillum 1\nmap_Kd -s 2 2 -o .5 .5 -clamp on my wood.png\nnewmtl b\nillum 1\nKd .5\n"
+                         "map_kd -s 3 -blendu off \"7.png\"\nnewmtl c\nKd spectral a.rfl\nbump -bm 0.25 7.png\n");
+    files.write("a.obj", std::string("mtllib m.mtl\n") + square + "o a\nusemtl a\nf 1 2 3\no b\nusemtl b\nf 1 2 3\no c\nusemtl c\nf 1 3 4\n");
+    const auto in = files.load("a.obj");
+    const auto texture = [&](const char* name) -> const scene::Texture& {
+        return in.scene.textures[scene::find_by_name<scene::Texture>(in.scene, name)];
+    };
+    CHECK(texture("a map_Kd").params.number("uscale", 1) == 2);
+    CHECK(texture("a map_Kd").params.number("vscale", 1) == 2);
+    CHECK(texture("a map_Kd").params.number("udelta", 0) == 0.5);
+    CHECK(texture("a map_Kd").params.number("vdelta", 0) == 0.5);
+    CHECK(texture("b map_Kd").params.number("uscale", 1) == 3);
+    CHECK(texture("b map_Kd").params.number("vscale", 1) == 1);
+    CHECK(says(in, RESTAGE_DROPPED, "my wood.png", "no such file"));
+    CHECK(says(in, RESTAGE_DROPPED, "7.png", "no such file"));
+    CHECK(says(in, RESTAGE_DROPPED, "m.mtl:9", "Kd spectral a.rfl"));
+}
+
+TEST_CASE("obj: colours of vertices are shown, and lines alone get a thickness", "[obj]") {
+    ModelFiles files;
+    files.write("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
+    const auto in = files.load("c.obj");
+    const auto& material = in.scene.materials[in.scene.instances[{1}].material];
+    const auto* reflectance = material.params.find("reflectance");
+    REQUIRE(reflectance);
+    REQUIRE(reflectance->texture);
+    const auto& image = in.scene.images[in.scene.textures[reflectance->texture].image];
+    REQUIRE(image.data);
+    CHECK(image.data->values[0] == 1);
+    CHECK(image.data->values[1] == 0);
+
+    files.write("l.obj", "v 0 0 0\nv 3 0 0\nv 3 4 0\nl 1 2 3\n");
+    const auto lines = files.load("l.obj");
+    CHECK(lines.scene.meshes[{1}].data->triangles.size() == 24);
+    CHECK(says(lines, RESTAGE_APPROXIMATED, "", "its 2 lines get a radius"));
+}
+
 TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
     ModelFiles files;
     files.write("a.obj", "v -3 0 7\nv 5 1 7\nv 0 9 -2\nf 1 2 3\n");

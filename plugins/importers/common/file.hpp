@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,7 +11,11 @@
 
 namespace restage::importing {
 
-// nullopt: `reason` says why.
+// Everything an importer reads is a regular file, of at most 16 GiB: never a folder, a device or a pipe, which may have
+// no end, or wait for ever. nullopt: `reason` says why.
+#if !defined(_WIN32)
+int open_regular_file(const std::filesystem::path&, std::uint64_t& size, std::string& reason); // a descriptor, or -1
+#endif
 std::optional<std::string> read_file(const std::filesystem::path&, std::string& reason);
 
 // The file that `name`, written in a file in `folder`, means; also where the name has backslashes, another case, or a

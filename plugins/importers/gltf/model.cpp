@@ -2,6 +2,7 @@
 #include "model.hpp"
 
 #include "common/file.hpp"
+#include "common/json_depth.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -163,6 +164,20 @@ std::string_view json_of(std::string_view bytes) {
     return bytes.substr(20, length);
 }
 
+// tinygltf turns JSON into values of its own by recursion. Of a GLB only the first chunk is JSON.
+void check_depth(std::string_view bytes, bool binary) {
+    constexpr std::size_t most = 256; // glTF's own is 10 or so; extensions and extras have theirs
+    const std::string_view json = binary ? json_of(bytes) : bytes;
+    const auto at = too_deep_json(json, most);
+    if (!at) return;
+    const std::string what = "JSON nested more than " + std::to_string(most) + " deep is not read";
+    if (binary) throw ImportError{"byte " + std::to_string(20 + *at) + ": " + what};
+    const std::string_view before = json.substr(0, *at);
+    const std::size_t line = before.rfind('\n');
+    throw ImportError{what, static_cast<std::uint32_t>(1 + std::count(before.begin(), before.end(), '\n')),
+                      static_cast<std::uint32_t>(before.size() - (line == before.npos ? 0 : line + 1) + 1)};
+}
+
 } // namespace
 
 std::string decode_uri(std::string_view uri) {
@@ -202,6 +217,7 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
     if (bytes.size() > 0xffffffffu) throw ImportError{"the file is larger than 4 GiB, which glTF does not allow"};
     const bool binary = bytes.starts_with("glTF");
     if (binary) check_header(bytes);
+    check_depth(bytes, binary);
     BufferFiles files = buffer_files(path.parent_path(), binary ? json_of(bytes) : bytes);
     reader.SetFsCallbacks(file_access(files));
     const auto size = static_cast<unsigned>(bytes.size());

@@ -51,33 +51,38 @@ TextureUse Importer::use_of(const tinygltf::Value& owner, const char* key, const
 
 int Importer::image_of(const TextureUse& use) {
     const auto& texture = at(model_.textures, use.index, "texture", use.slot + " texture");
-    if (texture.source < 0) {
+    const auto webp = texture.extensions.find("EXT_texture_webp"); // source: what readers without it take instead
+    const int source =
+        webp == texture.extensions.end() ? texture.source : static_cast<int>(number_of(webp->second, "source", -1));
+    if (source < 0) {
         report_.dropped("texture " + std::to_string(use.index), texture.extensions.contains("KHR_texture_basisu")
                                                                     ? "KTX2 pictures (KHR_texture_basisu) are not read"
-                                                                : texture.extensions.contains("EXT_texture_webp")
-                                                                    ? "WebP pictures (EXT_texture_webp) are not read"
                                                                     : "it names no picture");
         return -1;
     }
-    at(model_.images, texture.source, "image", "texture " + std::to_string(use.index));
-    return texture.source;
+    at(model_.images, source, "image", "texture " + std::to_string(use.index));
+    return source;
 }
 
 const Picture* Importer::picture(int index) {
     const auto [it, fresh] = pictures_.try_emplace(index);
     if (!fresh) return it->second ? &*it->second : nullptr;
     const auto& image = model_.images[static_cast<std::size_t>(index)];
+    const std::string what = image.uri.empty() ? "image " + std::to_string(index) : decode_uri(image.uri);
     std::string reason;
     if (!image.uri.empty()) {
-        it->second = read_picture(locate(image.uri).string(), reason);
+        it->second = read_picture(out_, locate(image.uri).string(), reason);
     } else if (image.bufferView >= 0) {
-        const auto bytes = view_bytes(model_, image.bufferView, "image " + std::to_string(index));
-        it->second = decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, reason);
+        const auto bytes = view_bytes(model_, image.bufferView, what);
+        it->second = decode_picture(out_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, what, reason);
     } else {
-        it->second = decode_picture({reinterpret_cast<const char*>(image.image.data()), image.image.size()}, reason);
+        const auto& bytes = image.image;
+        it->second = decode_picture(out_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, what, reason);
     }
     if (!it->second)
         report_.dropped("image " + quote(image.uri.empty() ? std::to_string(index) : decode_uri(image.uri)), reason);
+    else if (!it->second->problem.empty())
+        report_.approximated("image " + quote(what), it->second->problem);
     return it->second ? &*it->second : nullptr;
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// One mesh, one grey object, a camera and a studio.
+// One mesh, one object of its colours, its pictures or grey, a camera and a studio.
 #include "load.hpp"
 
+#include "common/bytes.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/stage.hpp"
 #include "common/values.hpp"
+#include "object.hpp"
 #include "stl.hpp"
 
-#include <algorithm>
-#include <mesh.hpp> // of the pbrt importer: read_ply
-#include <source.hpp>
 #include <string_view>
 
 namespace restage::mesh {
@@ -20,51 +19,52 @@ using namespace importing;
 
 namespace {
 
-MeshBuffer from_ply(const std::string& path, std::string_view bytes, Report& report) {
-    pbrt::Mesh ply;
+Content from_ply(std::string_view bytes) {
     try {
-        ply = pbrt::read_ply(path, bytes, {});
-    } catch (const pbrt::ImportError& error) {
-        std::string message = error.message; // it begins with the path
-        if (message.starts_with(path + ": ")) message.erase(0, path.size() + 2);
-        if (constexpr std::string_view tail = " or remove the shape"; message.ends_with(tail)) // there is no other
-            message.resize(message.size() - tail.size());
-        throw ImportError{message};
+        PlyMesh ply = read_ply(bytes, {.colors = true, .recentre = true});
+        Content content;
+        content.mesh = {std::move(ply.positions), std::move(ply.normals), std::move(ply.uvs), std::move(ply.indices)};
+        content.origin = ply.origin;
+        content.vertex_colors = std::move(ply.colors);
+        content.triangle_colors = std::move(ply.triangle_colors);
+        content.corner_uvs = std::move(ply.corner_uvs);
+        content.triangle_pictures = std::move(ply.triangle_textures);
+        content.pictures = std::move(ply.textures);
+        content.edges = std::move(ply.edges);
+        for (const auto& [what, count] : ply.not_read)
+            content.not_read.emplace_back(what, std::to_string(count) + " values are not read");
+        if (ply.has_bent_polygons)
+            content.notes.emplace_back("some polygons are not flat; they are cut as seen along their normal");
+        return content;
+    } catch (const PlyProblem& problem) {
+        if (problem.line > 0) throw ImportError{problem.what, problem.line, 1, {}};
+        throw ImportError{problem.sentence() + "; export the mesh again"};
     }
-    if (const std::size_t repaired = pbrt::repair_normals(ply))
-        report.approximated("normals",
-                            std::to_string(repaired) + " are zero or not finite; the faces' own stand for them");
-    return {std::move(ply.positions), std::move(ply.normals), std::move(ply.uvs), std::move(ply.indices)};
+}
+
+Content from_stl(std::string_view bytes) {
+    Stl stl = read_stl(bytes);
+    Content content;
+    content.mesh = std::move(stl.mesh);
+    content.origin = stl.origin;
+    content.triangle_colors = std::move(stl.colors);
+    content.notes = std::move(stl.notes);
+    return content;
 }
 
 void load_mesh(const fs::path& path, const RestageSceneWriter1& out) {
     Report report(out, path.string());
     std::string reason;
-    const auto file = pbrt::FileBytes::open(path, reason); // inflates gzip
+    const auto file = FileBytes::open(path, reason); // inflates gzip
     if (!file) throw ImportError{"the file cannot be read: " + reason};
     const std::string_view bytes = file->view();
     if (!out.progress(out.ctx, 0.1f, "reading the mesh")) throw Cancelled{};
     const bool ply = bytes.starts_with("ply") || lower(path.string()).find(".ply") != std::string::npos;
-    const MeshBuffer mesh = ply ? from_ply(path.string(), bytes, report) : read_stl(bytes);
-    if (mesh.indices.empty()) throw ImportError{"the file holds no faces"};
+    Content content = ply ? from_ply(bytes) : from_stl(bytes);
     if (!out.progress(out.ctx, 0.9f, "making the object")) throw Cancelled{};
-
-    const std::string name = path.stem().string();
-    Values values;
-    values.color("reflectance", {0.5, 0.5, 0.5});
-    const RestageMaterialDesc grey = {
-        .text = {"grey", "", ""}, .type = "diffuse", .values = values.data(), .value_count = values.size()};
-    RestageInstance instance{};
-    instance.text = {name.c_str(), "", ""};
-    instance.mesh = mesh.push(out, name, ply ? path.string() : "");
-    instance.material = out.material(out.ctx, &grey);
-    instance.alpha = 1;
-    std::copy_n(Matrix().m.begin(), 16, instance.object_to_world);
-    if (!instance.mesh || !out.instance(out.ctx, &instance)) throw ImportError{"the mesh cannot be used"};
-    report.kept("mesh", std::to_string(mesh.triangle_count()) + " triangles, " + std::to_string(mesh.vertex_count()) +
-                            " vertices; the format has no material: it is grey");
     const Up up = ply ? Up::y : Up::z;
-    add_camera(out, report, mesh.bounds(), up);
+    const Bounds bounds = add_objects(out, report, path, std::move(content));
+    add_camera(out, report, bounds, up);
     add_film(out);
     add_studio(out, report, up);
 }

@@ -2,12 +2,15 @@
 #include "stl.hpp"
 
 #include "common/error.hpp"
+#include "common/large_coordinates.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <unordered_map>
 
 namespace restage::mesh {
@@ -18,12 +21,14 @@ namespace {
 
 constexpr std::size_t header = 84, facet = 50;
 
+using Point = std::array<double, 3>;
+
 struct PointHash {
-    std::size_t operator()(const std::array<float, 3>& p) const {
+    std::size_t operator()(const Point& p) const {
         std::uint64_t h = 0;
-        for (const float x : p) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, &x, 4);
+        for (const double x : p) {
+            std::uint64_t bits = 0;
+            std::memcpy(&bits, &x, 8);
             h = (h ^ bits) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
         }
         return static_cast<std::size_t>(h);
@@ -32,17 +37,22 @@ struct PointHash {
 
 class Welder {
   public:
-    void add(std::array<float, 3> p) {
-        for (float& x : p)
-            x += 0.f; // -0 is 0
-        const auto [it, fresh] = known_.try_emplace(p, mesh.vertex_count());
-        if (fresh) mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
-        mesh.indices.push_back(it->second);
+    void add(Point p) {
+        for (double& x : p)
+            x += 0.; // -0 is 0
+        const auto [it, fresh] = known_.try_emplace(p, static_cast<std::uint32_t>(known_.size()));
+        if (fresh) positions_.insert(positions_.end(), p.begin(), p.end());
+        indices_.push_back(it->second);
     }
-    MeshBuffer mesh;
+    void finish(Stl& out) {
+        out.mesh.positions = recentred(positions_, out.origin);
+        out.mesh.indices = std::move(indices_);
+    }
 
   private:
-    std::unordered_map<std::array<float, 3>, std::uint32_t, PointHash> known_;
+    std::vector<double> positions_;
+    std::vector<std::uint32_t> indices_;
+    std::unordered_map<Point, std::uint32_t, PointHash> known_;
 };
 
 std::uint32_t facet_count(std::string_view bytes) { // little-endian, as the machines we run on
@@ -51,23 +61,80 @@ std::uint32_t facet_count(std::string_view bytes) { // little-endian, as the mac
     return count;
 }
 
-MeshBuffer read_binary(std::string_view bytes) {
+// Two bytes behind each facet are nobody's by the format. VisCAM and SolidView: 15 bits blue, green, red from the
+// lowest on, valid where the highest is set. Magics, whose header has "COLOR=" and a colour for the rest: red, green,
+// blue, and valid where it is not.
+class FacetColors {
+  public:
+    explicit FacetColors(std::string_view head) {
+        const std::size_t at = head.find("COLOR=");
+        magics_ = at != head.npos && at + 9 < head.size();
+        for (std::size_t c = 0; magics_ && c < 3; ++c)
+            rest_[c] = static_cast<float>(static_cast<unsigned char>(head[at + 6 + c])) / 255;
+    }
+    void add(std::uint16_t bits) {
+        any_ |= magics_ || bits != 0;
+        const bool own = (bits >> 15 != 0) != magics_;
+        valid_ += own;
+        for (unsigned c = 0; c < 3; ++c) {
+            const unsigned shift = magics_ ? 5 * c : 10 - 5 * c;
+            colors_.push_back(own ? static_cast<float>(bits >> shift & 31) / 31 : rest_[c]);
+        }
+    }
+    void finish(Stl& out) {
+        if (valid_ > 0 || magics_)
+            out.colors = std::move(colors_);
+        else if (any_)
+            out.notes.emplace_back("facets have attribute bytes that are no colours; they are not read");
+    }
+
+  private:
+    bool magics_ = false, any_ = false;
+    std::size_t valid_ = 0;
+    std::array<float, 3> rest_{0.5f, 0.5f, 0.5f};
+    std::vector<float> colors_;
+};
+
+Stl read_binary(std::string_view bytes) {
     if (bytes.size() < header) throw ImportError{"byte " + std::to_string(bytes.size()) + ": the header ends early"};
-    const std::size_t count = facet_count(bytes), found = (bytes.size() - header) / facet;
+    const std::size_t found = (bytes.size() - header) / facet;
+    std::size_t count = facet_count(bytes);
+    Stl result;
+    if (count == 0 && found > 0 && bytes.size() == header + found * facet) { // written before it was known
+        result.notes.emplace_back("the header promises no facets; the " + std::to_string(found) +
+                                  " that follow are read");
+        count = found;
+    }
     if (found < count)
         throw ImportError{"byte " + std::to_string(bytes.size()) + ": the file is cut: " + std::to_string(count) +
                           " facets promised, " + std::to_string(found) + " found"};
+    if (const std::size_t rest = bytes.size() - header - count * facet; rest > 0 && count > 0)
+        result.notes.emplace_back(std::to_string(rest) + " bytes behind the last facet are not read");
     Welder welder;
-    for (std::size_t i = 0; i < count; ++i)
+    FacetColors colors(bytes.substr(0, header - 4));
+    for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::size_t at = header + i * facet + 12 * (corner + 1); // after the normal
             std::array<float, 3> p{};
             std::memcpy(p.data(), bytes.data() + at, 12);
             if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
                 throw ImportError{"byte " + std::to_string(at) + ": a vertex is not finite"};
-            welder.add(p);
+            welder.add({double(p[0]), double(p[1]), double(p[2])});
         }
-    return std::move(welder.mesh);
+        std::uint16_t bits = 0;
+        std::memcpy(&bits, bytes.data() + header + i * facet + 48, 2);
+        colors.add(bits);
+    }
+    welder.finish(result);
+    colors.finish(result);
+    return result;
+}
+
+bool same(std::string_view word, std::string_view lower) { // whatever the case
+    if (word.size() != lower.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i)
+        if ((word[i] | 32) != lower[i]) return false;
+    return true;
 }
 
 // Words with their places.
@@ -83,41 +150,56 @@ class Words {
             step();
         return text_.substr(start, at_ - start);
     }
-    void skip_line() {
-        while (at_ < text_.size() && text_[at_] != '\n')
-            step();
+    // The name behind "solid" or "endsolid": to the end of the line, but no further than the statement that may follow
+    // on it ("facet normal", "endsolid", "solid").
+    void skip_name() {
+        while (at_ < text_.size() && !std::strchr("\r\n", text_[at_])) {
+            const Words before = *this;
+            const std::string_view word = next();
+            if (word.empty() || line > before.line_) {
+                *this = before;
+                skip_blanks();
+                return;
+            }
+            Words behind = *this;
+            if (same(word, "endsolid") || same(word, "solid") ||
+                (same(word, "facet") && same(behind.next(), "normal"))) {
+                *this = before;
+                return;
+            }
+        }
     }
     [[noreturn]] void fail(const std::string& what) const { throw ImportError{what, line, column}; }
     std::uint32_t line = 1, column = 1; // of the last word
 
   private:
+    void skip_blanks() {
+        while (at_ < text_.size() && std::strchr(" \t", text_[at_]))
+            step();
+    }
     void step() {
-        column_ = text_[at_] == '\n' ? 1 : column_ + 1;
-        line_ += text_[at_] == '\n';
-        ++at_;
+        const char c = text_[at_++];
+        const bool ends = c == '\n' || (c == '\r' && (at_ >= text_.size() || text_[at_] != '\n'));
+        column_ = ends ? 1 : column_ + 1;
+        line_ += ends;
     }
     std::string_view text_;
     std::size_t at_ = 0;
     std::uint32_t line_ = 1, column_ = 1;
 };
 
-float number(Words& words) {
+double number(Words& words) {
     std::string_view word = words.next();
     const std::string said(word);
     if (word.starts_with('+')) word.remove_prefix(1);
-    float value = 0;
+    double value = 0;
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool tiny = problem == std::errc::result_out_of_range && said.find("e-") != said.npos;
-    if (end != word.data() + word.size() || word.empty() || (problem != std::errc() && !tiny) || !std::isfinite(value))
+    const bool tiny =
+        problem == std::errc::result_out_of_range && (said.find("e-") != said.npos || said.find("E-") != said.npos);
+    if (end != word.data() + word.size() || word.empty() || (problem != std::errc() && !tiny) ||
+        !(std::abs(value) <= double(std::numeric_limits<float>::max())))
         words.fail(said.empty() ? "the file ends inside a facet" : "\"" + said + "\" is no finite number");
-    return value;
-}
-
-bool same(std::string_view word, std::string_view lower) { // whatever the case
-    if (word.size() != lower.size()) return false;
-    for (std::size_t i = 0; i < word.size(); ++i)
-        if ((word[i] | 32) != lower[i]) return false;
-    return true;
+    return tiny ? 0 : value;
 }
 
 void expect(Words& words, std::string_view wanted) {
@@ -127,20 +209,22 @@ void expect(Words& words, std::string_view wanted) {
                                 : "\"" + std::string(word) + "\" stands where \"" + std::string(wanted) + "\" should");
 }
 
-MeshBuffer read_ascii(std::string_view text) {
+Stl read_ascii(std::string_view text) {
     Words words(text);
     Welder welder;
+    Stl result;
     expect(words, "solid");
-    words.skip_line(); // its name
+    words.skip_name();
     for (bool open = true;;) {
         const std::string_view word = words.next();
         if (word.empty()) {
-            if (open) words.fail("the file ends before \"endsolid\"");
-            return std::move(welder.mesh);
+            if (open) result.notes.emplace_back("the file ends without \"endsolid\"");
+            welder.finish(result);
+            return result;
         }
         if (same(word, "solid") || same(word, "endsolid")) {
             open = same(word, "solid");
-            words.skip_line();
+            words.skip_name();
         } else if (same(word, "facet")) {
             expect(words, "normal");
             for (int i = 0; i < 3; ++i)
@@ -149,7 +233,7 @@ MeshBuffer read_ascii(std::string_view text) {
             expect(words, "loop");
             for (int corner = 0; corner < 3; ++corner) {
                 expect(words, "vertex");
-                const float x = number(words), y = number(words), z = number(words);
+                const double x = number(words), y = number(words), z = number(words);
                 welder.add({x, y, z});
             }
             expect(words, "endloop");
@@ -160,6 +244,15 @@ MeshBuffer read_ascii(std::string_view text) {
     }
 }
 
+std::string_view without_mark(std::string_view bytes) { // a byte order mark, as Windows' editors put it
+    return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+}
+
+bool contains(std::string_view text, std::string_view lower) { // whatever the case
+    return std::search(text.begin(), text.end(), lower.begin(), lower.end(),
+                       [](char a, char b) { return (a | 32) == b; }) != text.end();
+}
+
 } // namespace
 
 bool is_binary_stl(std::string_view bytes) {
@@ -167,16 +260,15 @@ bool is_binary_stl(std::string_view bytes) {
 }
 
 bool is_ascii_stl(std::string_view bytes) {
+    bytes = without_mark(bytes);
     const auto start = bytes.find_first_not_of(" \t\r\n");
     return start != bytes.npos && same(bytes.substr(start, 5), "solid") &&
-           (bytes.find("facet") != bytes.npos || bytes.find("FACET") != bytes.npos ||
-            bytes.find("endsolid") != bytes.npos) &&
-           bytes.find('\0') == bytes.npos;
+           (contains(bytes, "facet") || contains(bytes, "endsolid")) && bytes.find('\0') == bytes.npos;
 }
 
-MeshBuffer read_stl(std::string_view bytes) {
+Stl read_stl(std::string_view bytes) {
     if (is_binary_stl(bytes) || !is_ascii_stl(bytes)) return read_binary(bytes);
-    return read_ascii(bytes);
+    return read_ascii(without_mark(bytes));
 }
 
 } // namespace restage::mesh

@@ -5,7 +5,9 @@
 
 #include "common/mesh.hpp"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace restage::mesh {
 
@@ -13,7 +15,14 @@ namespace restage::mesh {
 bool is_binary_stl(std::string_view bytes);
 bool is_ascii_stl(std::string_view bytes); // a head will do
 
+struct Stl {
+    importing::MeshBuffer mesh;
+    importing::Vec3 origin{}; // to be added to the positions
+    std::vector<float> colors; // 3 a triangle, 0..1 (sRGB), where facets have some (VisCAM, Magics)
+    std::vector<std::string> notes; // what was wrong with the file, or is not known of it
+};
+
 // Vertices at the same place are one. Throws ImportError when it is broken.
-importing::MeshBuffer read_stl(std::string_view bytes);
+Stl read_stl(std::string_view bytes);
 
 } // namespace restage::mesh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One import: what tinyobjloader read, the lines it stood on, and what has been made of it so far.
+// One import: what was read, and what has been made of it so far.
 #pragma once
 
 #include "common/error.hpp"
@@ -7,10 +7,10 @@
 #include "common/mesh.hpp"
 #include "common/report.hpp"
 #include "common/textures.hpp"
-#include "text.hpp"
+#include "model.hpp"
+#include "mtl.hpp"
 
 #include <restage/scene_io.h>
-#include <tiny_obj_loader.h>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -35,48 +35,49 @@ class Importer {
 
   private:
     // load.cpp
-    void parse();
-    void load_libraries(std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* by_name,
-                        std::string* warnings);
-    void tell_warnings(const std::string& warnings);
-    void check_indices();
+    void read_libraries();
     void tell_leftovers();
-    friend struct LibraryReader;
 
     // shapes.cpp
-    void shape(const tinyobj::shape_t&);
+    void shape(const Shape&);
     void smooth(); // normals of smoothing groups, over all shapes
-    MeshBuffer mesh(const tinyobj::shape_t&, int material) const;
+    MeshBuffer mesh(const Shape&, int material, std::vector<std::uint32_t>& vertices) const;
+    MadeMaterial colored(MeshBuffer&, const std::vector<std::uint32_t>& vertices, int material,
+                         const std::string& name); // the material, with the colours of vertices where it can show them
+    struct Object {
+        std::string name;
+        RestageHandle group = 0;
+    };
+    void object(const MeshBuffer&, const MadeMaterial&, const Object&);
+    void strokes(); // of a file that has points and lines only
 
     // materials.cpp
     const MadeMaterial& material(int id);
-    MadeMaterial make_material(const tinyobj::material_t&);
+    MadeMaterial make_material(const Mtl&, RestageHandle baked = 0); // an image instead of its colour
+    const Mtl* find(const std::string& name) const;
     struct Slot;
     RestageHandle color_texture(const Slot&, const Rgb& factor);
     RestageHandle scalar_texture(const Slot&, double factor = 1, bool invert = false);
     RestageHandle alpha_texture(const Slot&, double factor);
     void bump(const Slot&, Values&);
-    void emission(const tinyobj::material_t&, MadeMaterial&);
+    void emission(const Mtl&, MadeMaterial&);
     Mapping mapping(const Slot&);
 
     const RestageSceneWriter1& out_;
     const std::filesystem::path path_;
     const std::string_view text_;
     Report report_;
-    ObjText lines_;
+    Model model_;
     struct Library {
         std::filesystem::path path;
-        std::map<std::string, MtlEntry> entries;
+        std::vector<Mtl> materials;
     };
     std::vector<Library> libraries_;
-
-    tinyobj::attrib_t attributes_;
-    std::vector<tinyobj::shape_t> shapes_;
-    std::vector<tinyobj::material_t> materials_;
     std::map<int, MadeMaterial> made_;
     std::unordered_map<std::uint64_t, Vec3> smoothed_; // by smoothing group << 32 | vertex
     Bounds bounds_;
     std::size_t triangles_ = 0, objects_ = 0;
+    bool stroked_ = false; // points and lines got a thickness
 };
 
 } // namespace restage::obj

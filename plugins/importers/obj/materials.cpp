@@ -12,8 +12,7 @@ namespace restage::obj {
 
 struct Importer::Slot { // one map_... statement
     std::string material, key;
-    const std::string& file;
-    const tinyobj::texture_option_t& options;
+    const MtlTexture& options;
     std::uint32_t line;
     std::filesystem::path library;
     std::string what() const { return "material " + quote(material) + ": " + key; }
@@ -21,7 +20,6 @@ struct Importer::Slot { // one map_... statement
 
 namespace {
 
-Rgb rgb(const float* v) { return {v[0], v[1], v[2]}; }
 double largest(const Rgb& c) { return std::max({c[0], c[1], c[2]}); }
 Rgb clamped(const Rgb& c) {
     return {std::clamp(c[0], 0.0, 1.0), std::clamp(c[1], 0.0, 1.0), std::clamp(c[2], 0.0, 1.0)};
@@ -42,36 +40,39 @@ bool looks_like_normals(const Picture& picture) {
 
 Mapping Importer::mapping(const Slot& slot) {
     const auto& o = slot.options;
-    if (o.turbulence[0] != 0 || o.turbulence[1] != 0)
+    if (o.turbulence != std::array<double, 3>{})
         report_.dropped(slot.what() + " -t", "turbulence is not known", slot.line, slot.library.string());
-    if (o.brightness != 0 || o.contrast != 1)
+    if (o.base != 0 || o.gain != 1)
         report_.dropped(slot.what() + " -mm", "the picture is used as it is", slot.line, slot.library.string());
+    if (!o.channel.empty() && o.channel != "m" && o.channel != "l")
+        report_.dropped(slot.what() + " -imfchan", "the picture's brightness is used", slot.line,
+                        slot.library.string());
     return {.scale_u = o.scale[0],
             .scale_v = o.scale[1],
-            .offset_u = o.origin_offset[0],
-            .offset_v = o.origin_offset[1],
+            .offset_u = o.offset[0],
+            .offset_v = o.offset[1],
             .wrap = o.clamp ? "clamp" : "repeat"};
 }
 
 RestageHandle Importer::color_texture(const Slot& slot, const Rgb& factor) {
-    const std::string path = find_file(slot.library.parent_path(), slot.file).string();
-    const bool linear = lower(slot.options.colorspace) == "linear";
+    const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
+    const bool linear = slot.options.colorspace == "linear";
     const RestageHandle image = add_image_file(out_, path, linear ? RESTAGE_LINEAR : RESTAGE_SRGB);
     const std::string name = slot.material + " " + slot.key;
     return add_scaled(out_, name + " scaled", add_imagemap(out_, name, image, false, mapping(slot)), false, factor);
 }
 
 RestageHandle Importer::scalar_texture(const Slot& slot, double factor, bool invert) {
-    const std::string path = find_file(slot.library.parent_path(), slot.file).string();
+    const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     const RestageHandle image = add_image_file(out_, path, RESTAGE_LINEAR);
     return add_imagemap(out_, slot.material + " " + slot.key, image, true, mapping(slot), factor, invert);
 }
 
 // map_d: the alpha channel where the picture has one that says something, else its brightness.
 RestageHandle Importer::alpha_texture(const Slot& slot, double factor) {
-    const std::string path = find_file(slot.library.parent_path(), slot.file).string();
+    const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     std::string reason;
-    const auto picture = read_picture(path, reason);
+    const auto picture = read_picture(out_, path, reason);
     if (!picture || !picture->alpha_varies())
         return scalar_texture(slot, factor); // the host says what is wrong with it
     const std::string name = slot.material + " " + slot.key;
@@ -81,9 +82,9 @@ RestageHandle Importer::alpha_texture(const Slot& slot, double factor) {
 }
 
 void Importer::bump(const Slot& slot, Values& values) {
-    const std::string path = find_file(slot.library.parent_path(), slot.file).string();
+    const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     std::string reason;
-    const auto picture = read_picture(path, reason);
+    const auto picture = read_picture(out_, path, reason);
     if (picture && looks_like_normals(*picture)) {
         report_.approximated(slot.what(), "the picture holds normals, not heights; it is used as a normal map",
                              slot.line, slot.library.string());
@@ -93,16 +94,15 @@ void Importer::bump(const Slot& slot, Values& values) {
         return;
     }
     Bounds all; // heights have no unit in MTL
-    for (std::size_t i = 0; i + 2 < attributes_.vertices.size(); i += 3)
-        all.add({attributes_.vertices[i], attributes_.vertices[i + 1], attributes_.vertices[i + 2]});
+    for (std::size_t i = 0; i + 2 < model_.vertices.size(); i += 3)
+        all.add({model_.vertices[i], model_.vertices[i + 1], model_.vertices[i + 2]});
     report_.approximated(slot.what(), "heights have no unit here; white is taken as 1/200 of the model's size high",
                          slot.line, slot.library.string());
-    values.texture("bump", RESTAGE_TEXTURE,
-                   scalar_texture(slot, slot.options.bump_multiplier * 0.005 * 2 * all.radius()));
+    values.texture("bump", RESTAGE_TEXTURE, scalar_texture(slot, slot.options.bump * 0.005 * 2 * all.radius()));
 }
 
-void Importer::emission(const tinyobj::material_t& m, MadeMaterial& made) {
-    const Rgb ke = rgb(m.emission);
+void Importer::emission(const Mtl& m, MadeMaterial& made) {
+    const Rgb ke = m.color("Ke");
     made.emits = largest(ke) > 0;
     made.emission = {std::max(ke[0], 0.0), std::max(ke[1], 0.0), std::max(ke[2], 0.0)};
 }
@@ -110,7 +110,9 @@ void Importer::emission(const tinyobj::material_t& m, MadeMaterial& made) {
 const MadeMaterial& Importer::material(int id) {
     const auto known = made_.find(id);
     if (known != made_.end()) return known->second;
-    if (id >= 0) return made_[id] = make_material(materials_[static_cast<std::size_t>(id)]);
+    if (id >= 0)
+        if (const Mtl* mtl = find(model_.materials[static_cast<std::size_t>(id)].first))
+            return made_[id] = make_material(*mtl);
     Values values;
     values.color("reflectance", {0.5, 0.5, 0.5});
     const RestageMaterialDesc grey = {
@@ -120,129 +122,124 @@ const MadeMaterial& Importer::material(int id) {
     return made_[id] = made;
 }
 
-MadeMaterial Importer::make_material(const tinyobj::material_t& m) {
+MadeMaterial Importer::make_material(const Mtl& m, RestageHandle baked) {
     std::filesystem::path file;
-    MtlEntry entry;
     for (const auto& library : libraries_)
-        for (const auto& [name, found] : library.entries)
-            if (name == m.name || name == m.name.substr(0, m.name.find_last_not_of(" \t") + 1)) {
-                file = library.path;
-                entry = found;
-            }
+        for (const Mtl& other : library.materials)
+            if (&other == &m) file = library.path;
     const auto line = [&](const char* key) {
-        const auto it = entry.keys.find(key);
-        return it == entry.keys.end() ? entry.line : it->second;
+        const auto it = m.lines.find(key);
+        return it == m.lines.end() ? m.line : it->second;
     };
     const std::string what = "material " + quote(m.name);
-    const auto slot = [&](const char* key, const std::string& name, const tinyobj::texture_option_t& options) {
-        return Slot{m.name, key, name, options, line(key), file};
-    };
+    const auto slot = [&](const char* key) { return Slot{m.name, key, *m.texture(key), line(key), file}; };
     const auto dropped = [&](const char* key, const char* note) {
         report_.dropped(what + ": " + key, note, line(key), file.string());
     };
 
     Values values;
     MadeMaterial made;
-    const auto put_color = [&](const char* id, Rgb factor, const char* key, const std::string& name,
-                               const tinyobj::texture_option_t& options) {
+    // The colour of `color_key` times the picture of `key`. Without a colour the picture is the colour.
+    const auto put_color = [&](const char* id, const char* color_key, const char* key) {
+        Rgb factor = m.color(color_key);
+        const bool textured = m.texture(key) != nullptr;
+        if (textured && !m.has(color_key)) factor = {1, 1, 1};
         if (largest(factor) > 1)
-            report_.approximated(what, "a reflectance above 1 is taken as 1", entry.line, file.string());
+            report_.approximated(what, "a reflectance above 1 is taken as 1", m.line, file.string());
         factor = clamped(factor);
-        if (!name.empty() && largest(factor) <= 0) {
+        if (textured && largest(factor) <= 0) {
             report_.approximated(what, "a picture times black is taken as the picture", line(key), file.string());
             factor = {1, 1, 1};
         }
-        const RestageHandle texture = name.empty() ? 0 : color_texture(slot(key, name, options), factor);
+        RestageHandle texture = textured ? color_texture(slot(key), factor) : 0;
+        if (baked && std::string_view(color_key) == "Kd")
+            texture = add_imagemap(out_, m.name + " colours", baked, false, Mapping{});
         if (texture)
             values.texture(id, RESTAGE_COLOR, texture);
         else
             values.color(id, factor);
     };
-    const auto put_scalar = [&](const char* id, double factor, const char* key, const std::string& name,
-                                const tinyobj::texture_option_t& options) {
-        const RestageHandle texture = name.empty() ? 0 : scalar_texture(slot(key, name, options));
+    const auto put_scalar = [&](const char* id, double factor, const char* key) {
+        const RestageHandle texture = m.texture(key) ? scalar_texture(slot(key)) : 0;
         if (texture)
             values.texture(id, RESTAGE_FLOAT, texture);
         else
             values.number(id, factor);
     };
+    const auto unit = [&](const char* key, double otherwise) { return std::clamp(m.number(key, otherwise), 0.0, 1.0); };
 
-    const Rgb kd = rgb(m.diffuse), ks = rgb(m.specular);
+    const Rgb kd = m.color("Kd"), ks = m.color("Ks"), tf = m.color("Tf");
     const bool pbr = [&] {
         for (const char* key : {"Pr", "map_Pr", "Pm", "map_Pm", "Ps", "map_Ps", "Pc", "Pcr", "aniso"})
-            if (entry.has(key)) return true;
+            if (m.has(key)) return true;
         return false;
     }();
-    const int illum = entry.has("illum") ? m.illum : 2;
-    const bool filtered = entry.has("Tf") || entry.has("Kt");
-    const bool refracts = illum == 6 || illum == 7 || ((illum == 4 || illum == 9) && (m.dissolve < 1 || filtered));
-    const bool matte = illum == 0 || illum == 1 || (largest(ks) <= 0 && m.specular_texname.empty());
-    const bool metal = !matte && largest(kd) <= 0 && m.diffuse_texname.empty();
-    const double alpha = alpha_from_exponent(m.shininess);
+    const int illum = static_cast<int>(std::clamp(m.number("illum", 2), -1.0, 100.0));
+    const double ior = m.number("Ni", 1), dissolve = unit("d", 1);
+    const bool filtered = m.has("Tf");
+    const bool refracts = illum == 6 || illum == 7 || ((illum == 4 || illum == 9) && (dissolve < 1 || filtered));
+    const bool matte = illum == 0 || illum == 1 || (largest(ks) <= 0 && !m.texture("map_Ks"));
+    const bool metal = !matte && !baked && largest(kd) <= 0 && !m.texture("map_Kd");
+    const double alpha = alpha_from_exponent(m.number("Ns", 1));
     const char* type = "uber";
     if (pbr) {
         type = "principled";
-        put_color("base_color", kd, "map_Kd", m.diffuse_texname, m.diffuse_texopt);
-        put_scalar("roughness", std::clamp(double(m.roughness), 0.0, 1.0), "map_Pr", m.roughness_texname,
-                   m.roughness_texopt);
-        put_scalar("metallic", std::clamp(double(m.metallic), 0.0, 1.0), "map_Pm", m.metallic_texname,
-                   m.metallic_texopt);
-        if (entry.has("Ni") && m.ior > 1) values.number("ior", std::clamp(double(m.ior), 1.0, 3.0));
-        if (entry.has("Pc")) values.number("clearcoat", std::clamp(double(m.clearcoat_thickness), 0.0, 1.0));
-        if (entry.has("Pcr")) values.number("clearcoat_roughness", std::clamp(double(m.clearcoat_roughness), 0.0, 1.0));
+        put_color("base_color", "Kd", "map_Kd");
+        put_scalar("roughness", unit("Pr", 0), "map_Pr");
+        put_scalar("metallic", unit("Pm", 0), "map_Pm");
+        if (ior > 1) values.number("ior", std::clamp(ior, 1.0, 3.0));
+        if (m.has("Pc")) values.number("clearcoat", unit("Pc", 0));
+        if (m.has("Pcr")) values.number("clearcoat_roughness", unit("Pcr", 0));
         for (const char* key : {"Ps", "map_Ps", "aniso", "anisor"})
-            if (entry.has(key)) dropped(key, "there is no sheen or anisotropy in the principled material");
-    } else if (refracts) {
+            if (m.has(key)) dropped(key, "there is no sheen or anisotropy in the principled material");
+    } else if (refracts && !baked) {
         type = "dielectric";
-        values.number("eta", m.ior > 1.0001f ? std::clamp(double(m.ior), 1.0, 3.0) : 1.5);
-        if (filtered && largest(rgb(m.transmittance)) > 0) values.color("transmittance", clamped(rgb(m.transmittance)));
+        values.number("eta", ior > 1.0001 ? std::clamp(ior, 1.0, 3.0) : 1.5);
+        if (filtered && largest(tf) > 0) values.color("transmittance", clamped(tf));
         report_.kept(what, "illum " + std::to_string(illum) + " refracts: it is glass", line("illum"), file.string());
     } else if (matte) {
         type = "diffuse";
-        put_color("reflectance", kd, "map_Kd", m.diffuse_texname, m.diffuse_texopt);
+        put_color("reflectance", "Kd", "map_Kd");
     } else if (metal) {
         type = "conductor";
         values.boolean("use_reflectance", true);
-        put_color("reflectance", ks, "map_Ks", m.specular_texname, m.specular_texopt);
+        put_color("reflectance", "Ks", "map_Ks");
         values.choice("remap", "none");
         for (const char* id : {"uroughness", "vroughness"})
             values.number(id, illum == 3 || illum == 5 ? 0 : alpha); // 3, 5: mirrors
     } else {
-        put_color("kd", kd, "map_Kd", m.diffuse_texname, m.diffuse_texopt);
-        put_color("ks", ks, "map_Ks", m.specular_texname, m.specular_texopt);
-        if (entry.has("Ni") && m.ior > 1.0001f) values.number("eta", std::clamp(double(m.ior), 1.0, 3.0));
+        put_color("kd", "Kd", "map_Kd");
+        put_color("ks", "Ks", "map_Ks");
+        if (ior > 1.0001) values.number("eta", std::clamp(ior, 1.0, 3.0));
         values.choice("remap", "none");
         for (const char* id : {"uroughness", "vroughness"})
             values.number(id, alpha);
-        report_.approximated("material " + quote(m.name),
-                             "Phong's highlight (Ks, Ns) becomes GGX with Fresnel reflection", entry.line,
+        report_.approximated(what, "Phong's highlight (Ks, Ns) becomes GGX with Fresnel reflection", m.line,
                              file.string());
     }
 
-    if (!m.normal_texname.empty()) {
-        const Slot s = slot("norm", m.normal_texname, m.normal_texopt);
-        const std::string path = find_file(file.parent_path(), s.file).string();
+    if (m.texture("norm")) {
+        const Slot s = slot("norm");
+        const std::string path = find_file(file.parent_path(), s.options.file).string();
         values.texture(
             "normalmap", RESTAGE_TEXTURE,
             add_imagemap(out_, m.name + " norm", add_image_file(out_, path, RESTAGE_LINEAR), false, mapping(s)));
-    } else if (!m.bump_texname.empty()) {
-        const char* key = entry.has("bump") ? "bump" : entry.has("map_Bump") ? "map_Bump" : "map_bump";
-        bump(slot(key, m.bump_texname, m.bump_texopt), values);
+    } else if (m.texture("bump")) {
+        bump(slot("bump"), values);
     }
     if (!refracts) {
-        made.alpha = std::clamp(m.dissolve, 0.f, 1.f);
-        if (!m.alpha_texname.empty())
-            made.alpha_texture = alpha_texture(slot("map_d", m.alpha_texname, m.alpha_texopt), made.alpha);
+        made.alpha = static_cast<float>(dissolve);
+        if (m.texture("map_d")) made.alpha_texture = alpha_texture(slot("map_d"), dissolve);
     }
     emission(m, made);
-    if (!m.emissive_texname.empty()) dropped("map_Ke", "a surface emits evenly; its Ke alone is used");
-    if (!m.specular_highlight_texname.empty()) dropped("map_Ns", "the highlight's size is taken from Ns alone");
-    if (!m.displacement_texname.empty()) dropped("disp", "surfaces are not displaced");
-    if (!m.reflection_texname.empty()) dropped("refl", "the scene itself is reflected");
-    if (!m.ambient_texname.empty() && m.ambient_texname != m.diffuse_texname)
+    if (m.texture("map_Ke")) dropped("map_Ke", "a surface emits evenly; its Ke alone is used");
+    if (m.texture("map_Ns")) dropped("map_Ns", "the highlight's size is taken from Ns alone");
+    if (m.texture("disp")) dropped("disp", "surfaces are not displaced");
+    if (m.texture("refl")) dropped("refl", "the scene itself is reflected");
+    if (m.texture("map_Ka") && (!m.texture("map_Kd") || m.texture("map_Ka")->file != m.texture("map_Kd")->file))
         dropped("map_Ka", "ambient light is computed, not painted");
-    for (const auto& [key, value] : m.unknown_parameter)
-        dropped(key.c_str(), "it is not understood");
+    for (const auto& [statement, at] : m.not_understood)
+        report_.dropped(what + ": " + statement, "it is not understood", at, file.string());
 
     const std::string name = m.name.empty() ? "material" : m.name;
     const RestageMaterialDesc desc = {

@@ -3,6 +3,8 @@
 // ends, so that tokens can be views. ImportError is the one exception of this plugin; it never leaves it.
 #pragma once
 
+#include "common/bytes.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -31,25 +33,7 @@ struct ImportError { // "mine, but malformed"
     bool stops_pbrt = false; // also within a shape that pbrt would leave out otherwise
 };
 
-// Bytes of a file: mapped where possible, inflated when it starts with the gzip magic number.
-class FileBytes {
-  public:
-    // nullopt and a reason when the file cannot be read.
-    static std::optional<FileBytes> open(const std::filesystem::path& path, std::string& reason);
-    static FileBytes from_memory(std::string text);
-    FileBytes(FileBytes&& other) noexcept;
-    FileBytes& operator=(FileBytes&&) = delete;
-    ~FileBytes();
-
-    std::string_view view() const { return {data_, size_}; }
-
-  private:
-    FileBytes() = default;
-    const char* data_ = nullptr;
-    std::size_t size_ = 0;
-    bool mapped_ = false;
-    std::unique_ptr<std::vector<char>> owned_;
-};
+using importing::FileBytes;
 
 class Sources {
   public:

@@ -115,7 +115,10 @@ put("images/palette.png", png(4, 4, chunk(b"IDAT", zlib.compress(b"\0\xff\xff\xf
 put("images/no-scan.jpg", JPEG + b"\xff\xd9", "")
 put("images/huge.jpg", JPEG + bytes.fromhex("ffc0000b08ffffffff01011100") + b"\xff\xd9", "65535 x 65535")
 put("images/no-tables.jpg", JPEG + bytes.fromhex("ffc0000b080008000801011100ffda0008010100003f00") + b"\x12\x34\x56\xff\xd9", "")
-put("images/codes.jpg", JPEG + bytes.fromhex("ffc4028600" + "28" * 16) + bytes(640) + b"\xff\xd9", "claims 640 codes")
+put("images/codes.jpg", JPEG + bytes.fromhex("ffc4028600" + "28" * 16) + bytes(640) + b"\xff\xd9", "broken")
+put("images/cut.webp", b"RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0\x2f\xff\xff\xff\x0f", "truncated")
+put("images/huge.webp", b"RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\0\0\0\0\xff\xff\xff\xff\xff\xff", "")
+put("images/wide-row.png", png(16384, 16384, chunk(b"IDAT", zlib.compress(bytes(1 << 20), 9)), depth=1, color=0), "only")
 put("images/huge.bmp", b"BM" + struct.pack("<IHHIIiiHHIIiiII", 100, 0, 0, 54, 40, 0x7fffffff, 0x7fffffff, 1, 24, 0, 0, 0, 0, 0, 0) + b"\0" * 40, "")
 put("images/cut.bmp", b"BM" + struct.pack("<IHHIIiiHHIIiiII", 100, 0, 0, 54, 40, 8, 8, 1, 24, 0, 0, 0, 0, 0, 0) + b"\0" * 40, "truncated")
 put("images/cut.tga", tga(2, 8, 8, 24, b"\0" * 50), "truncated")
@@ -257,6 +260,15 @@ put("models/texture-9.gltf", gltf(meshes__0__primitives__0__material=0, material
 put("models/material-9.gltf", gltf(meshes__0__primitives__0__material=9), "material 9")
 put("models/image-view.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"bufferView": 1, "mimeType": "image/png"}]), "report:no picture")
 put("models/image-huge.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"uri": "data:image/png;base64," + base64.b64encode(png(16000, 16000, chunk(b"IDAT", b"\x78\x9c"))).decode()}]), "report:cannot be in")
+def pictured(data, kind="image/png"):
+    return gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}],
+                images=[{"uri": f"data:{kind};base64," + base64.b64encode(data).decode()}])
+
+
+put("models/image-codes.gltf", pictured(JPEG + bytes.fromhex("ffc4028600" + "28" * 16) + bytes(640) + b"\xff\xd9", "image/jpeg"), "report:broken")
+put("models/image-cut.gltf", pictured(png(4, 4, chunk(b"IDAT", zlib.compress(b"\0" * 52)))[:50]), "report:truncated")
+put("models/deep-20000.gltf", gltf()[:-1] + ', "extras": ' + "[" * 20000 + "]" * 20000 + "}", "deep-20000.gltf:1:")
+put("models/deep-20000.glb", glb(gltf()[:-1] + ', "extras": ' + '{"a":' * 20000 + "1" + "}" * 20000 + "}"), "nested more than 256 deep")
 put("models/draco.gltf", gltf(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression")
 put("models/light-9.gltf", gltf(nodes__0__extensions={"KHR_lights_punctual": {"light": 9}}), "light 9")
 put("models/camera-9.gltf", gltf(nodes__0__camera=9), "camera 9")

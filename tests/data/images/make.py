@@ -25,6 +25,20 @@ def png16(path):  # 16-bit RGB, which Pillow cannot write: v * 257 is the same v
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
 
 
+def png(path, color, depth, rows, extra=b"", interlace=0):
+    header = struct.pack(">IIBBBBB", 16, 8, depth, color, 0, 0, interlace)
+    body = chunk(b"IHDR", header) + extra + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + body)
+
+
+def adam7():  # the seven passes: first column and row, steps
+    rows = b""
+    for x0, y0, dx, dy in ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)):
+        for y in range(y0, 8, dy):
+            rows += b"\0" + b"".join(bytes(texel(x, y)) for x in range(x0, 16, dx))
+    return rows
+
+
 def tga16(path):  # X1R5G5B5, bottom up
     rows = b""
     for y in reversed(range(8)):
@@ -55,3 +69,23 @@ rgb.save(here / "rgb24_rle.tga", compression="tga_rle")
 rgba.save(here / "rgba32_rle.tga", compression="tga_rle")
 rgb.convert("L").save(here / "grey8.tga")
 tga16(here / "rgb16.tga")
+# What only some decoders know.
+png(here / "interlaced.png", 2, 8, adam7(), interlace=1)
+gamma = chunk(b"gAMA", struct.pack(">I", 100000)) + chunk(b"sRGB", b"\0")  # neither changes a number
+png(here / "gamma.png", 2, 8, b"".join(b"\0" + b"".join(bytes(texel(x, y)) for x in range(16)) for y in range(8)), gamma)
+ramp = b"".join(b"\0" + b"".join(struct.pack(">H", 256 * (16 * y + x) + 77) for x in range(16)) for y in range(8))
+png(here / "grey16.png", 0, 16, ramp)  # 256 i + 77: 8 bits would lose the 77
+bits = b"".join(b"\0" + (b"\xaa\xaa" if y % 2 else b"\x55\x55") for y in range(8))
+png(here / "palette1.png", 3, 1, bits, chunk(b"PLTE", bytes(LEFT + RIGHT)) + chunk(b"tRNS", b"\x40"))  # odd rows start with RIGHT
+png(here / "grey2.png", 0, 2, b"".join(b"\0" + b"\x1b" * 4 for y in range(8)), chunk(b"tRNS", struct.pack(">H", 2)))  # 0 1 2 3, 2 is clear
+rgb.save(here / "rgb8.webp", lossless=True, quality=100)
+rgba.save(here / "rgba8.webp", lossless=True, quality=100, exact=True)
+flat.save(here / "lossy.webp", quality=95)
+flat.convert("CMYK").save(here / "cmyk.jpg", quality=95)  # with Adobe's marker, inverted
+ycck = (here / "cmyk.jpg").read_bytes()
+marker = ycck.index(b"Adobe")
+plain = ycck[: marker - 4] + ycck[marker + 12 :]
+(here / "cmyk_plain.jpg").write_bytes(plain)  # without the marker: the same numbers are the inks themselves
+solid = struct.pack(">IIBBBBB", 2048, 2048, 1, 3, 0, 0, 0)  # 4 million texels of one colour in 600 bytes
+solid = chunk(b"IHDR", solid) + chunk(b"PLTE", bytes(LEFT)) + chunk(b"IDAT", zlib.compress(bytes(257 * 2048), 9)) + chunk(b"IEND", b"")
+(here / "solid1.png").write_bytes(b"\x89PNG\r\n\x1a\n" + solid)

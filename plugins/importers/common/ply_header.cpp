@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ply_header.hpp"
+#include "common/ply_header.hpp"
 
 #include <charconv>
 #include <map>
 #include <optional>
 
-namespace restage::pbrt {
+namespace restage::importing {
 
 namespace {
 
@@ -29,6 +29,8 @@ class HeaderReader {
         bool has_format = false;
         while (true) {
             const auto part = words(line());
+            if (part.size() > 2 && part[0] == "comment" && part[1] == "TextureFile") // the name may have blanks
+                header_.textures.emplace_back(part[2].data(), part.back().data() + part.back().size());
             if (part.empty() || part[0] == "comment" || part[0] == "obj_info") continue;
             if (part[0] == "end_header") break;
             if (part[0] == "format" && part.size() >= 2) {
@@ -71,15 +73,18 @@ class HeaderReader {
     }
 
   private:
-    [[noreturn]] static void fail(const std::string& what) { throw PlyProblem{what}; }
+    [[noreturn]] void fail(const std::string& what) const { throw PlyProblem{what, line_, 0}; }
 
+    // Lines end as the first one does: \n, \r\n or \r; what follows the header may begin with either.
     std::string_view line() {
-        const std::size_t end = bytes_.find('\n', header_.size);
+        ++line_;
+        const std::size_t end = bytes_.find_first_of(end_.empty() ? "\r\n" : end_.substr(0, 1), header_.size);
         if (end == bytes_.npos) fail("the header does not end");
-        std::string_view text = bytes_.substr(header_.size, end - header_.size);
+        if (end_.empty()) end_ = bytes_[end] == '\n' ? "\n" : bytes_.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
+        const std::string_view text = bytes_.substr(header_.size, end - header_.size);
         header_.size = end + 1;
-        if (text.ends_with('\r')) text.remove_suffix(1);
-        return text;
+        if (end_.size() == 2 && bytes_.substr(end, 2) == end_) ++header_.size;
+        return text.ends_with('\r') ? text.substr(0, text.size() - 1) : text;
     }
 
     static std::vector<std::string_view> words(std::string_view text) {
@@ -94,10 +99,17 @@ class HeaderReader {
     }
 
     std::string_view bytes_;
+    std::string_view end_{};
+    std::uint32_t line_ = 0;
     PlyHeader header_;
 };
 
 } // namespace
+
+std::string PlyProblem::sentence() const {
+    if (line > 0) return "line " + std::to_string(line) + ": " + what;
+    return byte > 0 ? "byte " + std::to_string(byte) + ": " + what : what;
+}
 
 std::size_t size_of(PlyType type) {
     constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
@@ -106,4 +118,4 @@ std::size_t size_of(PlyType type) {
 
 PlyHeader read_ply_header(std::string_view bytes) { return HeaderReader(bytes).read(); }
 
-} // namespace restage::pbrt
+} // namespace restage::importing

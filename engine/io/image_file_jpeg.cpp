@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG through libjpeg(-turbo): baseline, progressive, arithmetic; grey, YCbCr, RGB, CMYK and YCCK. The EXIF
+// orientation is not applied: texture coordinates are those of the stored rows.
+
+#include "io/image_file_codecs.hpp"
+
+#include <fmt/format.h>
+#include <csetjmp>
+#include <cstdio> // jpeglib.h needs FILE
+
+#include <jerror.h>
+#include <jpeglib.h>
+
+namespace restage::io {
+
+namespace {
+
+constexpr int most_scans = 500; // of a progressive picture: a small file could otherwise ask for days of work
+
+// libjpeg reports by calls that must not return: the only way out of them is longjmp, over frames of C.
+struct Errors {
+    jpeg_error_mgr manager{}; // first: libjpeg gives us a pointer to it
+    std::jmp_buf back{};
+    char message[JMSG_LENGTH_MAX]{};
+    bool truncated = false;
+};
+
+[[noreturn]] void give_up(j_common_ptr jpeg) {
+    auto* errors = reinterpret_cast<Errors*>(jpeg->err);
+    jpeg->err->format_message(jpeg, errors->message);
+    std::longjmp(errors->back, 1);
+}
+
+// Warnings (level -1) are of damaged data: the picture is shown as every viewer shows it, and the first is told. That
+// the file ends early is an error.
+void note(j_common_ptr jpeg, int level) {
+    if (level >= 0) return;
+    auto* errors = reinterpret_cast<Errors*>(jpeg->err);
+    errors->truncated = jpeg->err->msg_code == JWRN_JPEG_EOF;
+    if (errors->truncated) give_up(jpeg);
+    if (errors->manager.num_warnings++ == 0) jpeg->err->format_message(jpeg, errors->message);
+}
+
+void silent(j_common_ptr) {}
+
+void count_scans(j_common_ptr jpeg) {
+    if (!jpeg->is_decompressor || reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= most_scans) return;
+    ERREXIT(jpeg, JERR_BAD_PROGRESSION);
+}
+
+struct Decoder {
+    Errors errors;
+    jpeg_progress_mgr progress{};
+    jpeg_decompress_struct jpeg{};
+
+    Decoder() {
+        jpeg.err = jpeg_std_error(&errors.manager);
+        errors.manager.error_exit = give_up;
+        errors.manager.emit_message = note;
+        errors.manager.output_message = silent;
+        progress.progress_monitor = count_scans;
+    }
+    ~Decoder() { jpeg_destroy_decompress(&jpeg); } // also of one that was never created: it is zero
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    // Each is false when libjpeg gave up. Nothing with a destructor lives in them, as longjmp asks.
+    bool read_header(std::string_view bytes) {
+        if (setjmp(errors.back)) return false; // NOLINT(cert-err52-cpp): libjpeg's only way
+        jpeg_create_decompress(&jpeg);
+        jpeg.progress = &progress;
+        jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
+                     static_cast<unsigned long>(bytes.size()));
+        jpeg_read_header(&jpeg, TRUE);
+        jpeg.out_color_space = jpeg.num_components == 1   ? JCS_GRAYSCALE
+                               : jpeg.num_components == 4 ? JCS_CMYK
+                                                          : JCS_RGB;
+        return true;
+    }
+    bool read_rows(JSAMPLE* to) {
+        if (setjmp(errors.back)) return false; // NOLINT(cert-err52-cpp)
+        jpeg_start_decompress(&jpeg);
+        const std::size_t stride = std::size_t{jpeg.output_width} * static_cast<unsigned>(jpeg.output_components);
+        while (jpeg.output_scanline < jpeg.output_height) {
+            JSAMPROW row = to + stride * jpeg.output_scanline;
+            jpeg_read_scanlines(&jpeg, &row, 1);
+        }
+        jpeg_finish_decompress(&jpeg);
+        return true;
+    }
+    tl::unexpected<Error> problem(std::size_t size) const {
+        if (errors.truncated)
+            return fail(fmt::format("truncated: the picture goes on where the file ends ({} bytes)", size));
+        return fail(fmt::format("the picture is broken: JPEG: {}", errors.message));
+    }
+};
+
+// Adobe's files hold the inks inverted (its technical note 5116): 255 is no ink. Without profiles the colour is what
+// light passes all inks.
+std::vector<std::uint8_t> cmyk_to_rgb(const std::vector<std::uint8_t>& cmyk, bool inverted) {
+    std::vector<std::uint8_t> rgb(cmyk.size() / 4 * 3);
+    const auto light = [&](std::uint8_t ink) { return inverted ? ink : 255u - ink; };
+    for (std::size_t i = 0; i < cmyk.size() / 4; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb[3 * i + c] =
+                static_cast<std::uint8_t>((light(cmyk[4 * i + c]) * light(cmyk[4 * i + 3]) + 127) / 255);
+    return rgb;
+}
+
+} // namespace
+
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8"); }
+
+Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
+    Decoder decoder;
+    if (!decoder.read_header(bytes)) return decoder.problem(bytes.size());
+    const jpeg_decompress_struct& jpeg = decoder.jpeg;
+    RESTAGE_CHECK(check_image_size(jpeg.image_width, jpeg.image_height, bytes.size()));
+    if (jpeg.num_components != 1 && jpeg.num_components != 3 && jpeg.num_components != 4)
+        return fail(fmt::format("JPEG pictures of {} components are not read", jpeg.num_components));
+    const bool cmyk = jpeg.num_components == 4;
+    DecodedImage image{.width = jpeg.image_width, .height = jpeg.image_height, .channels = cmyk ? 3u : 0u};
+    if (!cmyk) image.channels = static_cast<std::uint32_t>(jpeg.num_components);
+    if (header_only) return image;
+    std::vector<std::uint8_t> values(std::size_t{image.width} * image.height *
+                                     static_cast<unsigned>(jpeg.num_components));
+    if (!decoder.read_rows(values.data())) return decoder.problem(bytes.size());
+    if (decoder.errors.manager.num_warnings > 0)
+        image.warning = fmt::format("JPEG: {}; the picture is shown as far as it goes", decoder.errors.message);
+    image.values = cmyk ? cmyk_to_rgb(values, jpeg.saw_Adobe_marker != 0) : std::move(values);
+    return image;
+}
+
+} // namespace restage::io
