@@ -45,6 +45,9 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->expected(0, 1)
         ->default_str("high")
         ->check(CLI::IsMember({"fast", "balanced", "high"}));
+    command.add_option("--denoiser", o.denoiser,
+                       "Denoise by this denoiser: its type or the id of its plugin (default: the one that came with "
+                       "Restage); implies --denoise");
     command.add_option("--max-depth", o.max_depth, "Longest path (default: what the scene says)")
         ->check(CLI::Range(0, 65534));
     command.add_option("--russian-roulette", o.roulette, "on or off")->check(CLI::IsMember({"on", "off"}));
@@ -200,7 +203,7 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
         } else if (o.error > 0) {
             const double error = renderer.relative_error();
             done = error > 0 ? std::min(1.0, (o.error * o.error) / (error * error)) : 1;
-            note += fmt::format(", error {:.4f}", error);
+            if (renderer.samples() > 1) note += fmt::format(", error {:.4f}", error);
             if (renderer.samples() >= 8 && error <= o.error) break;
         }
         bar.show(done, note);
@@ -228,18 +231,18 @@ Result<Picture> take_picture(Context& context, const RenderOptions& o, const sce
     Picture picture;
     picture.film = renderer.image();
     picture.exposure = scene.film.value.exposure;
-    if (!o.denoise.empty()) {
-        const auto& denoisers = context.registry().denoisers();
-        if (denoisers.empty()) return fail("--denoise: no denoiser plugin is loaded; look at `restage plugins`");
+    if (!o.denoise.empty() || !o.denoiser.empty()) {
         const auto quality = o.denoise == "fast"       ? RESTAGE_DENOISE_FAST
                              : o.denoise == "balanced" ? RESTAGE_DENOISE_BALANCED
                                                        : RESTAGE_DENOISE_HIGH;
+        RESTAGE_TRY(const auto chosen, render::choose_denoiser(context.registry(), o.denoiser));
         ProgressBar bar(context.quiet);
         RESTAGE_TRY(picture.denoised,
-                    render::denoise(picture.film, denoisers[0], quality, o.renderer.threads, [&](double done) {
+                    render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {
                         bar.show(done, "denoising");
                         return true;
                     }));
+        picture.denoiser = render::denoiser_label(chosen, quality);
     }
     return picture;
 }

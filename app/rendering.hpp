@@ -24,6 +24,7 @@ struct RenderOptions {
     double error = 0; // > 0: stop at this relative error
     std::string size; // WxH
     std::string denoise; // "", fast, balanced, high
+    std::string denoiser; // type or plugin id; "" = the program's own
     std::string strategy = "mis";
     int max_depth = -1;
     std::string roulette; // "", on, off

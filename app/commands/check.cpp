@@ -50,6 +50,8 @@ Result<int> run(const Options& o, Context& context) {
                 std::printf("  pictures     %s\n", page.string().c_str());
             std::printf("  %s\n", check::verdict_line(report).c_str());
         }
+        if (!report.unable.empty())
+            context.log.error(report.id + ": its GLSL was not checked, for this machine cannot run it: " + report.unable);
         reports.push_back(std::move(report));
     }
     if (!o.json.empty()) {
@@ -82,7 +84,8 @@ void add_check(CLI::App& program, Context& context) {
         ->capture_default_str();
     std::vector<std::string> names;
     for (const auto* steps :
-         {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(), &check::importer_steps()})
+         {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(), &check::importer_steps(),
+          &check::exporter_steps()})
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
     command->add_option("--only", o->check.only, "One step alone")->check(CLI::IsMember(names))->type_name("STEP");
@@ -91,6 +94,7 @@ void add_check(CLI::App& program, Context& context) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command->add_flag("--in-process", o->in_process)->group(""); // what we start ourselves
+    command->add_option("--skip", o->check.skip)->group("");
     command->callback([&context, o] { context.choose([&context, o] { return run(*o, context); }); });
 }
 

@@ -24,6 +24,7 @@ struct Options {
     bool json = false;
     std::string diff, z_map;
     io::CompareOptions compare;
+    std::optional<double> max_flip, min_blocks;
 };
 
 Result<scene::PixelData> load(const std::string& path, Log& log) {
@@ -102,6 +103,17 @@ scene::PixelData z_picture(const io::ZTest& test) {
     return image;
 }
 
+// Why the pictures are not the same, or "". Where the blocks are judged by their share, one that is off is no matter.
+std::string verdict(const Options& o, const io::Comparison& c, const std::optional<io::ZTest>& z) {
+    if (o.max_flip && !(c.flip <= *o.max_flip))
+        return fmt::format("FLIP is {:.5f}, more than --max-flip {:g}", c.flip, *o.max_flip);
+    if (o.min_blocks && z && z->share_passing < *o.min_blocks)
+        return fmt::format("{:.4f} of the blocks pass, less than --min-blocks {:g}", z->share_passing, *o.min_blocks);
+    if (!o.min_blocks && z && !z->family_passes)
+        return fmt::format("the z-test fails: worst block {:.2f}, limit {:.2f}", z->worst, z->family_threshold);
+    return "";
+}
+
 nlohmann::ordered_json to_json(const Options& options, const io::Comparison& c, const std::optional<io::ZTest>& z) {
     nlohmann::ordered_json json;
     json["a"] = options.a;
@@ -123,6 +135,9 @@ nlohmann::ordered_json to_json(const Options& options, const io::Comparison& c, 
                           {"worst", z->worst},
                           {"family_threshold", z->family_threshold},
                           {"family_passes", z->family_passes}};
+    const std::string why = verdict(options, c, z);
+    json["passes"] = why.empty();
+    json["why"] = why;
     return json;
 }
 
@@ -165,9 +180,14 @@ Result<int> run(const Options& options, Log& log) {
         if (!z) return fail("--z-map: no z-test without standard errors in both pictures (a layer 'stderr')");
         RESTAGE_CHECK(io::write_png(options.z_map, z_picture(*z)));
     }
+    if (options.min_blocks && !z)
+        return fail("--min-blocks: no z-test without standard errors in both pictures (a layer 'stderr')");
+    const std::string why = verdict(options, *comparison, z);
     const std::string out = options.json ? to_json(options, *comparison, z).dump(2) + "\n" : to_text(*comparison, z);
     std::fputs(out.c_str(), stdout);
-    return exit_ok;
+    if (why.empty()) return exit_ok;
+    log.error("the pictures differ: " + why);
+    return exit_failed;
 }
 
 } // namespace
@@ -196,6 +216,13 @@ void add_compare(CLI::App& program, Context& context) {
         ->add_option("--clip", options->compare.clip,
                      "Share of the brightest texels that is clipped in both alike (0.001 against fireflies)")
         ->check(CLI::Range(0.f, 1.f));
+    command->add_option("--max-flip", options->max_flip, "Fail (exit code 1) when FLIP is more than this, 0 to 1")
+        ->check(CLI::Range(0.0, 1.0));
+    command
+        ->add_option("--min-blocks", options->min_blocks,
+                     "Fail when a smaller share of the blocks, 0 to 1, passes the z-test; without it, a z-test of all "
+                     "blocks together that fails is exit code 1")
+        ->check(CLI::Range(0.0, 1.0));
     command->add_option("--exposure", options->compare.exposure, "Stops, before FLIP looks at the pictures");
     command->callback([options, b, halves, &context] {
         if (b->count() + halves->count() == 0) throw CLI::RequiredError("B or --reference-halves");

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage convert IN OUT: a scene from one format, or version, to another.
+// restage convert IN OUT: a scene, or a picture, from one format to another.
 #include "commands.hpp"
 #include "io/strict.hpp"
+#include "io/image_file.hpp"
 #include "rendering.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 
 namespace restage::app {
@@ -14,9 +18,30 @@ struct Options {
     std::string input, output, format;
     std::vector<std::string> assignments;
     bool strict = false;
+    float exposure = 0; // of a picture [stops]
 };
 
+bool is_picture(const std::string& path) {
+    static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr", ".tga", ".bmp"};
+    const std::string extension = std::filesystem::path(path).extension().string();
+    return std::find(std::begin(known), std::end(known), extension) != std::end(known);
+}
+
+Result<int> convert_picture(Context& context, const Options& o) {
+    RESTAGE_CHECK(check_picture_path(o.output));
+    if (!o.format.empty() || !o.assignments.empty()) return fail("--format and --set are for scenes, not for pictures");
+    std::string warning;
+    RESTAGE_TRY(scene::PixelData image, io::read_image(o.input, RESTAGE_SRGB, 2.2f, &warning));
+    if (!warning.empty()) context.log.warning(warning);
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is no light
+    RESTAGE_CHECK(io::write_image(o.output, image));
+    context.log.info(fmt::format("{}: written", o.output));
+    return int(exit_ok);
+}
+
 Result<int> run(Context& context, const Options& o) {
+    if (is_picture(o.input)) return convert_picture(context, o);
     RESTAGE_TRY(const auto exporter, io::find_exporter(o.output, o.format, context.registry()));
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
@@ -39,14 +64,15 @@ Result<int> run(Context& context, const Options& o) {
 
 void add_convert(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
-    auto* command = program.add_subcommand("convert", "Read a scene and write it in another format or version");
-    command->add_option("IN", o->input, "Scene file to read")->required();
-    command->add_option("OUT", o->output, "Scene file to write")->required();
+    auto* command = program.add_subcommand("convert", "Read a scene or a picture and write it in another format");
+    command->add_option("IN", o->input, "Scene or picture to read")->required();
+    command->add_option("OUT", o->output, "Scene or picture to write")->required();
     command->add_option("--format", o->format, "Format to write (default: by the extension)");
     command->add_option("--set", o->assignments,
                         "Option of the exporter, for example --set version=v3 (may be repeated)");
     command->add_flag("--strict", o->strict,
                       "Write nothing when something is approximated or dropped, in reading or in writing");
+    command->add_option("--exposure", o->exposure, "Of a picture: stops that are added")->check(CLI::Range(-64.f, 64.f));
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

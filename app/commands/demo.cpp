@@ -121,10 +121,8 @@ Result<int> run(Context& context, Options& o) {
     };
     // A missing denoiser takes the denoising away, not the demo.
     if (!o.denoise.empty()) {
-        const char* reason = "no denoiser plugin is loaded";
-        const auto& denoisers = context.registry().denoisers();
-        if (denoisers.empty() || !denoisers[0].table->available(&reason)) {
-            context.log.warning(std::string("pictures stay noisy: ") + reason);
+        if (const auto chosen = render::choose_denoiser(context.registry(), o.denoiser); !chosen) {
+            context.log.warning("pictures stay noisy: " + chosen.error().message);
             o.denoise.clear();
         }
     }

@@ -70,13 +70,15 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was given up");
     session::Picture picture{
         .film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
+    std::string denoiser = "none";
     if (denoise) {
         job.report(traced, "denoising");
+        RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, ""));
+        denoiser = render::denoiser_label(chosen, RESTAGE_DENOISE_HIGH);
         RESTAGE_TRY(picture.denoised,
-                    render::denoise(
-                        picture.film, registry.denoisers()[0], RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
-                            return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
-                        }));
+                    render::denoise(picture.film, chosen, RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
+                        return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
+                    }));
     }
     const auto& stats = renderer->stats();
     const session::PictureOptions how{
@@ -87,8 +89,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
                      {"restage:samples", std::to_string(renderer->samples())},
                      {"restage:seed", std::to_string(options.seed)},
                      {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
-                     {"restage:denoiser", denoise ? "oidn high" : "none"},
-                     {"restage:seconds", fmt::format("{:.3f}", stats.seconds)}}};
+                     {"restage:denoiser", denoiser}}};
     RESTAGE_CHECK(session::write_picture(wish.path.string(), picture, how));
     for (const auto& [type, count] : stats.not_finite)
         log.warning(

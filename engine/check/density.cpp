@@ -14,7 +14,11 @@ constexpr std::size_t most_evaluations = 3'000'000;
 // How large the error of an expected count may be, in its standard deviations: adds 1 % to chi-square at most.
 constexpr double integral_sigma = 0.1;
 
-bool is_spread(const BsdfDrawn& s) { return s.flags != 0 && (s.flags & delta) == 0; }
+bool is_direction(const Vec3& w) { // anything else has no place on the sphere
+    const double length = std::hypot(double(w[0]), double(w[1]), double(w[2]));
+    return length > 0.5 && length < 2;
+}
+bool is_spread(const BsdfDrawn& s) { return s.flags != 0 && (s.flags & delta) == 0 && is_direction(s.wi); }
 
 std::string say_cell(const SphereCells& cells, std::size_t i, double expected, double counted) {
     const Vec3 w = cells.cell(i).at(0.5, 0.5);
@@ -22,6 +26,22 @@ std::string say_cell(const SphereCells& cells, std::size_t i, double expected, d
 }
 
 } // namespace
+
+double DensityResult::integral_off(double sigmas) const {
+    // Delta and absorbed samples are what is missing to 1.
+    const double sigma = std::sqrt(std::max(spread * (1 - spread), 1 / draws) / draws);
+    return std::abs(pdf_integral - spread) / (sigmas * sigma + pdf_error + 1e-4);
+}
+
+double DensityResult::reach_off(double sigmas) const {
+    double most = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double carried = weight[k].mean(), meant = eval_integral[k];
+        const double allowed = sigmas * weight[k].sigma() + eval_error + 2e-3 * std::max(carried, meant) + 1e-4;
+        most = std::max(most, std::abs(carried - meant) / allowed);
+    }
+    return most;
+}
 
 Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCase& c, std::size_t draws) {
     DensityResult result;
@@ -42,10 +62,13 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const BsdfDrawn& s = samples[i];
         const bool spread = is_spread(s);
+        result.bad_samples +=
+            s.flags != 0 && (!is_direction(s.wi) || !std::isfinite(s.weight[0] + s.weight[1] + s.weight[2]));
         result.spread += spread / result.draws;
         if (spread) observed[found[i]] += 1;
         for (std::size_t k = 0; k < 3; ++k)
             result.weight[k].add(spread ? double(s.weight[k]) : 0);
+        if (spread) result.carried_side[s.wi[2] * c.wo[2] > 0 ? 0 : 1] += luminance(s.weight) / result.draws;
     }
 
     const auto evaluate = [&](std::span<const Vec3> wi) -> Result<std::vector<Integrand>> {
@@ -55,7 +78,9 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
             const BsdfLooked& l = looked[i];
             const bool sound = std::isfinite(l.pdf) && l.pdf >= 0;
             if (!sound) result.bad_pdf += 1;
-            values[i] = {sound ? double(l.pdf) : 0, l.eval[0], l.eval[1], l.eval[2]};
+            const bool there = std::isfinite(luminance(l.eval));
+            values[i] = {sound ? double(l.pdf) : 0, there ? double(l.eval[0]) : 0, there ? double(l.eval[1]) : 0,
+                         there ? double(l.eval[2]) : 0};
         }
         return values;
     };
@@ -64,7 +89,17 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
         const double n = value * result.draws;
         return std::abs(observed[cell] - n) > 2.5 * std::sqrt(n + 1);
     };
-    RESTAGE_TRY(const Quadrature q, integrate(cells, jobs, {evaluate, tolerance, most_evaluations, doubtful}));
+    // Of eval, to a hundredth of a per cent of all light in each of the cells that have a hundredth of it.
+    double carried = 0;
+    for (const Mean& m : result.weight)
+        carried = std::max(carried, m.mean());
+    const double eval_tolerance = 1e-6 * std::max(carried, 0.05);
+    RESTAGE_TRY(const Quadrature q, integrate(cells, jobs,
+                                              {.evaluate = evaluate,
+                                               .tolerance = tolerance,
+                                               .most = most_evaluations,
+                                               .doubtful = doubtful,
+                                               .others_tolerance = eval_tolerance}));
     result.evaluations = q.evaluations;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const CellIntegral& cell = q.cells[i];
@@ -72,6 +107,9 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
         result.pdf_integral += cell.value[0], result.pdf_error += cell.error;
         for (std::size_t k = 0; k < 3; ++k)
             result.eval_integral[k] += cell.value[k + 1];
+        result.eval_error += cell.others_error;
+        result.eval_side[cells.cell(i).upper == (c.wo[2] > 0) ? 0 : 1] +=
+            0.2126 * cell.value[1] + 0.7152 * cell.value[2] + 0.0722 * cell.value[3];
         // What quadrature cannot settle (a discontinuity finer than float directions) says nothing about the samples.
         if (cell.error * result.draws > 0.5 * std::sqrt(expected[i] + 1)) {
             result.unresolved += cell.value[0];

@@ -26,10 +26,16 @@ struct DensityResult {
     double pdf_integral = 0, pdf_error = 0;
     double unresolved = 0;   // share of pdf in cells whose integral stayed uncertain
     Mean weight[3];          // of the spread samples, over all draws
-    double eval_integral[3] = {};
+    double eval_integral[3] = {}, eval_error = 0; // bound on each channel's
     bool again = false;      // it is the second, longer measurement of a suspicious case
     double bad_pdf = 0;      // directions whose pdf is not finite or negative (then nothing else is said)
+    double bad_samples = 0;  // samples whose direction is none, or whose weight is not finite
     std::size_t evaluations = 0;
+    double eval_side[2] = {}, carried_side[2] = {}; // luminance: reflected, transmitted; by eval and by samples
+
+    // How far integrals are from what samples say, over what `sigmas` standard errors and the integral's own error allow.
+    double integral_off(double sigmas) const; // of pdf: what is neither delta nor absorbed
+    double reach_off(double sigmas) const;    // of eval: what samples carry; of the worst channel
 };
 
 Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCase& c, std::size_t draws);

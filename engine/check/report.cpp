@@ -92,6 +92,7 @@ ordered_json to_json(const PluginReport& r) {
             {"seed", r.seed},
             {"mode", r.quick ? "quick" : "full"},
             {"seconds", r.seconds},
+            {"unable", r.unable},
             {"steps", steps},
             {"pictures", pictures}};
 }
@@ -123,7 +124,7 @@ std::string verdict_line(const PluginReport& r) {
     int counts[3] = {};
     for (const StepResult& s : r.steps)
         ++counts[static_cast<int>(s.verdict)];
-    std::string text = r.passed() ? "passed: " : "FAILED: ";
+    std::string text = r.passed() ? "passed: " : counts[1] || r.unable.empty() ? "FAILED: " : "NOT CHECKED: ";
     text += fmt::format("{} passed", counts[0]);
     if (counts[1]) text += fmt::format(", {} failed", counts[1]);
     if (counts[2]) text += fmt::format(", {} skipped", counts[2]);
@@ -172,6 +173,8 @@ std::string markdown(std::span<const PluginReport> reports) {
     for (std::size_t i = 0; i <= steps.size(); ++i)
         out += "---|";
     out += "\n";
+    const std::vector<Step>* const other_steps[] = {&plugin_steps(), &importer_steps(), &exporter_steps(),
+                                                    &denoiser_steps()};
     std::string others, details;
     for (const PluginReport& r : reports) {
         std::vector<std::string> tables;
@@ -181,8 +184,9 @@ std::string markdown(std::span<const PluginReport> reports) {
         for (const std::string& of : tables) {
             if (r.kind != "material") {
                 others += fmt::format("| {} | {} |", of, r.kind);
-                for (const char* step : {"manifest", "load", "reload", "probe", "denoise"})
-                    others += fmt::format(" {} |", cell(r, step, of));
+                for (const auto* list : other_steps)
+                    for (const Step& step : *list)
+                        others += fmt::format(" {} |", cell(r, step.name, of));
                 others += "\n";
                 continue;
             }
@@ -200,13 +204,15 @@ std::string markdown(std::span<const PluginReport> reports) {
                                    s.text.empty() ? "" : "; " + indented(s.text, "  "));
         }
     }
-    if (!others.empty())
-        out +=
-            "\n## Other plugins\n\n| plugin | kind | manifest | load | reload | probe | denoise "
-            "|\n|---|---|---|---|---|---|---|\n" +
-            others;
+    if (!others.empty()) {
+        std::string names, line;
+        for (const auto* list : other_steps)
+            for (const Step& step : *list)
+                names += fmt::format(" {} |", step.name), line += "---|";
+        out += "\n## Other plugins\n\n| plugin | kind |" + names + "\n|---|---|" + line + "\n" + others;
+    }
     out += "\n## Steps\n\n";
-    for (const auto* list : {&plugin_steps(), &material_steps(), &importer_steps(), &denoiser_steps()})
+    for (const auto* list : {&plugin_steps(), &material_steps(), &importer_steps(), &exporter_steps(), &denoiser_steps()})
         for (const Step& s : *list)
             out += fmt::format("- **{}**: {}\n", s.name, s.tests);
     return out + "\n## Figures\n" + details;

@@ -163,14 +163,22 @@ Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const Quadrat
             const Integrand* f = &values[i * points];
             const double area = part.rect.solid_angle();
             // Two poorer rules on the same points; the true error is far below their distance where f is smooth.
-            const double center = f[4][0] * area, corners = 0.25 * (f[0][0] + f[2][0] + f[6][0] + f[8][0]) * area;
-            const double error = 0.25 * std::max(std::abs(sums[i][0] - center), std::abs(sums[i][0] - corners));
-            const bool fine = error <= options.tolerance(estimate[part.cell]) * part.share;
+            const auto error_of = [&](std::size_t c) {
+                const double center = f[4][c] * area, corners = 0.25 * (f[0][c] + f[2][c] + f[6][c] + f[8][c]) * area;
+                return 0.25 * std::max(std::abs(sums[i][c] - center), std::abs(sums[i][c] - corners));
+            };
+            const double error = error_of(0);
+            double others = 0;
+            for (std::size_t c = 1; c < integrands; ++c)
+                others = std::max(others, error_of(c));
+            const bool fine = error <= options.tolerance(estimate[part.cell]) * part.share &&
+                              (options.others_tolerance == 0 || others <= options.others_tolerance * part.share);
             if (fine || is_small(part.rect) || result.evaluations + next.size() * points > options.most) {
                 for (std::size_t c = 0; c < integrands; ++c)
                     result.cells[part.cell].value[c] += sums[i][c];
                 // Where f is not smooth, and nobody may look closer, the rules differ by as much as they are wrong.
                 result.cells[part.cell].error += fine ? error : 4 * error;
+                result.cells[part.cell].others_error += fine ? others : 4 * others;
                 result.certain = result.certain && fine;
                 continue;
             }

@@ -49,6 +49,7 @@ using Integrand = std::array<double, integrands>;
 struct CellIntegral {
     Integrand value{};
     double error = 0; // bound on that of value[0]
+    double others_error = 0; // on that of each other value
 };
 
 struct Quadrature {
@@ -65,8 +66,10 @@ struct QuadratureOptions {
     // Cells that samples visit more or less often than their integral says are integrated again in 64 parts: where a
     // density ends inside a cell, nine points may miss it. Exacter integrals favour no outcome.
     std::function<bool(std::size_t cell, double value)> doubtful;
+    // How large the error of the other values may be in a cell; cells are split for them too. 0: no matter.
+    double others_tolerance = 0;
 };
-// Value 0 decides where to split.
+// Value 0 decides where to split, and the others where they have a tolerance.
 Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const QuadratureOptions& options);
 
 } // namespace restage::check

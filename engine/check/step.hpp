@@ -45,7 +45,8 @@ struct PluginReport {
     std::vector<StepResult> steps;
     std::vector<std::filesystem::path> pictures; // pages that were written
     double seconds = 0;
-    bool passed() const; // at least one step, none failed
+    std::string unable; // why steps could not be done here (no Vulkan device): no fault of the plugin's, and no pass
+    bool passed() const; // at least one step, none failed, and all could be done
 };
 
 } // namespace restage::check

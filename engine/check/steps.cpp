@@ -4,13 +4,16 @@
 
 namespace restage::check {
 
+static constexpr const char* load_calls = "init(), query() or shutdown()";
+
 const std::vector<Step>& plugin_steps() {
     static const std::vector<Step> steps = {
-        {"manifest", "plugin.json is complete and its files are there", check_manifest, ""},
+        {"manifest", "plugin.json is complete and its files are there", check_manifest, "", load_calls},
         {"load", "the library opens, answers as its manifest says, and its tables are sound", check_load,
-         "the plugin was built against another SDK, or a table does not match its headers"},
+         "the plugin was built against another SDK, or a table does not match its headers", load_calls},
         {"reload", "a hundred times loaded and unloaded, nothing is left behind", check_reload,
-         "memory of init() that shutdown() does not free, or a thread or static object that pins the library"},
+         "memory of init() that shutdown() does not free, or a thread or static object that pins the library",
+         load_calls},
     };
     return steps;
 }
@@ -31,6 +34,8 @@ const std::vector<Step>& material_steps() {
          "a factor that pdf lacks (the Jacobian of the half vector, the probability of the lobe, the back side)"},
         {"integral", "pdf integrates to 1, less what is delta or absorbed", check_integral,
          "a constant factor in pdf, or pdf is positive where sample never goes"},
+        {"reach", "samples carry as much light as eval has over the whole sphere", check_reach,
+         "eval is positive where sample never goes (a side, a lobe), or a lobe's weight lacks a factor"},
         {"weight", "weight = eval / pdf, and the pdf of a sample is pdf", check_weight,
          "sample has formulas of its own that differ from eval's or pdf's"},
         {"expectation", "of a stochastic material: samples carry what eval means, pdf is a density, MIS is unbiased",
@@ -43,22 +48,56 @@ const std::vector<Step>& material_steps() {
         {"albedo", "albedo() is near what is really reflected", check_albedo, "a Fresnel term or a tint is missing"},
         {"reciprocity", "f(wo, wi) = f(wi, wo), with eta^2 where light is refracted", check_reciprocity,
          "a term that only looks at wo (Fresnel weights, tints); if the model is so, declare NONRECIPROCAL"},
+        {"isotropy", "without TANGENT, nothing changes when both directions turn about the normal", check_isotropy,
+         "eval looks at x and y apart: declare TANGENT"},
         {"limit", "a vanishing roughness looks like none", check_limit,
          "the smooth and the rough branch differ in a factor (Fresnel, eta^2, the choice of the lobe)"},
+        {"inspector", "its part of the inspector draws, whatever the user does", check_inspector,
+         "an id that the table no longer has, an array that is shorter than its count, or a value out of range", "draw()"},
+        {"tables", "any file for its table parameters is read, or refused with a sentence", check_tables,
+         "counts and offsets of a file that are believed", "read()"},
     };
     return steps;
 }
 
 const std::vector<Step>& denoiser_steps() {
     static const std::vector<Step> steps = {
-        {"denoise", "a constant picture stays what it is", check_denoiser, "a scale that is not undone"}};
+        {"denoise", "a constant picture stays what it is", check_denoise, "a scale that is not undone", "run()"},
+        {"sizes", "one pixel, odd sizes, each guide alone, in place", check_denoise_sizes,
+         "tiles or vectors that do not fit the size, or guides that are taken for granted (they may be NULL)", "run()"},
+        {"robust", "NaN and infinity, the same twice, a stop at each call of progress", check_denoise_robust,
+         "values that are not looked at before they are used, threads that write to one place, or an answer of "
+         "progress() that is ignored",
+         "run()"},
+    };
     return steps;
 }
 
 const std::vector<Step>& importer_steps() {
     static const std::vector<Step> steps = {
-        {"probe", "noise is answered, not crashed on", check_importer, "reading past the end of the head"}};
+        {"probe", "noise is answered, not crashed on", check_probe, "reading past the end of the head", "probe()"},
+        {"read", "its files twice the same; cut, changed and as noise an answer", check_read,
+         "counts, offsets and indices of a file that are believed", "load()"},
+        {"stop", "it ends when progress says so", check_read_stop, "an answer of progress() that is ignored", "load()"},
+    };
     return steps;
+}
+
+const std::vector<Step>& exporter_steps() {
+    static const std::vector<Step> steps = {
+        {"write", "something of everything, each option, twice the same bytes, a stop, a place that cannot be written",
+         check_write, "getters that return 0 (removed things, no environment) and optional pointers that are used "
+                      "unseen; or hash tables whose order gets into the file",
+         "save()"},
+    };
+    return steps;
+}
+
+const Step* find_step(const std::string& name) {
+    for (const auto* list : {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(), &exporter_steps()})
+        for (const Step& step : *list)
+            if (name == step.name) return &step;
+    return nullptr;
 }
 
 } // namespace restage::check

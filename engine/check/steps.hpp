@@ -10,8 +10,19 @@ namespace restage::check {
 Result<StepResult> check_manifest(Subject&);
 Result<StepResult> check_load(Subject&);
 Result<StepResult> check_reload(Subject&);
-Result<StepResult> check_denoiser(Subject&);
-Result<StepResult> check_importer(Subject&);
+// steps_importer.cpp
+Result<StepResult> check_probe(Subject&);
+Result<StepResult> check_read(Subject&);
+Result<StepResult> check_read_stop(Subject&);
+// steps_exporter.cpp
+Result<StepResult> check_write(Subject&);
+// steps_denoiser.cpp
+Result<StepResult> check_denoise(Subject&);
+Result<StepResult> check_denoise_sizes(Subject&);
+Result<StepResult> check_denoise_robust(Subject&);
+// steps_inspector.cpp
+Result<StepResult> check_inspector(Subject&);
+Result<StepResult> check_tables(Subject&);
 // steps_glsl.cpp
 Result<StepResult> check_glsl(Subject&);
 Result<StepResult> check_names(Subject&);
@@ -23,6 +34,7 @@ Result<StepResult> check_sound(Subject&);
 // steps_density.cpp
 Result<StepResult> check_chi_square(Subject&);
 Result<StepResult> check_integral(Subject&);
+Result<StepResult> check_reach(Subject&);
 Result<StepResult> check_weight(Subject&);
 // steps_expectation.cpp
 Result<StepResult> check_expectation(Subject&);
@@ -33,6 +45,7 @@ Result<StepResult> check_furnace(Subject&);
 Result<StepResult> check_albedo(Subject&);
 // steps_symmetry.cpp
 Result<StepResult> check_reciprocity(Subject&);
+Result<StepResult> check_isotropy(Subject&);
 Result<StepResult> check_limit(Subject&);
 
 } // namespace restage::check

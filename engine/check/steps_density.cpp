@@ -29,6 +29,11 @@ Result<StepResult> check_chi_square(Subject& s) {
     double least = 2, draws = 0, unresolved = 0, terms = 0, evaluations = 0;
     for (std::size_t i = 0; i < all->size(); ++i) {
         const DensityResult& r = (*all)[i];
+        if (r.bad_samples > 0)
+            return StepResult::failed(fmt::format(
+                "{} of {} samples have a direction that is none (not finite, or no unit vector), or a weight that is "
+                "not finite\n  {}",
+                r.bad_samples, r.draws, name_case(s.density_cases()[i])));
         if (r.bad_pdf > 0)
             return StepResult::failed(fmt::format("pdf is not finite, or negative, in {} directions\n  {}", r.bad_pdf,
                                                   name_case(s.density_cases()[i])));
@@ -66,13 +71,11 @@ Result<StepResult> check_integral(Subject& s) {
     std::string text;
     for (std::size_t i = 0; i < all->size(); ++i) {
         const DensityResult& r = (*all)[i];
-        // Delta and absorbed samples are what is missing to 1.
-        const double sigma = std::sqrt(std::max(r.spread * (1 - r.spread), 1 / r.draws) / r.draws);
-        const double allowed = sigmas * sigma + r.pdf_error + 1e-4;
-        const double off = std::abs(r.pdf_integral - r.spread);
-        largest = std::max(largest, off), least_spread = std::min(least_spread, r.spread);
-        if (off <= allowed || off / allowed <= worst) continue;
-        worst = off / allowed;
+        const double off = r.integral_off(sigmas);
+        largest = std::max(largest, std::abs(r.pdf_integral - r.spread));
+        least_spread = std::min(least_spread, r.spread);
+        if (off <= 1 || off <= worst) continue;
+        worst = off;
         text = fmt::format(
             "pdf integrates to {:.5f} (+- {:.1g}), but {:.5f} of the samples are neither delta nor "
             "absorbed\n  {}",
@@ -82,6 +85,33 @@ Result<StepResult> check_integral(Subject& s) {
                                    {"largest difference", largest},
                                    {"most delta or absorbed", 1 - least_spread}};
     return worst > 0 ? StepResult::failed(text, figures) : StepResult::passed(figures);
+}
+
+Result<StepResult> check_reach(Subject& s) {
+    if (const std::string why = not_for(s); !why.empty()) return StepResult::skip(why);
+    RESTAGE_TRY(const std::vector<DensityResult>* const all, s.densities());
+    const double sigmas = two_sided_sigma(sidak(family_alpha, 3 * all->size()));
+    double worst = 1, largest = 0, uncertain = 0;
+    std::string text;
+    for (std::size_t i = 0; i < all->size(); ++i) {
+        const DensityResult& r = (*all)[i];
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max(largest, std::abs(r.weight[k].mean() - r.eval_integral[k]));
+        uncertain = std::max(uncertain, r.eval_error);
+        const double off = r.reach_off(sigmas);
+        if (off <= worst) continue;
+        worst = off;
+        const auto both = [](const double* side) { return side[0] + side[1]; };
+        text = fmt::format("samples carry {:.4f} of the light (reflected {:.4f}, transmitted {:.4f}), eval over the "
+                           "whole sphere {:.4f} (reflected {:.4f}, transmitted {:.4f}; +- {:.1g}): BSDF and light "
+                           "sampling give different pictures\n  {}",
+                           both(r.carried_side), r.carried_side[0], r.carried_side[1], both(r.eval_side),
+                           r.eval_side[0], r.eval_side[1], r.eval_error, name_case(s.density_cases()[i]));
+    }
+    std::vector<Figure> figures = {{"configurations", double(all->size())},
+                                   {"largest difference", largest},
+                                   {"largest error of the integral of eval", uncertain}};
+    return text.empty() ? StepResult::passed(figures) : StepResult::failed(text, figures);
 }
 
 Result<StepResult> check_weight(Subject& s) {

@@ -2,6 +2,7 @@
 // Values keep what they are on their way: from a ParamSet through the packed words into the struct that the GLSL sees,
 // and through a project file and a pbrt file and back.
 #include "check/steps.hpp"
+#include "check/workplace.hpp"
 
 #include "base/file.hpp"
 #include "io/export.hpp"
@@ -15,7 +16,6 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <random>
 
 namespace restage::check {
 
@@ -153,16 +153,6 @@ scene::Scene scene_of(const RestageMaterial1& table, const std::vector<ParamSet>
     }
     return scene;
 }
-
-struct TemporaryFolder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / fmt::format("restage-check-{}", std::random_device{}());
-    std::error_code ignored;
-    TemporaryFolder() { std::filesystem::create_directories(path, ignored); }
-    ~TemporaryFolder() { std::filesystem::remove_all(path, ignored); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
 
 Result<StepResult> through_project(Subject& s, const scene::Scene& scene) {
     const session::Base base;

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps that every plugin takes, whatever it provides: manifest, loading with its tables, reloading; and those of
-// denoisers and importers.
+// Steps that every plugin takes, whatever it provides: manifest, loading with its tables, reloading.
 #include "check/steps.hpp"
 
-#include "base/file.hpp"
 #include "plugin/manifest.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <cstring>
+#include <chrono>
 #include <fstream>
-#include <random>
 
 namespace restage::check {
 
@@ -100,83 +95,6 @@ Result<StepResult> check_reload(Subject& s) {
         return StepResult::failed(
             fmt::format("{} files were left open in {} loads", grown(before.files, after.files), times), figures);
     return StepResult::passed(figures);
-}
-
-Result<StepResult> check_denoiser(Subject& s) {
-    const RestageDenoiser1& d = *s.registry().denoisers()[0].table;
-    const char* reason = "";
-    if (!d.available(&reason)) return StepResult::skip(std::string("not available here: ") + (reason ? reason : ""));
-    constexpr std::uint32_t width = 96, height = 64;
-    double worst_mean = 0, worst_rms = 0, worst_pixel = 0;
-    std::string worst_at;
-    for (const float level : {0.f, 0.01f, 0.5f, 1.f, 20.f}) {
-        const std::vector<float> color(width * height * 3, level), albedo(width * height * 3, 0.5f);
-        std::vector<float> normal(width * height * 3, 0.f), out(width * height * 3, -1.f);
-        for (std::size_t i = 2; i < normal.size(); i += 3)
-            normal[i] = 1;
-        for (const bool guides : {true, false}) {
-            RestageDenoiseJob job{};
-            job.size = sizeof job, job.width = width, job.height = height;
-            job.color = color.data(), job.output = out.data();
-            if (guides) job.albedo = albedo.data(), job.normal = normal.data();
-            job.quality = RESTAGE_DENOISE_FAST;
-            const std::string what =
-                fmt::format("a constant picture of {} {} guides", level, guides ? "with" : "without");
-            if (!d.run(&job, &reason)) return StepResult::failed(what + ": " + (reason ? reason : "no reason given"));
-            double sum = 0, squares = 0;
-            for (const float x : out) {
-                if (!std::isfinite(x) || x < 0) return StepResult::failed(fmt::format("{} has a pixel of {}", what, x));
-                const double off = (double(x) - level) / std::max(double(level), 0.01);
-                sum += off, squares += off * off;
-                worst_pixel = std::max(worst_pixel, std::abs(off));
-            }
-            const double n = static_cast<double>(out.size()), mean = std::abs(sum / n), rms = std::sqrt(squares / n);
-            worst_rms = std::max(worst_rms, rms);
-            if (mean > worst_mean) worst_mean = mean, worst_at = what;
-            s.alive();
-        }
-    }
-    std::vector<Figure> figures = {{"largest change of the mean", 100 * worst_mean, "%"},
-                                   {"largest RMS change", 100 * worst_rms, "%"},
-                                   {"worst pixel", 100 * worst_pixel, "%"}};
-    if (worst_mean > 0.01 || worst_rms > 0.05)
-        return StepResult::failed(fmt::format("{} changes by {:.2g} % in the mean, {:.2g} % RMS at the worst", worst_at,
-                                              100 * worst_mean, 100 * worst_rms),
-                                  figures);
-    return StepResult::passed(figures);
-}
-
-// Files that are not its own: probing and loading them ends with an answer, not with a crash.
-Result<StepResult> check_importer(Subject& s) {
-    const RestageImporter1& importer = *s.registry().importers()[0].table;
-    std::error_code code;
-    const fs::path folder = fs::temp_directory_path() / fmt::format("restage-check-{}", std::random_device{}());
-    fs::create_directories(folder, code);
-    const struct Remove {
-        const fs::path& folder;
-        ~Remove() {
-            std::error_code ignored;
-            fs::remove_all(folder, ignored);
-        }
-    } remove{folder};
-    std::string extension = importer.extensions ? importer.extensions : "";
-    extension = extension.substr(0, extension.find_first_of("|,; "));
-    Engine e = s.random("importer");
-    std::size_t probed = 0;
-    for (int i = 0; i < 200; ++i) {
-        std::string bytes(i == 0 ? 0 : e() % 4096, '\0');
-        for (char& c : bytes)
-            c = static_cast<char>(i % 2 ? ' ' + e() % 95 : e() % 256);
-        const fs::path file = folder / ("noise." + extension);
-        RESTAGE_CHECK(write_file_atomic(file, bytes));
-        const int answer = importer.probe(file.string().c_str(), bytes.data(), bytes.size());
-        if (answer < 0 || answer > 100)
-            return StepResult::failed(
-                fmt::format("probe() of {} bytes of noise answers {}, which is not in 0..100", bytes.size(), answer));
-        probed += answer > 0;
-        s.alive();
-    }
-    return StepResult::passed({{"files of noise", 200}, {"taken for its own", static_cast<double>(probed)}});
 }
 
 } // namespace restage::check

@@ -72,6 +72,124 @@ Result<StepResult> check_reciprocity(Subject& s) {
 
 namespace {
 
+Vec3 turned(const Vec3& w, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {static_cast<float>(c * w[0] - s * w[1]), static_cast<float>(s * w[0] + c * w[1]), w[2]};
+}
+
+// Of a stochastic material: means of many estimates, at fewer places. Two looks, for estimates have long tails.
+Result<StepResult> check_mean_isotropy(Subject& s) {
+    RESTAGE_TRY(BsdfLab* const lab, s.lab());
+    Engine e = s.random("isotropy");
+    constexpr std::size_t streams = 32;
+    const std::size_t sets = s.size(200, 60);
+    const double limit = two_sided_sigma(sidak(0.01, sets)) + 2;
+    double worst = 0;
+    std::vector<scene::ParamSet> configs;
+    std::vector<BsdfJob> jobs;
+    for (std::uint32_t i = 0; i < sets; ++i) {
+        configs.push_back(wide_config(s.table(), e));
+        const Vec3 wo = random_direction(e), wi = random_direction(e);
+        const double angle = uniform(e, 0.3f, 2.8f);
+        for (std::size_t k = 0; k < streams; ++k) {
+            jobs.push_back({.wo = wo, .wi = wi, .config = i, .seed = e()});
+            jobs.push_back({.wo = turned(wo, angle), .wi = turned(wi, angle), .config = i, .seed = e()});
+        }
+    }
+    for (const std::uint32_t repeats : {s.size(64, 16), s.size(1024, 256)}) {
+        RESTAGE_TRY(const std::vector<BsdfAnswer> answers,
+                    lab->run(configs, jobs, static_cast<std::uint32_t>(repeats)));
+        worst = 0;
+        std::string text;
+        for (std::size_t i = 0; i < sets; ++i) {
+            Mean here, there;
+            for (std::size_t k = 0; k < 2 * streams; ++k)
+                (k % 2 ? there : here).add(luminance(answers[i * 2 * streams + k].eval));
+            const double z = std::abs(here.mean() - there.mean()) /
+                             std::sqrt(here.variance() + there.variance() + 1e-12 + std::pow(1e-3 * here.mean(), 2));
+            if (z <= worst) continue;
+            worst = z;
+            const BsdfJob &a = jobs[i * 2 * streams], &b = jobs[i * 2 * streams + 1];
+            text = fmt::format("eval is {:.5g} +- {:.2g}, and {:.5g} +- {:.2g} when both directions are turned about the "
+                               "normal, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
+                               here.mean(), here.sigma(), there.mean(), there.sigma(), where(configs[i], a.wo),
+                               describe(a.wi), describe(b.wo), describe(b.wi));
+        }
+        if (worst <= limit) break;
+        if (repeats == s.size(1024, 256)) return StepResult::failed(text, {{"worst", worst, "sigma"}});
+        for (BsdfJob& job : jobs)
+            job.seed = e();
+    }
+    return StepResult::passed({{"pairs", double(sets)}, {"worst", worst, "sigma"}});
+}
+
+} // namespace
+
+// Without TANGENT the frame's x axis is anywhere: what depends on it changes from triangle to triangle.
+Result<StepResult> check_isotropy(Subject& s) {
+    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
+    if (s.is(RESTAGE_MATERIAL_TANGENT)) return StepResult::skip("TANGENT is declared");
+    if (s.is(RESTAGE_MATERIAL_STOCHASTIC)) return check_mean_isotropy(s);
+    RESTAGE_TRY(BsdfLab* const lab, s.lab());
+    Engine e = s.random("isotropy");
+    const std::size_t sets = s.size(500, 100);
+    std::vector<ParamSet> configs;
+    for (std::size_t i = 0; i < sets; ++i)
+        configs.push_back(i == 0 ? ParamSet{} : i % 2 ? wide_config(s.table(), e) : random_config(s.table(), e));
+    std::vector<BsdfJob> jobs(s.size(100'000, 20'000));
+    for (BsdfJob& job : jobs)
+        job = {.wo = random_direction(e),
+               .wi = random_direction(e),
+               .u = unit3(e),
+               .config = static_cast<std::uint32_t>(e() % sets)};
+    RESTAGE_TRY(const std::vector<BsdfAnswer> sampled, lab->run(configs, jobs));
+    std::vector<BsdfJob> turned_jobs = jobs;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const BsdfAnswer& a = sampled[i];
+        // Half of them where lobes are.
+        if (i % 2 && a.flags != 0 && !(a.flags & delta) && std::isfinite(a.wi[0] + a.wi[1] + a.wi[2])) jobs[i].wi = a.wi;
+        const double angle = uniform(e, 0.3f, 6.f);
+        turned_jobs[i].wo = turned(jobs[i].wo, angle), turned_jobs[i].wi = turned(jobs[i].wi, angle);
+    }
+    RESTAGE_TRY(const std::vector<BsdfAnswer> here, lab->run(configs, jobs));
+    RESTAGE_TRY(const std::vector<BsdfAnswer> there, lab->run(configs, turned_jobs));
+    // Turning rounds: what eval and pdf change with the last digits of wi is no difference.
+    std::vector<std::size_t> suspects;
+    std::vector<double> off;
+    constexpr double tolerance = 1e-3;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const double a = luminance(here[i].eval), b = luminance(there[i].eval);
+        const double p = here[i].pdf, q = there[i].pdf;
+        const double worst = std::max(std::abs(a - b) - tolerance * std::max({a, b, 1e-5}),
+                                      std::abs(p - q) - tolerance * std::max({p, q, 1e-5}));
+        if (worst > 0) suspects.push_back(i), off.push_back(worst);
+    }
+    std::vector<BsdfAnswer> at = here; // neighbourhoods() looks around the sampled directions
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        at[i].wi = jobs[i].wi, at[i].eval_sampled = here[i].eval, at[i].pdf_sampled = here[i].pdf;
+        at[i].eval_reverse = here[i].eval;
+    }
+    RESTAGE_TRY(const std::vector<Neighbourhood> around, neighbourhoods(s, configs, jobs, at, suspects));
+    std::size_t bad = 0;
+    std::string text;
+    for (std::size_t k = 0; k < suspects.size(); ++k) {
+        const std::size_t i = suspects[k];
+        if (off[k] <= 2 * std::max(around[k].value, around[k].pdf)) continue;
+        if (bad++ > 0) continue;
+        text = fmt::format("eval is {:.6g} and pdf {:.6g}; when both directions are turned about the normal, {:.6g} and "
+                           "{:.6g}, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
+                           luminance(here[i].eval), here[i].pdf, luminance(there[i].eval), there[i].pdf,
+                           where(configs[jobs[i].config], jobs[i].wo), describe(jobs[i].wi),
+                           describe(turned_jobs[i].wo), describe(turned_jobs[i].wi));
+    }
+    std::vector<Figure> figures = {{"pairs", double(jobs.size())},
+                                   {"beyond 1e-3 by rounding of directions alone", double(suspects.size() - bad)}};
+    if (bad > 0) return StepResult::failed(fmt::format("{} ({} of {} pairs)", text, bad, jobs.size()), figures);
+    return StepResult::passed(figures);
+}
+
+namespace {
+
 ParamSet with_roughness(const RestageMaterial1& table, float r) { return rough_config(table, r, r); }
 
 Result<double> delta_share(BsdfLab& lab, const ParamSet& set, const Vec3& wo) {

@@ -19,6 +19,7 @@ struct CheckOptions {
     bool quick = false;
     std::string only;               // a step's name; empty: all
     std::filesystem::path pictures; // folder for the pages; empty: none
+    std::size_t skip = 0; // steps that were done before, in a process that crashed
 };
 
 // plugin.json's "exceptions": [{"step": "energy", "limit": 1.015, "why": "..."}]: what a published model is known to
@@ -35,18 +36,27 @@ class Subject {
     const std::filesystem::path folder;
     const CheckOptions options;
     const std::function<void()> alive; // a sign of life for who supervises us
+    std::function<void(const std::string&)> say_doing; // what a crash from now on happens in; may be empty
+    void doing(const std::string& what) const {
+        if (say_doing) say_doing(what);
+    }
     std::vector<std::string> log_lines; // warnings and errors of the last load
 
     Result<> load(); // scans the folder, alone
     plugin::Registry& registry() { return *registry_; }
     const plugin::Entry* entry() const { return entry_; } // null before load
 
+    // What the following steps are about, if it is no material.
+    const RestageImporter1* importer = nullptr;
+    const RestageExporter1* exporter = nullptr;
+    const RestageDenoiser1* denoiser = nullptr;
     // The material that the following steps are about.
     void choose(const plugin::MaterialEntry& material);
     const RestageMaterial1& table() const { return *table_; }
     render::MaterialPlugin material() const { return {table_, folder, source_}; }
     bool is(std::uint32_t flag) const { return (table_->flags & flag) != 0; }
     Result<gpu::Device*> device();
+    const std::string& no_device() const { return no_device_; } // why this machine cannot run GLSL; "" = it can
     Result<gpu::ShaderCompiler*> compiler();
     Result<BsdfLab*> lab(); // compiled at first use
     // Of the material's density tests; measured at first use.
@@ -65,6 +75,7 @@ class Subject {
     std::shared_ptr<const plugin::MaterialSource> source_; // keeps it alive
     std::map<std::string, Exception> exceptions_;
     std::unique_ptr<gpu::Device> device_;
+    std::string no_device_;
     std::unique_ptr<gpu::ShaderCompiler> compiler_;
     std::unique_ptr<BsdfLab> lab_;
     std::vector<DensityCase> density_cases_;
@@ -80,11 +91,14 @@ struct Step {
     const char* tests; // one line for --help and the documents
     Result<StepResult> (*run)(Subject&);
     const char* cause; // what usually makes it fail
+    const char* calls = ""; // native functions of the plugin that it calls; "" = its GLSL
 };
 const std::vector<Step>& plugin_steps();   // of every plugin, once
 const std::vector<Step>& material_steps(); // of every material of the plugin
 const std::vector<Step>& denoiser_steps();
 const std::vector<Step>& importer_steps();
+const std::vector<Step>& exporter_steps();
+const Step* find_step(const std::string& name); // null: there is none
 
 // All steps in order. `begun` is called before each, `done` after it; `measured` after those of a material whose GLSL
 // compiles, while it is still chosen.

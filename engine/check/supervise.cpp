@@ -33,22 +33,23 @@ StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, c
                        const Supervision& s) {
     StepResult result;
     result.step = step.empty() ? "load" : step, result.of = of, result.verdict = Verdict::fail;
-    const bool native = of.empty();
+    const Step* known = find_step(result.step);
+    const std::string calls = known ? known->calls : ""; // "": GLSL
     const double limit = std::chrono::duration<double>(s.answer_limit).count();
     switch (outcome.end) {
         case ProcessEnd::silence_limit:
         case ProcessEnd::time_limit:
             result.text =
-                native ? fmt::format("no answer from the plugin within {:g} s", limit)
-                       : fmt::format("no answer from the GPU within {:g} s: an endless loop in its GLSL?", limit);
-            result.cause = native ? "init(), query() or shutdown() does not return"
-                                  : "a loop whose end depends on a number that can be NaN, or never gets there";
+                !calls.empty() ? fmt::format("no answer from the plugin within {:g} s", limit)
+                               : fmt::format("no answer from the GPU within {:g} s: an endless loop in its GLSL?", limit);
+            result.cause = !calls.empty() ? calls + " does not return"
+                                          : "a loop whose end depends on a number that can be NaN, or never gets there";
             break;
         case ProcessEnd::signalled:
             result.text = fmt::format("the plugin crashed: {}", outcome.what);
-            result.cause = native ? "a bug in init(), query() or shutdown(), or a table that lies about its size, its "
-                                    "count or its pointers"
-                                  : "GLSL that the driver cannot compile, or memory of the plugin's that is gone";
+            result.cause = calls.empty() ? "GLSL that the driver cannot compile, or memory of the plugin's that is gone"
+                                         : "a bug in " + calls + ", or a table that lies about its size, its count or its "
+                                                                 "pointers";
             break;
         case ProcessEnd::cancelled:
             result.text = "cancelled";
@@ -58,6 +59,15 @@ StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, c
             result.cause = "a plugin never calls exit(); it returns 0 or writes to restage.log/1";
     }
     return result;
+}
+
+// Is there sense in the steps after this one, in a new process?
+bool goes_on(const ProcessOutcome& outcome, const std::string& step) {
+    if (step.empty() || step == "manifest" || step == "load" || step == "glsl" || step == "names") return false;
+    if (outcome.end == ProcessEnd::cancelled) return false;
+    const Step* known = find_step(step);
+    const bool hung = outcome.end == ProcessEnd::silence_limit || outcome.end == ProcessEnd::time_limit;
+    return known && (*known->calls || !hung); // GLSL that does not end does not end in any step
 }
 
 } // namespace
@@ -71,6 +81,7 @@ void check_in_process(const fs::path& folder, const CheckOptions& options) {
         say({{"event", "alive"}});
     };
     Subject subject(folder, options, alive);
+    subject.say_doing = [](const std::string& what) { say({{"event", "doing"}, {"what", what}}); };
     const auto pictures = [&] {
         const auto file = write_pictures(subject, options.pictures);
         if (file)
@@ -87,6 +98,7 @@ void check_in_process(const fs::path& folder, const CheckOptions& options) {
         [](const std::string& step, const std::string& of) { say({{"event", "begin"}, {"step", step}, {"of", of}}); },
         [](const StepResult& result) { say({{"event", "step"}, {"result", to_json(result)}}); },
         options.pictures.empty() ? std::function<void()>() : pictures);
+    if (!subject.no_device().empty()) say({{"event", "unable"}, {"why", subject.no_device()}});
     say({{"event", "end"}});
 }
 
@@ -98,20 +110,15 @@ Result<PluginReport> check_plugin(const Supervision& s) {
         report.id = manifest->id, report.version = manifest->version;
         report.kind = plugin::to_string(manifest->kind);
     }
-    std::string step, of;
+    std::string step, of, doing;
     bool ended = false;
+    std::size_t begun = 0; // steps, in all processes
     Process process;
-    process.argv = {s.program.string(), "check",  "--in-process",
-                    s.folder.string(),  "--seed", std::to_string(s.options.seed)};
-    if (s.options.quick) process.argv.emplace_back("--quick");
-    if (!s.options.only.empty()) process.argv.insert(process.argv.end(), {"--only", s.options.only});
-    if (!s.options.pictures.empty())
-        process.argv.insert(process.argv.end(), {"--pictures", s.options.pictures.string()});
-    if (!s.options.quick)
-        process.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}}; // the driver's work is measured
     process.silence_limit = s.answer_limit;
     process.memory_limit = s.memory_limit;
     process.cancel = s.cancel;
+    if (!s.options.quick)
+        process.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}}; // the driver's work is measured
     process.on_out = [&](std::string_view line) {
         const std::size_t at = line.find(mark);
         if (at == line.npos) return; // the plugin's own words
@@ -119,28 +126,45 @@ Result<PluginReport> check_plugin(const Supervision& s) {
         if (!event.is_object()) return;
         const std::string kind = event.value("event", "");
         if (kind == "begin") {
-            step = event.value("step", ""), of = event.value("of", "");
+            step = event.value("step", ""), of = event.value("of", ""), doing.clear(), ++begun;
             if (s.on_begin) s.on_begin(step, of);
+        } else if (kind == "doing") {
+            doing = event.value("what", "");
         } else if (kind == "step" && event.contains("result")) {
             report.steps.push_back(step_from_json(event["result"]));
             if (s.on_step) s.on_step(report, report.steps.back());
         } else if (kind == "pictures") {
             report.pictures.emplace_back(event.value("file", ""));
+        } else if (kind == "unable") {
+            report.unable = event.value("why", "");
         } else if (kind == "end") {
             ended = true;
         }
     };
-    RESTAGE_TRY(const ProcessOutcome outcome, run_process(process));
-    report.seconds = outcome.seconds;
-    if (!ended || !outcome.ok()) {
+    for (bool more = true; more;) {
+        process.argv = {s.program.string(), "check",  "--in-process",
+                        s.folder.string(),  "--seed", std::to_string(s.options.seed)};
+        if (s.options.quick) process.argv.emplace_back("--quick");
+        if (!s.options.only.empty()) process.argv.insert(process.argv.end(), {"--only", s.options.only});
+        if (!s.options.pictures.empty())
+            process.argv.insert(process.argv.end(), {"--pictures", s.options.pictures.string()});
+        if (begun > 0) process.argv.insert(process.argv.end(), {"--skip", std::to_string(begun)});
+        const std::size_t before = begun;
+        step.clear(), of.clear(), doing.clear();
+        RESTAGE_TRY(const ProcessOutcome outcome, run_process(process));
+        report.seconds += outcome.seconds;
+        if (ended && outcome.ok()) break;
         StepResult result = ended_early(outcome, step, of, s);
         if (ended) result.step = "shutdown", result.of = ""; // after its last word
+        if (!doing.empty() && !ended) result.text += "\n  in " + doing;
         std::string said = outcome.err;
         while (!said.empty() && said.back() == '\n')
             said.pop_back();
         if (!said.empty()) result.text += "\n  it last said: " + said.substr(said.rfind('\n') + 1);
         report.steps.push_back(std::move(result));
         if (s.on_step) s.on_step(report, report.steps.back());
+        // A crash is this step's; the others are looked at all the same.
+        more = !ended && begun > before && goes_on(outcome, step);
     }
     return report;
 }

@@ -174,6 +174,7 @@ Result<> write_image(const std::string& path, const scene::PixelData& image) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     if (extension == ".png") return write_png(path, image);
+    if (extension == ".jpg" || extension == ".jpeg") return write_jpg(path, image);
     if (extension == ".pfm") return write_pfm(path, image);
     if (extension == ".hdr") return write_hdr(path, image);
     if (extension == ".exr") {
@@ -184,7 +185,7 @@ Result<> write_image(const std::string& path, const scene::PixelData& image) {
         exr.layers.push_back({.channels = names[image.channels == 1 ? 0 : image.channels - 2], .values = image.values});
         return write_exr(path, exr);
     }
-    return fail(path + ": unknown image format '" + extension + "'; known are .exr .hdr .pfm .png");
+    return fail(path + ": unknown image format '" + extension + "'; known are .exr .hdr .jpg .pfm .png");
 }
 
 } // namespace restage::io

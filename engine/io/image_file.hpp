@@ -22,11 +22,13 @@ Result<scene::PixelData> read_image_header(const std::string& path);
 
 // 8-bit sRGB of the linear picture times 2^exposure, clamped to [0,1]. 1, 3 or 4 channels; alpha is not exposed.
 Result<> write_png(const std::string& path, const scene::PixelData&, float exposure = 0);
+// The same as JPEG of quality 95; alpha is left out.
+Result<> write_jpg(const std::string& path, const scene::PixelData&, float exposure = 0);
 // Float, little-endian; 1 or 3 channels (of 4, alpha is left out).
 Result<> write_pfm(const std::string& path, const scene::PixelData&);
 // Radiance RGBE; 1 or 3 channels (of 4, alpha is left out); negative values become 0.
 Result<> write_hdr(const std::string& path, const scene::PixelData&);
-// By the extension: .png .pfm .hdr .exr (float). Others are refused with a list of these.
+// By the extension: .png .jpg .pfm .hdr .exr (float). Others are refused with a list of these.
 Result<> write_image(const std::string& path, const scene::PixelData&);
 
 // The transfer functions of IEC 61966-2-1, exact and piecewise; encoding clamps to [0,1].

@@ -127,8 +127,9 @@ Result<DecodedImage> decode_stb(std::string_view bytes, bool header_only) {
     return load<stbi_uc>(bytes, stbi_load_from_callbacks);
 }
 
-Result<> write_png(const std::string& path, const scene::PixelData& image, float exposure) {
-    RESTAGE_CHECK(check_channels(path, image));
+namespace {
+
+std::vector<std::uint8_t> encode_srgb(const scene::PixelData& image, float exposure) {
     const float factor = std::exp2(exposure);
     std::vector<std::uint8_t> encoded(image.values.size());
     for (std::size_t i = 0; i < encoded.size(); ++i) {
@@ -137,6 +138,24 @@ Result<> write_png(const std::string& path, const scene::PixelData& image, float
         const float value = alpha ? (v > 0 ? std::min(v, 1.f) : 0.f) : linear_to_srgb(v * factor);
         encoded[i] = static_cast<std::uint8_t>(std::lround(value * 255));
     }
+    return encoded;
+}
+
+} // namespace
+
+Result<> write_jpg(const std::string& path, const scene::PixelData& image, float exposure) {
+    RESTAGE_CHECK(check_channels(path, image));
+    const std::vector<std::uint8_t> encoded = encode_srgb(image, exposure);
+    std::string bytes;
+    if (!stbi_write_jpg_to_func(append, &bytes, static_cast<int>(image.width), static_cast<int>(image.height),
+                                static_cast<int>(image.channels), encoded.data(), 95))
+        return fail(path + ": the JPEG could not be encoded (out of memory?)");
+    return write_file_atomic(path, bytes);
+}
+
+Result<> write_png(const std::string& path, const scene::PixelData& image, float exposure) {
+    RESTAGE_CHECK(check_channels(path, image));
+    const std::vector<std::uint8_t> encoded = encode_srgb(image, exposure);
     std::string bytes;
     const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
     const int channels = static_cast<int>(image.channels);

@@ -20,14 +20,6 @@ namespace {
 
 constexpr std::size_t longest_manifest = 1 << 20;
 
-// "3:7" of a byte offset.
-std::string line_and_column(const std::string& text, std::size_t byte) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    const auto start = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
-    return std::to_string(line) + ":" + std::to_string(std::max<std::ptrdiff_t>(end - start, 1));
-}
-
 // Keys of a manifest: a misspelt one is not passed over. Who keeps notes of their own in it calls them "x-...".
 constexpr std::string_view known_keys[] = {"id",      "version", "kind",      "abi",       "licence",
                                            "library", "files",   "materials", "exceptions"};

@@ -3,6 +3,34 @@
 
 namespace restage::render {
 
+Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry& registry, const std::string& name) {
+    const auto denoisers = registry.denoisers();
+    if (denoisers.empty()) return fail("no denoiser plugin is loaded; `restage plugins` says why");
+    std::string known, why;
+    const plugin::DenoiserEntry* best = nullptr;
+    for (const plugin::DenoiserEntry& entry : denoisers) {
+        known += (known.empty() ? "" : ", ") + std::string(entry.table->type);
+        if (!name.empty()) {
+            if (name == entry.table->type || name == entry.plugin->manifest.id) return entry;
+            continue;
+        }
+        const char* reason = nullptr;
+        const CrashNote note(entry.plugin->blame("while it was asked whether it can be used"));
+        if (!entry.table->available(&reason))
+            why = std::string(entry.table->type) + " cannot be used: " + (reason ? reason : "it does not say why");
+        else if (!best || (entry.plugin->own && !best->plugin->own))
+            best = &entry;
+    }
+    if (!name.empty()) return fail("there is no denoiser \"" + name + "\"; there are " + known);
+    if (!best) return fail(why);
+    return *best;
+}
+
+std::string denoiser_label(const plugin::DenoiserEntry& entry, RestageDenoiseQuality quality) {
+    const char* words[] = {"fast", "balanced", "high"};
+    return std::string(entry.table->type) + " " + words[quality];
+}
+
 Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& entry,
                                        RestageDenoiseQuality quality, unsigned threads,
                                        std::function<bool(double done)> keep_going) {

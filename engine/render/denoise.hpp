@@ -7,8 +7,15 @@
 #include "render/film.hpp"
 
 #include <functional>
+#include <string>
 
 namespace restage::render {
+
+// The denoiser of this type ("oidn") or of the plugin of this id. "": the one that came with the program, if it can be
+// used here, else the first that can. An error lists what there is, or says why none can be used.
+Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry&, const std::string& name);
+// For the file: "oidn high".
+std::string denoiser_label(const plugin::DenoiserEntry&, RestageDenoiseQuality);
 
 // Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: an error then.
 Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& denoiser,

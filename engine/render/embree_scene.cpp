@@ -118,11 +118,24 @@ void hit_filter(const RTCFilterFunctionNArguments* args) {
     }
 }
 
+// Embree's FLT_LARGE is 1.844e18: what it asserts of coordinates, in object space too.
+constexpr float largest_coordinate = 5e17f; // of a point before three products are added up
+
+// What else it asserts: numbers, and an interval that begins at 0 or later. Whatever kernels computed from a scene of
+// absurd sizes is a miss instead.
+bool can_be_asked(const glm::vec3& origin, const glm::vec3& direction, float near, float far, float reach) {
+    bool sound = near >= 0 && near <= far;
+    for (int k = 0; k < 3; ++k)
+        sound = sound && std::abs(origin[k]) <= reach && std::abs(direction[k]) <= 1e3f;
+    return sound;
+}
+
 } // namespace
 
 Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, bool copies) {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
     self->copies_ = copies;
+    self->reach_ = largest_coordinate;
     self->device_ = rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str());
     if (!self->device_)
         return fail(fmt::format("Embree could not be started (error {})", int(rtcGetDeviceError(nullptr))));
@@ -243,6 +256,9 @@ void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChang
         const glm::mat4x3 placement = scene.placement(i);
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &placement);
         rtcCommitGeometry(geometry);
+        const glm::mat3 inverse = glm::inverse(glm::mat3(placement));
+        for (int k = 0; k < 9; ++k)
+            reach_ = std::min(reach_, largest_coordinate / std::max(std::abs(inverse[k / 3][k % 3]), 1.f));
         Mesh& mesh = scene.is_quadric(i) ? *box_ : *meshes_.at(wanted);
         if ((data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES)) && !mesh.filtered) {
             mesh.filtered = true;
@@ -256,6 +272,7 @@ void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChang
 }
 
 void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray) const {
+    if (!can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach_)) return;
     QueryContext context;
     init_context(context.embree);
     context.borders = &top == &borders_;
@@ -298,6 +315,10 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
 }
 
 void EmbreeScene::occluded(shared::ShadowRay& shadow) const {
+    if (!can_be_asked(shadow.origin, shadow.direction, shadow.tnear, shadow.tfar, reach_)) {
+        shadow.tfar = -INFINITY; // no light comes along what is no ray
+        return;
+    }
     QueryContext context;
     init_context(context.embree);
     context.borders = false;

@@ -52,6 +52,7 @@ class EmbreeScene {
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
     bool copies_ = false;
+    float reach_ = 0; // coordinates of rays, at most: so that the smallest object's space can hold them [scene units]
     Instances surfaces_, borders_; // what light meets; borders of media, which it passes
     Result<void> make_box();
     std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value; but for quadrics

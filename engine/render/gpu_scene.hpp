@@ -140,7 +140,7 @@ class GpuScene {
     std::vector<std::optional<scene::MaterialEmission>> emission_; // by MaterialData index
     std::vector<char> emission_changed_;                           // the same, since the last sync
     std::vector<char> has_gaps_; // by MaterialData index: a mix with a share of no surface
-    std::vector<char> traced_, border_;
+    std::vector<char> traced_, border_, flat_; // flat: no ray can be turned into its object space
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
     EnvironmentMap environment_;
 

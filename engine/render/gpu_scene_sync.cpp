@@ -236,6 +236,25 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     return out;
 }
 
+namespace {
+
+// Rays are turned into object space: without an inverse, or with one that leaves the floats (Embree takes coordinates
+// below 1.8e18), there is no ray. 1e9: an object a billionth of its mesh's size. 1e-6: of skewed axes less is not told
+// from 0 in floats.
+bool traceable(const glm::dmat4& object_to_world) {
+    const glm::dmat3 linear(object_to_world);
+    const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+    if (!(std::abs(glm::determinant(linear)) > 1e-6 * volume)) return false;
+    const glm::dmat3 inverse = glm::inverse(linear);
+    const glm::dvec3 origin = inverse * glm::dvec3(object_to_world[3]);
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!(std::abs(inverse[c][r]) <= 1e9)) return false;
+    return glm::dot(origin, origin) <= 1e34;
+}
+
+} // namespace
+
 Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes) {
     const std::uint32_t n = scene.instances.size() + 1;
     const std::uint32_t old = std::uint32_t(traced_.size());
@@ -243,6 +262,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         instances_.resize(n, {});
         traced_.resize(n, 0);
         border_.resize(n, 0);
+        flat_.resize(n, 0);
         mesh_of_.resize(n);
     }
     quadrics_ = false;
@@ -256,7 +276,15 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         // `interface`: rays pass; what it may be is a border of media, or a lamp (pbrt-v3's; pbrt-v4 has none)
         const std::uint32_t m = material ? in->material.value : 0;
         const bool nothing = types_[materials_[m].type].null_surface(), gaps = has_gaps_[m] != 0;
-        const bool there = in && !in->hidden && mesh(in->mesh);
+        if (in && (i >= old || scene.instances.version(id) > seen_.instances)) {
+            const bool flat = !traceable(in->object_to_world);
+            if (flat && !flat_[i] && !in->hidden)
+                changes.warnings.push_back(fmt::format("instance \"{}\": its transform flattens it, or makes it too "
+                                                       "small for rays; it is not rendered",
+                                                       in->name));
+            flat_[i] = flat;
+        }
+        const bool there = in && !in->hidden && !flat_[i] && mesh(in->mesh);
         quadrics_ |= there && mesh(in->mesh)->quadric;
         const bool invisible = in && !scene.textures.find(in->alpha_texture) && !(in->alpha > 0);
         const bool traced = there && !invisible && (!nothing || in->emission);

@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "render/clay.hpp"
+#include "scene/validate.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -108,7 +109,21 @@ void Renderer::forget_scene() {
     samples_ = 0;
 }
 
+// What scenes made in code may hold although no edit or importer lets it in; the rest is checked where it is derived.
+static Result<void> check_view(const scene::Scene& scene) {
+    const auto refuse = [](const auto& thing) -> Result<void> {
+        for (const auto& p : scene::value_problems(thing))
+            if (p.severity == scene::Problem::Severity::error) return fail(p.sentence);
+        return {};
+    };
+    if (const auto* camera = scene.cameras.find(scene.active_camera.value)) RESTAGE_CHECK(refuse(*camera));
+    if (scene.environment.value) RESTAGE_CHECK(refuse(*scene.environment.value));
+    RESTAGE_CHECK(refuse(scene.film.value));
+    return refuse(scene.settings.value);
+}
+
 Result<void> Renderer::sync(const scene::Scene& scene) {
+    RESTAGE_CHECK(check_view(scene));
     RESTAGE_TRY(const SceneChanges changes, gpu_scene_->sync(scene));
     for (const auto& warning : changes.warnings)
         log_->warning(warning);

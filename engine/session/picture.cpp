@@ -26,11 +26,28 @@ std::vector<float> standard_errors(const render::FilmImage& film, float exposure
 
 } // namespace
 
+namespace {
+constexpr std::string_view layers[] = {"stderr", "albedo", "normal", "depth", "id"};
+} // namespace
+
+Result<void> check_aovs(const std::string& aovs) {
+    if (aovs == "all" || aovs == "none") return {};
+    for (std::string_view rest = aovs;;) {
+        const std::size_t comma = std::min(rest.find(','), rest.size());
+        const std::string_view name = rest.substr(0, comma);
+        if (std::find(std::begin(layers), std::end(layers), name) == std::end(layers))
+            return fail("there is no layer \"" + std::string(name) +
+                        "\"; there are stderr, albedo, normal, depth and id (commas between), all, or none");
+        if (comma == rest.size()) return {};
+        rest.remove_prefix(comma + 1);
+    }
+}
+
 Result<void> check_picture_path(const std::string& path) {
     const std::filesystem::path p(path);
-    static constexpr std::string_view known[] = {".exr", ".png", ".pfm", ".hdr"};
+    static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr"};
     if (std::find(std::begin(known), std::end(known), p.extension().string()) == std::end(known))
-        return fail(path + ": the extension says the format: .exr, .png, .pfm or .hdr");
+        return fail(path + ": the extension says the format: .exr, .png, .jpg, .pfm or .hdr");
     const auto folder = p.has_parent_path() ? p.parent_path() : std::filesystem::path(".");
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
@@ -39,6 +56,7 @@ Result<void> check_picture_path(const std::string& path) {
 }
 
 Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& o) {
+    RESTAGE_CHECK(check_aovs(o.aovs));
     const render::FilmImage& film = picture.film;
     const auto scaled = [&](const std::vector<glm::vec3>& in, float scale) {
         std::vector<float> out(in.size() * 3);
@@ -52,6 +70,7 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
         scene::PixelData pixels{
             .width = film.width, .height = film.height, .channels = 3, .values = scaled(color, picture.exposure)};
         if (path.ends_with(".png")) return io::write_png(path, pixels, o.exposure_stops);
+        if (path.ends_with(".jpg") || path.ends_with(".jpeg")) return io::write_jpg(path, pixels, o.exposure_stops);
         return io::write_image(path, pixels);
     }
     const auto wanted = [&](const char* name) {

@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "scene/bounds.hpp"
+#include "scene/validate.hpp"
 #include "session/project.hpp"
 
 #include <algorithm>
@@ -91,16 +92,15 @@ void Session::adopt_recovered(Document document) {
     if (!from_base) history_.mark_unsaved();
 }
 
-bool Session::edit(Edit edit, std::string_view gesture) { return history_.push(scene_, std::move(edit), gesture); }
-
 Result<bool> Session::edit(Result<Edit> edit, std::string_view gesture) {
     if (!edit) return tl::unexpected<Error>(std::move(edit.error()));
+    RESTAGE_CHECK(check_edit(*edit));
     return history_.push(scene_, std::move(*edit), gesture);
 }
 
 Result<std::vector<Id<Instance>>> Session::duplicate(Instances ids, const glm::dmat4& move) {
     RESTAGE_TRY(Duplicate made, duplicate_instances(scene_, ids, move));
-    edit(std::move(made.edit));
+    RESTAGE_CHECK(edit(std::move(made.edit)));
     return std::move(made.copies);
 }
 
@@ -151,7 +151,7 @@ Result<Id<Material>> Session::add_material(std::string name, std::string type) {
     if (!registry_.find_material(type)) return fail("there is no material type \"" + type + "\"");
     const Id<Material> id = scene_.materials.next();
     const std::string label = "Add " + name;
-    edit(scene::insert(scene_, Material{.name = std::move(name), .type = std::move(type)}, label));
+    RESTAGE_CHECK(edit(scene::insert(scene_, Material{.name = std::move(name), .type = std::move(type)}, label)));
     return id;
 }
 
@@ -184,8 +184,10 @@ Result<Merged> Session::insert(const io::ImportedScene& imported, const std::str
                 l->after->light_to_world = move * l->after->light_to_world;
         }
     }
+    // What the importer let through with a warning comes in with it.
+    RESTAGE_CHECK(check_edit(made.edit, Problem::Severity::error));
     sources_.note_all(imported.scene, path.string(), imported.importer);
-    edit(made.edit);
+    history_.push(scene_, made.edit);
     for (const io::ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
         if (entry.fate != RESTAGE_KEPT || (entry.what != "camera" && entry.what != "environment"))
             report_.entries.push_back(entry);

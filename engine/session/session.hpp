@@ -46,9 +46,9 @@ class Session {
         return scene::find_by_name<T>(scene_, name);
     }
 
-    // The one way to change the scene. True = it changed. `gesture`: see scene::History.
-    bool edit(scene::Edit, std::string_view gesture = {});
-    Result<bool> edit(Result<scene::Edit>, std::string_view gesture = {}); // of the builders of scene/edits.hpp
+    // The one way to change the scene. True = it changed. `gesture`: see scene::History. Refused: what the builders of
+    // scene/edits.hpp refuse, and values that scene::check_edit does not let in.
+    Result<bool> edit(Result<scene::Edit>, std::string_view gesture = {});
     void end_gesture() { history_.end_gesture(); }
     bool undo() { return history_.undo(scene_); }
     bool redo() { return history_.redo(scene_); }

@@ -34,9 +34,8 @@ void ViewDenoiser::add(std::shared_ptr<const Frame> frame) {
 
 void ViewDenoiser::run() {
     lower_thread_priority(7);
-    const auto& denoisers = registry_.denoisers();
-    const char* reason = "no denoiser plugin is loaded";
-    if (denoisers.empty() || !denoisers[0].table->available(&reason)) return host_.says(reason);
+    const auto denoiser = render::choose_denoiser(registry_, "");
+    if (!denoiser) return host_.says(denoiser.error().message);
     for (;;) {
         std::shared_ptr<const Frame> source;
         {
@@ -55,7 +54,7 @@ void ViewDenoiser::run() {
             given_up = given_up || !host_.wanted(*source);
             return !given_up;
         };
-        auto color = render::denoise(source->image, denoisers[0], RESTAGE_DENOISE_FAST, 0, keep_going);
+        auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
         if (!color && given_up) continue;
         host_.says(color ? "" : color.error().message); // where it failed, pictures are shown as they are
         if (!color) continue;

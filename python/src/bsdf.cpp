@@ -18,6 +18,7 @@ using Indices = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::
 class Lab {
   public:
     explicit Lab(const std::string& type) : host_(Host::get()) {
+        Host::begin_threads();
         const auto entry = host_->registry().find_material(type);
         if (!entry) throw Failure("there is no material type \"" + type + "\"; see restage.material_types()");
         table_ = {entry->table->params, entry->table->param_count};
@@ -34,6 +35,7 @@ class Lab {
     // All arrays have n rows, `config` names one of the parameter sets for each. The answer: raw records, 96 bytes.
     nb::bytes run(const Vectors& wo, const Vectors& wi, const Vectors& u, const Indices& config, const nb::list& sets,
                   std::uint32_t seed, std::uint32_t repeats) {
+        Host::begin_threads();
         std::vector<scene::ParamSet> configs;
         for (const nb::handle set : sets) {
             scene::ParamSet& values = configs.emplace_back();
@@ -67,6 +69,14 @@ class Lab {
         const auto got = take(std::move(answers));
         return nb::bytes(reinterpret_cast<const char*>(got.data()), got.size() * sizeof(check::BsdfAnswer));
     }
+
+    ~Lab() {
+        if (!Host::forked()) return;
+        (void)compiler_.release();
+        (void)device_.release();
+        new std::optional(std::move(lab_));
+    }
+    Lab(const Lab&) = delete;
 
   private:
     std::shared_ptr<Host> host_;

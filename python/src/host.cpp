@@ -4,6 +4,10 @@
 #include "render/material_composer.hpp"
 
 #include <algorithm>
+#include <atomic>
+#if defined(__unix__) || defined(__APPLE__)
+#include <pthread.h>
+#endif
 
 namespace restage::python {
 
@@ -15,6 +19,18 @@ fs::path& home_path() {
     static fs::path path;
     return path;
 }
+
+std::atomic<bool> threads_began = false, is_forked = false;
+
+// Made at first use. In a forked child it is left alone at the end: its plugins would wait for their threads.
+struct HostKeeper {
+    std::shared_ptr<Host> host = std::make_shared<Host>(Host::home());
+    HostKeeper() = default;
+    HostKeeper(const HostKeeper&) = delete;
+    ~HostKeeper() {
+        if (is_forked) new std::shared_ptr<Host>(std::move(host));
+    }
+};
 
 int python_level(LogLevel level) { // of Python's logging
     switch (level) {
@@ -36,10 +52,24 @@ void Host::set_home(fs::path path) { home_path() = std::move(path); }
 const fs::path& Host::home() { return home_path(); }
 
 const std::shared_ptr<Host>& Host::get() {
-    static const auto host = std::make_shared<Host>(home());
-    host->flush_log();
-    return host;
+    static const HostKeeper keeper;
+    if (!is_forked) keeper.host->flush_log();
+    return keeper.host;
 }
+
+void Host::begin_threads() {
+    if (is_forked)
+        throw Failure("this process is a fork() of one that had rendered or denoised, and a fork has none of its "
+                      "threads; start workers as new processes (multiprocessing.get_context(\"spawn\") or "
+                      "\"forkserver\"), or fork before the first render");
+#if defined(__unix__) || defined(__APPLE__)
+    static const int registered = pthread_atfork(nullptr, nullptr, [] { is_forked = threads_began.load(); });
+    (void)registered;
+#endif
+    threads_began = true;
+}
+
+bool Host::forked() { return is_forked; }
 
 Host::Host(const fs::path& home)
     : log_([this](LogLevel level, std::string_view line) {
@@ -58,14 +88,15 @@ std::vector<const plugin::Entry*> Host::load(const fs::path& folder) {
                       ": plugins cannot be loaded while a scene is read, written or rendered; wait "
                       "for that first");
     if (!fs::is_directory(folder)) throw Failure(folder.string() + ": there is no such folder");
-    const auto before = registry_.entries();
     const plugin::SearchPath paths[] = {{folder, true}};
     registry_.scan(paths);
+    const std::string below = fs::absolute(folder).lexically_normal().generic_string();
+    const std::string prefix = below.ends_with('/') ? below : below + '/';
     std::vector<const plugin::Entry*> found;
     for (const plugin::Entry* entry : registry_.entries())
-        if (std::find(before.begin(), before.end(), entry) == before.end()) found.push_back(entry);
+        if ((entry->folder.generic_string() + '/').starts_with(prefix)) found.push_back(entry);
     flush_log();
-    if (found.empty()) throw Failure(folder.string() + ": holds no plugin (a folder with a plugin.json) that is new");
+    if (found.empty()) throw Failure(folder.string() + ": holds no plugin (a folder with a plugin.json)");
     return found;
 }
 

@@ -26,11 +26,17 @@ class Host {
 
     explicit Host(const std::filesystem::path& home);
 
+    // Rendering, denoising and the material lab start threads (Embree's, Vulkan's, the denoiser's) that live on. A
+    // fork() has none of them, and whoever waits for one waits for ever: so these say first that they begin, and in a
+    // child of a process where one had begun they are refused. What a session holds is not freed there either.
+    static void begin_threads(); // throws Failure in such a child
+    static bool forked();        // is this such a child?
+
     Log& log() { return log_; }
     plugin::Registry& registry() { return registry_; }
     // Held shared while a thread without the GIL uses plugins; load() needs it alone.
     std::shared_mutex& in_use() { return in_use_; }
-    // What lies below the folder and was not there yet; refused ones too.
+    // What lies below the folder, refused ones too; what was loaded before stays as it is.
     std::vector<const plugin::Entry*> load(const std::filesystem::path& folder);
 
     // Gives what was logged meanwhile to Python's logger "restage". Threads without the GIL only queue it: one that

@@ -85,6 +85,7 @@ nb::object mask(const Owner& p, nb::handle thing) {
 }
 
 void save(const Picture& p, const std::filesystem::path& path, const std::string& aovs, float exposure) {
+    if (!std::isfinite(exposure)) throw Failure("save: an exposure is a finite number of stops");
     const nb::gil_scoped_release release;
     session::Picture out{.film = p.film, .denoised = std::nullopt, .exposure = 1};
     if (!p.denoised.empty()) out.denoised = p.denoised;
@@ -97,7 +98,7 @@ void save(const Picture& p, const std::filesystem::path& path, const std::string
                         {"restage:tracer", p.tracer},
                         {"restage:samples", std::to_string(p.film.samples)},
                         {"restage:seed", std::to_string(p.seed)},
-                        {"restage:seconds", fmt::format("{:f}", p.seconds)}};
+                        {"restage:denoiser", p.denoiser}}; // no times: equal renders are equal files
     take(session::write_picture(path.string(), out, options));
 }
 
@@ -127,6 +128,7 @@ Owner merge(const std::vector<Owner>& parts) {
     const Picture& first = *parts[0];
     auto out = std::make_shared<Picture>(first);
     out->denoised.clear();
+    out->denoiser = "none";
     out->not_finite.clear();
     out->film.samples = 0;
     out->seconds = 0;
@@ -189,7 +191,7 @@ nb::tuple get_state(const Picture& p) {
     return nb::make_tuple(f.width, f.height, f.samples, bytes(f.color), bytes(f.std_error), bytes(f.luminance_variance),
                           bytes(f.albedo), bytes(f.normal), bytes(f.depth), bytes(f.instance_id), bytes(f.material_id),
                           bytes(p.denoised), p.seed, p.first_sample, p.seconds, p.finished, p.not_finite, p.scene,
-                          p.device, p.tracer);
+                          p.device, p.tracer, p.denoiser);
 }
 
 void set_state(Picture& p, const nb::tuple& t) {
@@ -216,16 +218,17 @@ void set_state(Picture& p, const nb::tuple& t) {
     p.scene = nb::cast<std::string>(t[17]);
     p.device = nb::cast<std::string>(t[18]);
     p.tracer = nb::cast<std::string>(t[19]);
+    p.denoiser = nb::cast<std::string>(t[20]);
 }
 
 } // namespace
 
-void denoise(Picture& p, const std::string& quality, unsigned threads) {
+void denoise(Picture& p, const std::string& quality, unsigned threads, const std::string& denoiser) {
     if (quality != "fast" && quality != "balanced" && quality != "high")
         throw Failure("there is no denoising quality \"" + quality + "\"; there are fast, balanced and high");
     if (p.film.color.empty() || p.film.samples == 0) throw Failure("denoise: the picture has no samples");
-    const auto& denoisers = p.host->registry().denoisers();
-    if (denoisers.empty()) throw Failure("no denoiser plugin is loaded; look at restage.plugins()");
+    Host::begin_threads();
+    const auto chosen = take(render::choose_denoiser(p.host->registry(), denoiser));
     const auto as = quality == "fast"       ? RESTAGE_DENOISE_FAST
                     : quality == "balanced" ? RESTAGE_DENOISE_BALANCED
                                             : RESTAGE_DENOISE_HIGH;
@@ -233,11 +236,12 @@ void denoise(Picture& p, const std::string& quality, unsigned threads) {
     Result<std::vector<glm::vec3>> clean = [&] {
         const nb::gil_scoped_release release;
         const std::shared_lock plugins(p.host->in_use());
-        return render::denoise(p.film, denoisers[0], as, threads, [&](double) { return pulse.keep_going(); });
+        return render::denoise(p.film, chosen, as, threads, [&](double) { return pulse.keep_going(); });
     }();
     pulse.rethrow();
     p.host->flush_log();
     p.denoised = take(std::move(clean));
+    p.denoiser = render::denoiser_label(chosen, as);
 }
 
 void bind_picture(nb::module_& m) {
@@ -288,16 +292,18 @@ void bind_picture(nb::module_& m) {
                  "def mask(self, thing: Object | Group | Selection | Material) -> numpy.typing.NDArray[numpy.bool_]"))
         .def(
             "denoise",
-            [](const Owner& p, const std::string& quality, unsigned threads) {
-                denoise(*p, quality, threads);
+            [](const Owner& p, const std::string& quality, unsigned threads, const std::string& denoiser) {
+                denoise(*p, quality, threads, denoiser);
                 return p;
             },
-            "quality"_a = "high", "threads"_a = 0,
-            "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. Returns the picture.")
+            "quality"_a = "high", "threads"_a = 0, "denoiser"_a = "",
+            "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. denoiser: its type or the id "
+            "of\nits plugin; \"\" = the one that came with Restage. Returns the picture.")
+        .def_ro("denoiser", &Picture::denoiser, "Who made `denoised`: \"oidn high\"; none.")
         .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f,
-             "Writes .exr (linear, all layers), .png (8-bit sRGB), .pfm or .hdr; the denoised picture where there is "
-             "one.\n"
-             "aovs: of an .exr, comma-separated stderr, albedo, normal, depth, id; all; none. exposure: of a .png "
+             "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where there "
+             "is one.\n"
+             "aovs: of an .exr, comma-separated stderr, albedo, normal, depth, id; all; none. exposure: of a .png or .jpg "
              "[stops].")
         .def("__getstate__", &get_state)
         .def("__setstate__", &set_state)

@@ -17,10 +17,11 @@ struct Picture {
     bool finished = false;
     std::map<std::string, std::uint64_t> not_finite;
     std::string scene, device, tracer; // of whom and by whom, for the file
+    std::string denoiser = "none";     // who made `denoised`: "oidn high"
 };
 
-// quality: fast, balanced, high.
-void denoise(Picture&, const std::string& quality, unsigned threads);
+// quality: fast, balanced, high. denoiser: see render::choose_denoiser.
+void denoise(Picture&, const std::string& quality, unsigned threads, const std::string& denoiser = "");
 void bind_picture(nb::module_&);
 
 } // namespace restage::python

@@ -3,6 +3,7 @@
 #include "picture.hpp"
 #include "pulse.hpp"
 
+#include "render/denoise.hpp"
 #include "scene/validate.hpp"
 
 #include <algorithm>
@@ -121,7 +122,8 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
                                 std::optional<std::uint32_t> samples, std::optional<double> seconds,
                                 std::optional<double> error, std::uint32_t seed, const nb::object& denoised,
                                 const nb::object& callback, unsigned threads, std::optional<std::uint32_t> max_depth,
-                                std::uint32_t first_sample, const std::string& tracer, const std::string& device) {
+                                std::uint32_t first_sample, const std::string& tracer, const std::string& device,
+                                const std::string& denoiser) {
     if (int(samples.has_value()) + int(seconds.has_value()) + int(error.has_value()) > 1)
         throw Failure("render: give one of samples, seconds and error");
     if ((samples && *samples == 0) || (seconds && !(*seconds > 0)) || (error && !(*error > 0)))
@@ -138,6 +140,7 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     if (max_depth) scene.settings.value.max_depth = *max_depth;
     scene.settings.version = version_of_render();
     const std::string quality = denoise_quality(denoised);
+    if (!quality.empty()) take(render::choose_denoiser(w->host().registry(), denoiser)); // before hours are spent
 
     Request request{
         .key = {.device = device, .tracer = tracer, .threads = threads}, .seed = seed, .first_sample = first_sample};
@@ -160,7 +163,7 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     w->host().flush_log();
     take(std::move(done));
     expose(*picture, scene.film.value.exposure);
-    if (!quality.empty() && picture->film.samples > 0) denoise(*picture, quality, threads);
+    if (!quality.empty() && picture->film.samples > 0) denoise(*picture, quality, threads, denoiser);
     return picture;
 }
 
@@ -179,7 +182,7 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
     c.def(
         "render", &render, "size"_a = nb::none(), "samples"_a = nb::none(), "seconds"_a = nb::none(),
         "error"_a = nb::none(), "seed"_a = 0, "denoise"_a = false, "progress"_a = nb::none(), "threads"_a = 0,
-        "max_depth"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "",
+        "max_depth"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "", "denoiser"_a = "",
         "Path-traces the scene as it is now; returns a Picture. The same seed gives the same picture.\n\n"
         "size: (width, height) [pixel], default Session.size. Target: samples a pixel (default Session.samples), or\n"
         "seconds, or error (relative standard error, 0.02). denoise: True, or fast, balanced, high. threads: 0 = all.\n"
@@ -187,11 +190,12 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "and\n"
         "Picture.finished is False. Ctrl-C raises KeyboardInterrupt. Other Python threads run meanwhile, and may "
         "edit:\n"
-        "a copy is rendered. first_sample: see restage.merge. tracer: embree or vulkan; device: part of its name.",
+        "a copy is rendered. first_sample: see restage.merge. tracer: embree or vulkan; device: part of its name.\n"
+        "denoiser: see Picture.denoise.",
         nb::sig("def render(self, size: tuple[int, int] | None = None, samples: int | None = None, "
                 "seconds: float | None = None, error: float | None = None, seed: int = 0, denoise: bool | str = False, "
                 "progress: collections.abc.Callable[[Progress], bool | None] | None = None, threads: int = 0, "
-                "max_depth: int | None = None, first_sample: int = 0, tracer: str = '', device: str = '') -> Picture"));
+                "max_depth: int | None = None, first_sample: int = 0, tracer: str = '', device: str = '', denoiser: str = '') -> Picture"));
 }
 
 } // namespace restage::python

@@ -19,10 +19,10 @@ bool Workspace::edit(Result<Edit> made) {
     Edit change = take(std::move(made));
     if (step_depth_ == 0) {
         session().end_gesture();
-        return session().edit(std::move(change));
+        return take(session().edit(std::move(change)));
     }
     if (!step_label_.empty()) change.label = step_label_;
-    return session().edit(std::move(change), step_key_);
+    return take(session().edit(std::move(change), step_key_));
 }
 
 void Workspace::begin_step(std::string label) {
@@ -37,7 +37,12 @@ void Workspace::end_step() {
     if (step_depth_ == 0 && !closed_) session().end_gesture();
 }
 
+Workspace::~Workspace() {
+    if (Host::forked()) (void)renderer_.release(); // it would wait for its threads
+}
+
 RendererUse::RendererUse(Workspace& workspace) : in_(workspace) {
+    Host::begin_threads();
     if (in_.renderer_thread_ == std::this_thread::get_id())
         throw Failure("the session is being rendered: its progress callback cannot render or close it");
     lock_ = std::unique_lock(in_.rendering_);
@@ -60,8 +65,10 @@ Result<render::Renderer*> RendererUse::get(const RendererKey& key) {
 }
 
 void Workspace::close() {
-    RendererUse use(*this);
-    use.drop();
+    if (!Host::forked()) {
+        RendererUse use(*this);
+        use.drop();
+    }
     closed_ = true;
 }
 

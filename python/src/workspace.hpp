@@ -30,6 +30,8 @@ struct RendererKey { // what a renderer is made for
 class Workspace : public std::enable_shared_from_this<Workspace> {
   public:
     explicit Workspace(std::shared_ptr<Host> host) : host_(std::move(host)), session_(host_->registry()) {}
+    ~Workspace();
+    Workspace(const Workspace&) = delete;
 
     Host& host() { return *host_; }
     session::Session& session() {

@@ -33,7 +33,8 @@ def test_a_material_is_loaded_anew(tmp_path):
     material = {"type": "paint", "glsl": "paint.glsl", "params": params}
     manifest = {"id": "org.example.paint", "kind": "material", "version": "1", "licence": "MIT", "abi": 1}
     (folder / "plugin.json").write_text(json.dumps({**manifest, "materials": [material]}))
-    restage.load_plugins(folder)
+    first = restage.load_plugins(folder)
+    assert [p.id for p in restage.load_plugins(folder)] == [p.id for p in first], "twice is once"
     (tmp_path / "scene.pbrt").write_text(SCENE)
     with restage.open(tmp_path / "scene.pbrt") as session:
 

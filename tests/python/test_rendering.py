@@ -255,3 +255,14 @@ def test_a_scene_without_a_camera_is_refused(scenes, tmp_path):
         assert session.camera is None
         with pytest.raises(restage.Error, match="no camera"):
             session.render(size=(8, 8), samples=1)
+
+
+def test_a_denoiser_by_name_and_unknown_layers(cornell, tmp_path):
+    picture = cornell.render(size=(16, 16), samples=2, denoise="fast", denoiser="oidn")
+    assert picture.denoiser == "oidn fast" and cornell.render(size=(8, 8), samples=1).denoiser == "none"
+    picture.save(tmp_path / "a.exr")
+    assert b"oidn fast" in (tmp_path / "a.exr").read_bytes()
+    with pytest.raises(restage.Error, match='there is no denoiser "nosuch"; there are'):
+        cornell.render(size=(8, 8), samples=1, denoise=True, denoiser="nosuch")
+    with pytest.raises(restage.Error, match="there is no layer"):
+        picture.save(tmp_path / "b.exr", aovs="depth,foo")

@@ -196,3 +196,51 @@ def test_demo_runs_the_main_job(tmp_path):
         assert (tmp_path / "demo" / name).stat().st_size > 0
     changed = json.loads(restage("compare", tmp_path / "demo/before.exr", tmp_path / "demo/after.exr", "--json").stdout)
     assert changed["rmse"] > 0.01
+
+
+def test_a_region_is_part_of_the_picture_and_equal_renders_are_equal_files(tmp_path):
+    """The crop of pbrt by shares, the same by pixels; no time is in the file; several outputs, statistics."""
+    common = [CORNELL, "--size", "64x48", "--spp", 2, "--seed", 3]
+    for name, extra in (("whole", []), ("again", []), ("region", ["--region", 16, 12, 32, 24]), ("crop", ["--crop", 0.25, 0.75, 0.25, 0.75])):
+        done = restage("render", *common, "-o", tmp_path / f"{name}.exr", "-o", tmp_path / f"{name}.jpg",
+                       "--statistics", tmp_path / f"{name}.json", *extra)
+        assert done.returncode == 0, done.stderr
+    assert (tmp_path / "whole.exr").read_bytes() == (tmp_path / "again.exr").read_bytes()
+    assert (tmp_path / "whole.jpg").read_bytes().startswith(b"\xff\xd8")
+    whole, region, crop = (exr_file.read(tmp_path / f"{name}.exr") for name in ("whole", "region", "crop"))
+    assert np.array_equal(region["depth.Z"], whole["depth.Z"][12:36, 16:48])
+    assert np.array_equal(region["R"], crop["R"]) and region["R"].shape == (24, 32)
+    numbers = json.loads((tmp_path / "region.json").read_text())
+    assert (numbers["width"], numbers["height"], numbers["samples"], numbers["denoiser"]) == (32, 24, 2, "none")
+    for bad in (["--region", 60, 0, 10, 10], ["--crop", 0.5, 0.5, 0, 1]):
+        done = restage("render", *common, "-o", tmp_path / "no.exr", *bad)
+        assert done.returncode == 1 and bad[0] in done.stderr and not (tmp_path / "no.exr").exists()
+
+
+def test_one_sample_has_no_error_and_unknown_layers_and_denoisers_are_refused(tmp_path):
+    common = ["render", CORNELL, "-o", tmp_path / "one.exr", "--size", "16x16", "--spp", 1]
+    done = restage(*common)
+    assert done.returncode == 0 and "error not known with one sample" in done.stderr and "e+3" not in done.stderr
+    for extra, says in ((["--aov", "foo"], "there are stderr, albedo, normal, depth and id"),
+                        (["--denoiser", "nosuch"], 'there is no denoiser "nosuch"; there are')):
+        done = restage(*common, *extra)
+        assert done.returncode == 1 and says in done.stderr
+
+
+def test_a_picture_becomes_another_format_and_compare_has_a_verdict(tmp_path):
+    for name, seed in (("a", 1), ("b", 2)):
+        assert restage("render", CORNELL, "-o", tmp_path / f"{name}.exr", "--size", "32x32", "--spp", 4, "--seed", seed).returncode == 0
+    for out in ("a.png", "a.jpg", "a.pfm", "a.hdr"):
+        assert restage("convert", tmp_path / "a.exr", tmp_path / out).returncode == 0
+    same = restage("compare", tmp_path / "a.pfm", tmp_path / "a.exr", "--max-flip", 0.0001)
+    assert same.returncode == 0, same.stderr
+    assert restage("compare", tmp_path / "a.png", tmp_path / "b.exr", "--max-flip", 0.0001).returncode == 1
+    assert restage("convert", tmp_path / "a.exr", tmp_path / "bright.exr", "--exposure", 2).returncode == 0
+    brighter = json.loads(restage("compare", tmp_path / "bright.exr", tmp_path / "a.exr", "--json").stdout)
+    assert brighter["luminance_a"] == pytest.approx(4 * brighter["luminance_b"], rel=1e-5)
+    # Another picture, with both errors known: the z-test is the exit code; a share of blocks may be asked for instead.
+    assert restage("render", CORNELL, "-o", tmp_path / "dark.exr", "--size", "32x32", "--spp", 4, "--max-depth", 1).returncode == 0
+    done = restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--json")
+    assert done.returncode == 1 and "the z-test fails" in done.stderr and not json.loads(done.stdout)["passes"]
+    assert restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--min-blocks", 0).returncode == 0
+    assert restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--min-blocks", 0.99).returncode == 1

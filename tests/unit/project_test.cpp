@@ -51,8 +51,9 @@ TEST_CASE("A scene that has no camera yet is saved and opened", "[project]") {
     Edit edit{"Paint", {}};
     edit.changes.push_back(
         Change<Material>{session.scene().materials.next(), std::nullopt, Material{.name = "red", .type = "diffuse"}});
-    const bool edited = session.edit(std::move(edit));
+    const auto edited = session.edit(std::move(edit));
     REQUIRE(edited);
+    CHECK(*edited);
     REQUIRE(session.save_project(files.at("bare.restage")));
     const auto opened = other.open(files.at("bare.restage"));
     INFO((opened ? "" : opened.error().message));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene: validate is silent about a sound scene and names what is wrong with another.
+#include "scene/edits.hpp"
 #include "scene/validate.hpp"
 #include "scene_room.hpp"
 
@@ -95,4 +96,61 @@ TEST_CASE("check_mesh finds the first thing that is wrong", "[scene]") {
     data.uvs.resize(2);
     CHECK(check_mesh(data) == "2 texture coordinates for 3 vertices");
     CHECK(check_mesh(MeshData{}) == "has no triangles");
+}
+
+TEST_CASE("an edit that brings in what no picture can hold is refused with a sentence", "[scene]") {
+    Room r;
+    r.add(Light{.name = "spot", .kind = RESTAGE_LIGHT_SPOT});
+    apply(r.scene, set_environment(r.scene, Environment{.name = "sky"}));
+    const float inf = std::numeric_limits<float>::infinity();
+    const auto refused = [&](Result<Edit> edit, std::string_view part) {
+        REQUIRE(edit);
+        const auto checked = check_edit(*edit);
+        INFO(part);
+        REQUIRE_FALSE(checked);
+        INFO(checked.error().message);
+        CHECK(checked.error().message.find(part) != std::string::npos);
+    };
+    const auto camera = [&](auto&& f, std::string_view part) { refused(modify(r.scene, r.camera, "", f), part); };
+    for (const float bad : {not_a_number, inf, -inf, -1.f}) {
+        for (const float fov : {bad, 0.f, 180.f, 360.f})
+            camera([&](Camera& c) { c.fov = fov; }, "field of view");
+        camera([&](Camera& c) { c.lens_radius = bad; }, "lens radius");
+        camera([&](Camera& c) { c.focal_distance = bad; }, "focal distance");
+        camera([&](Camera& c) { c.frame_aspect = bad; }, "frame aspect");
+        camera([&](Camera& c) { c.screen_window = glm::vec4(-1, bad, -1, 1); }, "screen window");
+        Film film;
+        film.exposure = bad;
+        refused(set_film(r.scene, film), "exposure");
+        film = {};
+        film.filter.radius.x = bad;
+        refused(set_film(r.scene, film), "pixel filter");
+        film = {};
+        film.filter = {.kind = FilterKind::gaussian, .radius = {2, 2}, .params = {bad, 0}};
+        refused(set_film(r.scene, film), "pixel filter");
+        Settings settings;
+        settings.clamp_indirect = bad;
+        refused(set_settings(r.scene, settings), "clamp");
+        const glm::vec3 light(1, bad, 1);
+        refused(set_emission(r.scene, r.chair, Emission{light, false}), "emission");
+        refused(modify(r.scene, Id<Light>{1}, "", [&](Light& l) { l.value = light; }), "light \"spot\": a value");
+        refused(insert(r.scene, Light{.name = "new", .value = light}, ""), "light \"new\": a value");
+        refused(set_environment(r.scene, Environment{.name = "sky", .scale = light}), "the environment: a scale");
+        refused(modify(r.scene, Id<Light>{1}, "", [&](Light& l) { l.cone_angle = bad; }), "spot");
+    }
+    for (const double bad : {double(not_a_number), double(inf), 1e300}) {
+        camera([&](Camera& c) { c.camera_to_world[3][0] = bad; }, "transform");
+        refused(modify(r.scene, r.chair, "", [&](Instance& i) { i.object_to_world[3][2] = bad; }), "transform");
+        refused(modify(r.scene, Id<Light>{1}, "", [&](Light& l) { l.light_to_world[3][1] = bad; }), "transform");
+    }
+    refused(set_param(r.scene, r.oak, "x", Value::number(not_a_number)), "not a finite number");
+    refused(insert(r.scene, Mesh{.name = "m", .data = std::make_shared<MeshData>()}, ""), "has no triangles");
+    refused(insert(r.scene, Image{.name = "i", .data = std::make_shared<PixelData>()}, ""), "channels");
+
+    // What a file brought along may be moved and renamed, made good, but not worse.
+    apply(r.scene, *set_emission(r.scene, r.lamp, Emission{{1, 1, -0.01f}, false}));
+    CHECK(check_edit(*set_transform(r.scene, r.lamp, glm::dmat4(1))));
+    CHECK(check_edit(*set_emission(r.scene, r.lamp, Emission{{1, 1, 0}, false})));
+    refused(set_emission(r.scene, r.lamp, Emission{{1, 1, inf}, false}), "emission");
+    CHECK(check_edit(*modify(r.scene, r.camera, "", [](Camera& c) { c.fov = 179; })));
 }

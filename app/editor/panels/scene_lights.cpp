@@ -60,8 +60,10 @@ void add_light(Editor& e, RestageLightKind kind) {
         session::Session& session = e.session_for_changes();
         const auto id = session.scene().lights.next();
         const std::string label = "Add " + light.name;
-        session.edit(scene::insert(session.scene(), std::move(light), label));
-        e.selection.set_light(id);
+        if (auto made = session.edit(scene::insert(session.scene(), std::move(light), label)); !made)
+            e.notices.add(LogLevel::error, made.error().message);
+        else
+            e.selection.set_light(id);
     });
 }
 
@@ -95,9 +97,11 @@ void add_area_light(Editor& e) {
                                                            .material = material,
                                                            .object_to_world = to_world,
                                                            .emission = scene::Emission{.radiance = glm::vec3(15)}}});
-        session.edit(std::move(edit));
         const InstanceId ids[] = {id};
-        e.selection.set(ids);
+        if (auto made = session.edit(std::move(edit)); !made)
+            e.notices.add(LogLevel::error, made.error().message);
+        else
+            e.selection.set(ids);
     });
 }
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Importers: any file is answered, not crashed on; a file of its own is read the same twice, and whoever asks it to
+// stop is heard. Good files to begin with are those in the plugin's folder that have one of its extensions.
+#include "check/steps.hpp"
+#include "check/workplace.hpp"
+
+#include "base/file.hpp"
+#include "io/import.hpp"
+#include "session/project.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace restage::check {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> extensions_of(const char* list) {
+    std::vector<std::string> all;
+    std::string rest = list ? list : "";
+    for (std::size_t bar; (bar = rest.find('|')) != std::string::npos; rest.erase(0, bar + 1))
+        all.push_back(rest.substr(0, bar));
+    all.push_back(rest);
+    return all;
+}
+
+// The smallest few, in order of their names.
+std::vector<fs::path> samples(const fs::path& folder, const std::vector<std::string>& extensions) {
+    std::vector<fs::path> found;
+    std::error_code code;
+    const auto links = fs::directory_options::follow_directory_symlink; // build trees link to the sources
+    for (fs::recursive_directory_iterator it(folder, links, code), end; !code && it != end; it.increment(code)) {
+        if (it.depth() >= 3) it.disable_recursion_pending();
+        std::error_code ignored;
+        std::string extension = it->path().extension().string();
+        if (!extension.empty()) extension.erase(0, 1);
+        if (it->is_regular_file(ignored) && it->file_size(ignored) <= 1 << 20 &&
+            std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+            found.push_back(it->path());
+    }
+    std::sort(found.begin(), found.end());
+    found.resize(std::min<std::size_t>(found.size(), 4));
+    return found;
+}
+
+// Everything of it, as the text of a project without a base.
+std::string all_of(const io::ImportedScene& imported) {
+    const session::Base base;
+    const session::DataSources sources;
+    std::string text = session::project_text({.base = base, .scene = imported.scene, .sources = sources}, {});
+    for (const auto& line : imported.report.entries)
+        text += io::to_string(line) + "\n";
+    return text;
+}
+
+struct Loading {
+    Subject& s;
+    io::ImportOptions options;
+    std::size_t loads = 0, accepted = 0;
+
+    explicit Loading(Subject& subject) : s(subject) {
+        options.format = s.importer->format;
+        options.read_images = false;
+    }
+    // A sentence where the contract is broken, else "".
+    std::string load(const fs::path& file, const std::string& what) {
+        s.doing("load() of " + what);
+        ++loads;
+        const auto loaded = io::import_scene(file.string(), s.registry(), options);
+        s.alive();
+        accepted += loaded.has_value();
+        if (!loaded && loaded.error().message.ends_with("gave up and did not say why"))
+            return "load() of " + what + " returns 0, and error() was not called";
+        return "";
+    }
+};
+
+} // namespace
+
+Result<StepResult> check_probe(Subject& s) {
+    const RestageImporter1& importer = *s.importer;
+    const std::string extension = extensions_of(importer.extensions)[0];
+    Engine e = s.random("importer");
+    std::size_t probed = 0;
+    for (std::size_t i = 0; i < 200; ++i) {
+        const std::string bytes = noise(e, i), name = "/nowhere/noise." + extension;
+        s.doing(fmt::format("probe() of {} bytes of noise", bytes.size()));
+        const int answer = importer.probe(name.c_str(), bytes.data(), bytes.size());
+        if (answer < 0 || answer > 100)
+            return StepResult::failed(
+                fmt::format("probe() of {} bytes of noise answers {}, which is not in 0..100", bytes.size(), answer));
+        probed += answer > 0;
+        s.alive();
+    }
+    return StepResult::passed({{"files of noise", 200}, {"taken for its own", static_cast<double>(probed)}});
+}
+
+Result<StepResult> check_read(Subject& s) {
+    const TemporaryFolder folder;
+    const auto extensions = extensions_of(s.importer->extensions);
+    const auto good = samples(s.folder, extensions);
+    Engine e = s.random("read");
+    Loading loading(s);
+    const std::size_t open_before = open_files();
+    std::string problem;
+    // What its own files begin with, so that noise gets past the first lines.
+    std::vector<std::string> heads{""};
+    for (const fs::path& file : good) {
+        RESTAGE_TRY(std::string text, read_file(file));
+        s.doing("load() of its " + file.filename().string());
+        const auto first = io::import_scene(file.string(), s.registry(), loading.options);
+        if (!first)
+            return StepResult::failed("its own " + file.filename().string() + " is not read: " + first.error().message);
+        s.doing("load() of its " + file.filename().string() + " for the second time");
+        const auto second = io::import_scene(file.string(), s.registry(), loading.options);
+        if (!second || all_of(*first) != all_of(*second))
+            return StepResult::failed("reading " + file.filename().string() + " twice gives two different scenes");
+        heads.push_back(text.substr(0, 64));
+        // Beside the good one's neighbours, which it may refer to.
+        const fs::path place = folder.path / fmt::format("sample {}", heads.size());
+        std::error_code code;
+        fs::copy(file.parent_path(), place, fs::copy_options::recursive, code);
+        fs::create_directories(place, code);
+        for (std::size_t k = 0; k < s.size(160, 48); ++k) {
+            const fs::path bad = place / ("broken" + file.extension().string());
+            RESTAGE_CHECK(write_file_atomic(bad, broken_version(e, text, k)));
+            problem = loading.load(bad, fmt::format("a broken version ({}) of its {}", k, file.filename().string()));
+            if (!problem.empty()) return StepResult::failed(problem);
+        }
+    }
+    for (std::size_t k = 0; k < s.size(200, 60); ++k) {
+        const fs::path file = folder.path / ("noise." + extensions[k % extensions.size()]);
+        const std::string bytes = noise(e, k / 2, heads[k % heads.size()]);
+        RESTAGE_CHECK(write_file_atomic(file, bytes));
+        problem = loading.load(file, fmt::format("{} bytes of noise", bytes.size()));
+        if (!problem.empty()) return StepResult::failed(problem);
+    }
+    const std::size_t open_after = open_files();
+    if (open_after > open_before + 2)
+        return StepResult::failed(fmt::format("{} of {} files were left open", open_after - open_before, loading.loads));
+    std::vector<Figure> figures = {{"own files", double(good.size())},
+                                   {"broken files and noise", double(loading.loads)},
+                                   {"taken", double(loading.accepted)}};
+    return StepResult::passed(
+        figures, good.empty() ? "there is no file with its extension in its folder: put a small one into samples/, and "
+                                "it is read twice, cut short and changed here"
+                              : "");
+}
+
+Result<StepResult> check_read_stop(Subject& s) {
+    const auto good = samples(s.folder, extensions_of(s.importer->extensions));
+    if (good.empty()) return StepResult::skip("there is no file with its extension in its folder");
+    constexpr std::size_t patience = 100; // calls after the first "stop"
+    std::size_t calls_in_all = 0, stops = 0;
+    for (const fs::path& file : good) {
+        std::size_t calls = 0, stop_at = ~std::size_t{0};
+        io::ImportOptions options;
+        options.format = s.importer->format;
+        options.read_images = false;
+        options.progress = [&](float, std::string_view) { return ++calls < stop_at; };
+        const std::string name = file.filename().string();
+        s.doing("load() of its " + name);
+        RESTAGE_CHECK(io::import_scene(file.string(), s.registry(), options));
+        const std::size_t all = calls;
+        calls_in_all += all;
+        for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / s.size(64, 16), 1)) {
+            calls = 0, stop_at = k, ++stops;
+            s.doing(fmt::format("load() of its {}, stopped at call {} of progress()", name, k));
+            const auto loaded = io::import_scene(file.string(), s.registry(), options);
+            s.alive();
+            if (loaded) return StepResult::failed(fmt::format("{}: stopped at call {} of progress(), load() goes on "
+                                                              "and returns a scene", name, k));
+            if (calls > k + patience)
+                return StepResult::failed(fmt::format("{}: after progress() said stop, it was asked {} times more", name,
+                                                      calls - k));
+        }
+    }
+    return StepResult::passed({{"files", double(good.size())},
+                               {"calls of progress()", double(calls_in_all)},
+                               {"stopped", double(stops)}},
+                              calls_in_all == 0 ? "it never asks progress(): nobody can stop it" : "");
+}
+
+} // namespace restage::check

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`restage check` runs what a plugin promises in native code: load, save, run, draw and read, with anything."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))).resolve()
+BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
+
+GLSL = """#include "lib/sampling.glsl"
+vec3 broken_eval(broken_Params m, vec3 wo, vec3 wi) { return vec3(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.share : 0.0); }
+float broken_pdf(broken_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
+BsdfSample broken_sample(broken_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }
+vec3 broken_albedo(broken_Params m, vec3 wo) { return vec3(0.5); }
+"""
+
+
+def folder_of(folder, case):
+    kind = {"inspector": "material", "table": "material"}.get(case.split("_")[0], case.split("_")[0])
+    folder.mkdir(exist_ok=True)
+    shutil.copy(BROKEN / f"{case}.so", folder / "broken.so")
+    (folder / "samples").mkdir(exist_ok=True)
+    (folder / "samples/two.tri").write_text("#tri\n0 0 1\n1 2 0.5\n\n-1 0.25 3\n")
+    (folder / "broken.glsl").write_text(GLSL)
+    (folder / "plugin.json").write_text(json.dumps({
+        "id": "org.example.broken", "kind": kind, "version": "1.0.0", "abi": 1, "licence": "MIT", "library": "broken",
+        "files": ["broken.glsl"] if kind == "material" else []}))
+    return folder
+
+
+def steps_of(folder, *args):
+    done = subprocess.run([RESTAGE, "check", folder, "--quick", "--json", "-", *map(str, args)], capture_output=True,
+                          text=True, timeout=120)
+    assert done.stdout, done.stderr
+    return done.returncode, {s["step"]: s for s in json.loads(done.stdout)[0]["steps"]}
+
+
+@pytest.mark.parametrize("case", ["importer_sound", "exporter_sound", "denoiser_sound"])
+def test_a_sound_one_passes(case, tmp_path):
+    code, steps = steps_of(folder_of(tmp_path / "plugin", case))
+    assert code == 0 and all(s["verdict"] == "pass" for s in steps.values()), steps
+    assert len(steps) >= 4
+
+
+@pytest.mark.parametrize("step", ["inspector", "tables"])
+def test_a_sound_inspector_and_reader_pass(step, tmp_path):
+    code, steps = steps_of(folder_of(tmp_path / "plugin", "inspector_sound"), "--only", step)
+    assert code == 0 and steps[step]["verdict"] == "pass", steps
+
+
+@pytest.mark.parametrize("case, step, says", [
+    ("importer_crashes", "read", ["crashed: SIGSEGV", "load() of its two.tri", "a bug in load()"]),
+    ("importer_silent", "read", ["returns 0, and error() was not called"]),
+    ("importer_leaks", "read", ["files were left open"]),
+    ("importer_varies", "read", ["two.tri twice gives two different scenes"]),
+    ("exporter_crashes", "write", ["crashed: SIGSEGV", "save() of a scene with something of everything", "a bug in save()"]),
+    ("exporter_varies", "write", ["saving twice gives different bytes, first in scene.names"]),
+    ("denoiser_size", "sizes", ["1x1 pixels with guides: refused: only 96x64"]),
+    ("denoiser_nan", "robust", ["nan in some pixels"]),
+    ("denoiser_guides", "denoise", ["crashed: SIGSEGV", "no guides", "a bug in run()"]),
+    ("denoiser_overruns", "denoise", ["writes behind the end of its output"]),
+    ("inspector_range", "inspector", ["set() of \"share\" to 2, which is out of its range"]),
+    ("inspector_crashes", "inspector", ["crashed: SIGSEGV", "draw() number", "a bug in draw()"]),
+    ("inspector_group", "inspector", ["a group that is open"]),
+    ("table_crashes", "tables", ["crashed: SIGSEGV", "read() of noise", "a bug in read()"]),
+])
+def test_what_breaks_a_promise_is_found(case, step, says, tmp_path):
+    code, steps = steps_of(folder_of(tmp_path / "plugin", case), "--only", step)
+    assert code == 1 and steps[step]["verdict"] == "fail", steps
+    for words in says:
+        assert words in steps[step]["text"] + "\n" + steps[step]["cause"]
+
+
+def test_a_draw_that_does_not_return_is_ended(tmp_path):
+    code, steps = steps_of(folder_of(tmp_path / "plugin", "inspector_hangs"), "--only", "inspector", "--time-limit", 2)
+    assert code == 1 and "no answer from the plugin within 2 s" in steps["inspector"]["text"]
+    assert steps["inspector"]["cause"] == "draw() does not return"
+
+
+def test_a_crash_in_one_step_leaves_the_others_to_be_checked(tmp_path):
+    code, steps = steps_of(folder_of(tmp_path / "plugin", "importer_crashes"))
+    assert code == 1
+    assert {name: s["verdict"] for name, s in steps.items()} == {
+        "manifest": "pass", "load": "pass", "reload": "pass", "probe": "pass", "read": "fail", "stop": "fail"}
+
+
+def test_without_a_vulkan_driver_it_is_not_the_plugin_that_fails(tmp_path):
+    done = subprocess.run([RESTAGE, "check", "diffuse", "--quick", "--only", "sound", "--json", "-"], capture_output=True,
+                          text=True, timeout=120, env={**os.environ, "VK_DRIVER_FILES": str(tmp_path / "none.json"),
+                                                       "VK_ICD_FILENAMES": str(tmp_path / "none.json")})
+    (report,) = json.loads(done.stdout)
+    assert done.returncode == 1 and report["verdict"] == "fail" and report["unable"]
+    assert [s["verdict"] for s in report["steps"] if s["step"] == "sound"] == ["skipped"]
+    assert "this machine cannot run it" in done.stderr
