@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "actions.hpp"
 
+#include "copy_paste.hpp"
 #include "editor.hpp"
 #include "final_render.hpp"
 #include "io/material_emission.hpp"
 #include "panels/outliner.hpp"
 #include "saving.hpp"
+#include "scene/edits_light.hpp"
 #include "session/navigation.hpp"
 #include "session/support.hpp"
 #include "session/touching.hpp"
 
+#include <fmt/format.h>
 #include <imgui_internal.h>
 #include <algorithm>
 #include <array>
@@ -33,17 +36,16 @@ void remove_selected(Editor& e) {
 }
 
 void duplicate_selected(Editor& e) {
-    // A little to the side, so that the copy is seen: a tenth of its size along the world axis that is most across the
-    // view.
-    const scene::Bounds bounds = e.selection.bounds(e.scene());
-    const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
-    int axis = 0;
-    for (int i = 1; i < 3; ++i)
-        if (std::abs(right[i]) > std::abs(right[axis])) axis = i;
-    glm::dvec3 step(0);
-    step[axis] =
-        (right[axis] < 0 ? -1 : 1) * (bounds.empty() ? 0 : std::max(bounds.size()[axis] * 1.05, bounds.radius() * 0.1));
-    auto made = e.session_for_changes().duplicate(e.selection.instances(), glm::translate(glm::dmat4(1), step));
+    // A little to the side, so that the copy is seen.
+    const glm::dmat4 move = glm::translate(glm::dmat4(1), aside(e, e.selection.bounds(e.scene())));
+    session::Session& session = e.session_for_changes();
+    if (e.selection.light()) {
+        auto made = scene::duplicate_light(e.scene(), e.selection.light(), move);
+        if (!made) return e.notices.add(LogLevel::error, made.error().message);
+        session.edit(std::move(made->edit));
+        return e.selection.set_light(made->copy);
+    }
+    auto made = session.duplicate(e.selection.instances(), move);
     if (made)
         e.selection.set(*made);
     else
@@ -54,37 +56,46 @@ void frame_bounds(Editor& e, const scene::Bounds& bounds) {
     if (bounds.empty()) return;
     scene::Camera camera = e.camera();
     session::frame(camera, bounds, e.film_aspect());
-    e.edit([camera](const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, camera, "Frame"); });
-}
-
-void go_to(Editor& e, const scene::Camera& camera, const std::string& label) {
-    scene::Camera there = camera;
-    there.name = e.camera().name;
-    there.origin = e.camera().origin;
-    e.edit([there, label](const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, there, label); });
+    e.look_from(camera.camera_to_world, {}, "Frame");
 }
 
 // A bookmark is a camera of the scene that is not the active one: saved, undone and exported like anything else.
 void bookmark(Editor& e) {
     e.edit([camera = e.camera()](const scene::Scene& s) -> Result<scene::Edit> {
         scene::Camera copy = camera;
-        copy.name = "View " + std::to_string(s.cameras.live());
+        std::set<std::string> taken;
+        s.cameras.each([&](auto, const scene::Camera& c) { taken.insert(c.name); });
+        copy.name = taken.contains("View 1") ? scene::next_name("View 1", taken) : "View 1";
         copy.origin = {};
         return scene::insert(s, copy, "Bookmark " + copy.name);
     });
 }
 
-// The next bookmark after the one the view is at.
+// The next bookmark after the one the view is at. Only its place is taken: lens and field of view are the camera's.
 void next_bookmark(Editor& e) {
-    std::vector<scene::Camera> views;
+    std::vector<const scene::Camera*> places;
     std::size_t at = 0;
     e.scene().cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& camera) {
         if (id == e.camera_id()) return;
-        if (camera.camera_to_world == e.camera().camera_to_world) at = views.size() + 1;
-        views.push_back(camera);
+        if (camera.camera_to_world == e.camera().camera_to_world) at = places.size() + 1;
+        places.push_back(&camera);
     });
-    if (!views.empty()) go_to(e, views[at % views.size()], "Go to " + views[at % views.size()].name);
+    if (places.empty()) return;
+    const scene::Camera& to = *places[at % places.size()];
+    e.look_from(to.camera_to_world, {}, "Go to bookmark");
 }
+
+void set_camera_to_view(Editor& e) {
+    e.edit([place = e.camera().camera_to_world](const scene::Scene& s) {
+        const scene::Camera* camera = s.cameras.find(s.active_camera.value);
+        if (!camera) return Result<scene::Edit>(fail("the scene has no camera"));
+        scene::Camera moved = *camera;
+        moved.camera_to_world = place;
+        return scene::set_camera(s, s.active_camera.value, moved, "Set camera to view");
+    });
+}
+
+bool view_is_apart(const Editor& e) { return e.views.now().has_value(); }
 
 void drop_to_floor(Editor& e) {
     const auto ids = e.selection.instances();
@@ -191,7 +202,11 @@ constexpr auto actions = std::to_array<Action>({
      [](const Editor& e) { return e.session().history().position() < e.session().history().size(); },
      [](Editor& e) { e.redo(); }},
     {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
-     "Copy the selected objects; copies share geometry and material", has_objects, duplicate_selected},
+     "A second one beside it; copies of objects share geometry and material", has_selection, duplicate_selected},
+    {"edit.copy", "Copy", ImGuiMod_Ctrl | ImGuiKey_C, 0,
+     "Objects or a light into the clipboard, for this or another window of Restage", has_selection, copy_selected},
+    {"edit.paste", "Paste", ImGuiMod_Ctrl | ImGuiKey_V, 0,
+     "What was copied, here or in another window; a material goes to what is selected", has_scene, paste},
     {"edit.delete", "Delete", ImGuiKey_Delete, ImGuiKey_X, "Remove what is selected", has_selection, remove_selected},
     {"edit.group", "Group", ImGuiMod_Ctrl | ImGuiKey_G, 0, "From now on a click picks all of what is selected now",
      has_objects, group_selected},
@@ -232,19 +247,33 @@ constexpr auto actions = std::to_array<Action>({
     {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is seen", has_scene,
      [](Editor& e) { frame_bounds(e, scene::world_bounds(e.scene())); }},
     {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0,
-     "Back to where the camera was when opened", [](const Editor& e) { return e.opened_camera() != nullptr; },
-     [](Editor& e) { go_to(e, *e.opened_camera(), "Camera of the file"); }},
+     "To where the camera was when opened", [](const Editor& e) { return e.opened_camera() != nullptr; },
+     [](Editor& e) { e.look_from(e.opened_camera()->camera_to_world, {}, "Camera of the file"); }},
+    {"view.back", "Back", ImGuiKey_LeftBracket, 0, "To where you looked from before; no undo of anything",
+     [](const Editor& e) { return e.views.can_back(); }, [](Editor& e) { e.views.back(); }},
+    {"view.forward", "Forward", ImGuiKey_RightBracket, 0, "To where you looked from after that",
+     [](const Editor& e) { return e.views.can_forward(); }, [](Editor& e) { e.views.forward(); }},
+    {"view.camera", "Look through the camera", ImGuiMod_Ctrl | ImGuiKey_Home, 0,
+     "To the scene's camera, which looking around leaves where it is", view_is_apart,
+     [](Editor& e) { e.views.go(std::nullopt); }},
+    {"view.set_camera", "Set camera to view", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Home, 0,
+     "The scene's camera comes here: what is exported, and rendered by others, is seen from it", view_is_apart,
+     set_camera_to_view},
+    {"view.lock_camera", "Lock camera", 0, 0,
+     "Looking around leaves the scene's camera where it is. Off: the camera goes along, and each move can be undone",
+     nullptr, [](Editor& e) { e.view.camera_locked = !e.view.camera_locked; },
+     [](const Editor& e) { return e.view.camera_locked; }},
     {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene,
      bookmark},
     {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next view that was kept",
      [](const Editor& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
     {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
      is_gizmo<GizmoMode::select>},
-    {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G, "Handles that move; Ctrl snaps, Alt copies", nullptr,
+    {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G, "Handles that move. Shift: a copy, Ctrl: in steps, Alt: up and down", nullptr,
      set_gizmo<GizmoMode::move>, is_gizmo<GizmoMode::move>},
-    {"view.gizmo_rotate", "Rotate tool", ImGuiKey_E, ImGuiKey_R, "Handles that turn; Ctrl snaps", nullptr,
+    {"view.gizmo_rotate", "Rotate tool", ImGuiKey_E, ImGuiKey_R, "Handles that turn. Shift: a copy, Ctrl: in steps", nullptr,
      set_gizmo<GizmoMode::rotate>, is_gizmo<GizmoMode::rotate>},
-    {"view.gizmo_scale", "Scale tool", ImGuiKey_R, ImGuiKey_S, "Handles that stretch; Ctrl snaps", nullptr,
+    {"view.gizmo_scale", "Scale tool", ImGuiKey_R, ImGuiKey_S, "Handles that stretch. Shift: a copy, Ctrl: in steps", nullptr,
      set_gizmo<GizmoMode::scale>, is_gizmo<GizmoMode::scale>},
     {"view.local", "Local axes", ImGuiKey_L, 0, "Handles along the object's own axes instead of the world's", nullptr,
      [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const Editor& e) { return e.view.local_axes; }},
@@ -258,6 +287,8 @@ constexpr auto actions = std::to_array<Action>({
      [](const Editor& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
      [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const Editor& e) { return e.view.show_panels; }},
+    {"view.reset_layout", "Reset layout", 0, 0, "Every panel where it was at the first start", nullptr,
+     [](Editor& e) { e.reset_layout(); }},
     {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0,
      "Every shortcut, and how to get around", nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
      [](const Editor& e) { return e.panel_open("Help"); }},
@@ -276,10 +307,47 @@ ImGuiKeyChord key_of(const Action& action, KeyPreset preset) {
     return preset == KeyPreset::blender && action.blender_key ? action.blender_key : action.key;
 }
 
-std::string_view key_text(ImGuiKeyChord key) { return key ? ImGui::GetKeyChordName(key) : ""; }
+std::string key_text(ImGuiKeyChord key) {
+    if (!key) return "";
+    if (key == (ImGuiMod_Shift | ImGuiKey_Slash)) return "?"; // what it types
+    std::string text = ImGui::GetKeyChordName(key);
+    // Keys that have a sign are called by it.
+    static constexpr std::pair<std::string_view, std::string_view> signs[] = {
+        {"LeftBracket", "["},   {"RightBracket", "]"}, {"Slash", "/"},       {"Comma", ","},
+        {"Period", "."},        {"Minus", "-"},        {"Equal", "="},       {"KeypadDecimal", "Keypad ."},
+        {"LeftArrow", "Left"},  {"RightArrow", "Right"}, {"UpArrow", "Up"},  {"DownArrow", "Down"}};
+    for (const auto& [name, sign] : signs)
+        if (text.ends_with(name)) return text.replace(text.size() - name.size(), name.size(), sign);
+    return text;
+}
+
+std::string label_of(const Editor& e, const Action& action) {
+    const std::string_view id = action.id;
+    const scene::History& history = e.session().history();
+    const std::string_view step = id == "edit.undo"   ? history.undo_label()
+                                  : id == "edit.redo" ? history.redo_label()
+                                                      : std::string_view();
+    if (step.empty()) return action.label;
+    constexpr std::size_t most = 48; // bytes
+    std::string text = fmt::format("{} {}", action.label, step.substr(0, most));
+    if (step.size() > most) {
+        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) // not within a character
+            text.pop_back();
+        if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80)) text.pop_back();
+        text += "...";
+    }
+    return text;
+}
 
 void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
     const ImGuiIO& io = ImGui::GetIO();
+    const auto pressed = [&](ImGuiKeyChord key) {
+        return keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key);
+    };
+    if (editor.viewport.dragging(editor)) { // an undo would pull what is dragged from under the mouse
+        if (pressed(ImGuiKey_Escape)) editor.viewport.cancel(editor);
+        return;
+    }
     // While text is typed, a dialog is open, or the camera flies on WASD, keys mean something else.
     const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     // Dear ImGui closes menus and lists with Esc only where it also navigates by keys. Dialogs do it themselves.
@@ -287,20 +355,24 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         !ImGui::GetTopMostPopupModal())
         ImGui::ClosePopupToLevel(0, true);
     if (io.WantTextInput || popup || ImGui::IsMouseDown(ImGuiMouseButton_Right)) return;
-    for (const Action& action : actions) {
-        const ImGuiKeyChord key = key_of(action, editor.view.keys);
-        if (key == ImGuiKey_Escape && editor.pick_tool) continue; // gives up that, not the selection
-        if (key && (keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key)))
-            editor.run(action.id);
-    }
+    const auto run = [&](auto&& wanted) {
+        for (const Action& action : actions) {
+            const ImGuiKeyChord key = key_of(action, editor.view.keys);
+            if (key == ImGuiKey_Escape && editor.pick_tool) continue; // gives up that, not the selection
+            if (key && wanted(key)) editor.run(action.id);
+        }
+    };
+    if (!keys) return run(pressed);
+    for (const ImGuiKeyChord one : *keys) // each, in order: a slow frame holds several of a kind
+        run([&](ImGuiKeyChord key) { return key == one; });
 }
 
 void menu_item(Editor& editor, std::string_view id) {
     const Action* action = find_action(id);
     if (!action) return;
     const bool enabled = !action->enabled || action->enabled(editor);
-    const std::string key(key_text(key_of(*action, editor.view.keys)));
-    if (ImGui::MenuItem(action->label, key.c_str(), action->checked && action->checked(editor), enabled))
+    const std::string key = key_text(key_of(*action, editor.view.keys));
+    if (ImGui::MenuItem((label_of(editor, *action) + "###" + action->id).c_str(), key.c_str(), action->checked && action->checked(editor), enabled))
         editor.run(id);
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
         ImGui::SetTooltip("%s", action->tooltip);
@@ -319,7 +391,7 @@ bool action_button(Editor& editor, std::string_view id, const char* label) {
     ImGui::EndDisabled();
     editor.mark(action->id);
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled)) {
-        const std::string key(key_text(key_of(*action, editor.view.keys)));
+        const std::string key = key_text(key_of(*action, editor.view.keys));
         ImGui::SetTooltip("%s%s%s%s\n%s", action->label, key.empty() ? "" : " (", key.c_str(), key.empty() ? "" : ")",
                           action->tooltip);
     }

@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct Action {
 std::span<const Action> all_actions();
 const Action* find_action(std::string_view id);
 ImGuiKeyChord key_of(const Action& action, KeyPreset preset);
-std::string_view key_text(ImGuiKeyChord key); // "Ctrl+Z"; "" = none. Valid until the next call
+std::string key_text(ImGuiKeyChord key); // "Ctrl+Z", "?"; "" = none
+std::string label_of(const Editor& editor, const Action& action); // with what it would undo: "Undo Move chair"
 
 // Runs what keys ask for, once a frame; while text is typed or a dialog is open they are left alone. `keys`: see
 // Editor::frame.

@@ -58,6 +58,29 @@ bool kind_of_file(const fs::path& file, AssetKind& kind) {
     return true;
 }
 
+bool plausible_sky(const fs::path& file, std::uint32_t width, std::uint32_t height) {
+    const auto lower = [](std::string text) {
+        std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+        return text;
+    };
+    const std::string extension = lower(file.extension().string()), stem = lower(file.stem().string());
+    const auto says = [&](const std::string& where, std::initializer_list<const char*> words) {
+        return std::any_of(words.begin(), words.end(), [&](const char* w) { return where.find(w) != where.npos; });
+    };
+    // What renderers call maps of surfaces, behind a separator: "brick_bump", "Brick-NormalGL".
+    for (const char* map : {"bump", "normal", "nrm", "disp", "displacement", "height", "rough", "roughness", "metal",
+                            "spec", "alpha", "mask", "opacity", "ao"})
+        for (const char* before : {"_", "-", ".", " "})
+            if (stem == map || says(stem, {(std::string(before) + map).c_str()})) return false;
+    const bool wide_range = extension == ".hdr" || extension == ".exr" || extension == ".pfm";
+    const bool named = says(stem + " " + lower(file.parent_path().filename().string()),
+                            {"sky", "skies", "hdri", "env", "pano", "equirect", "studio", "infinite"});
+    if (width == 0 || height == 0) return wide_range || named;
+    const double aspect = double(width) / height;
+    if (aspect > 1.9 && aspect < 2.1) return wide_range || named || width >= 2048;
+    return width == height && wide_range && named;
+}
+
 std::vector<Asset> assets_in(const fs::path& folder) {
     std::vector<Asset> found;
     std::error_code error;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Editor::drop and what becomes of an inserted file: things arrive where the mouse is.
+#include "drop.hpp"
+
 #include "editor.hpp"
 #include "files.hpp"
 #include "io/image_file.hpp"
@@ -8,9 +10,11 @@
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 #include "session/sky.hpp"
+#include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <iterator>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace restage::editor {
@@ -30,10 +34,36 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
     return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
 }
 
-Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, InstanceId on,
-                                 const fs::path& path, const std::shared_ptr<const scene::PixelData>& pixels) {
-    const scene::Instance* instance = s.instances.find(on);
-    const scene::Material* material = instance ? s.materials.find(instance->material) : nullptr;
+constexpr std::initializer_list<const char*> picture_files = {"png", "jpg", "jpeg", "tga", "bmp", "webp",
+                                                              "hdr", "exr", "pfm"};
+
+// The object a file let go there is for; asked of the scene, not of the picture, which may be of another moment.
+InstanceId target_at(const Editor& e, glm::dvec2 film) {
+    if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
+    const session::ViewRay ray = session::view_ray(e.camera(), film, e.film_aspect());
+    const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+    return hits.empty() ? InstanceId{} : hits[0].instance;
+}
+
+const scene::Material* material_of(const Editor& e, InstanceId id) {
+    const scene::Instance* instance = e.scene().instances.find(id);
+    return instance ? e.scene().materials.find(instance->material) : nullptr;
+}
+
+std::size_t users_of(const scene::Scene& s, scene::Id<scene::Material> id) {
+    std::size_t count = 0;
+    s.instances.each([&](InstanceId, const scene::Instance& i) { count += i.material == id; });
+    return count;
+}
+
+bool becomes_sky(const std::string& extension, InstanceId on) {
+    return !on || is_one_of(extension, {"hdr", "exr", "pfm"});
+}
+
+Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry,
+                                 scene::Id<scene::Material> id, const fs::path& path,
+                                 const std::shared_ptr<const scene::PixelData>& pixels) {
+    const scene::Material* material = s.materials.find(id);
     if (!material) return fail("There is no material for the image to go on");
     const auto plugin = registry.find_material(material->type);
     if (!plugin)
@@ -48,7 +78,7 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
     if (slot == end)
         return fail(fmt::format("material \"{}\": a {} has no colour an image could stand for", material->name,
                                 material->type));
-    RESTAGE_TRY(scene::Edit edit, scene::set_image_texture(s, instance->material, slot->id, RESTAGE_COLOR, false,
+    RESTAGE_TRY(scene::Edit edit, scene::set_image_texture(s, id, slot->id, RESTAGE_COLOR, false,
                                                            scene::Image{.name = path.stem().string(),
                                                                         .path = path.string(),
                                                                         .encoding = RESTAGE_SRGB,
@@ -58,41 +88,60 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
 }
 
 // A file that the material there looks up.
-bool drop_table(Editor& e, const fs::path& path, const std::string& extension, InstanceId on) {
-    const scene::Instance* instance = e.scene().instances.find(on);
-    const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
+bool takes_table(const Editor& e, const std::string& extension, InstanceId on) {
+    const scene::Material* material = material_of(e, on);
     const auto plugin = material ? e.registry().find_material(material->type) : std::nullopt;
     const auto reader = plugin ? plugin->source->table_reader() : nullptr;
-    if (!reader || std::ranges::find(reader->extensions(), extension) == reader->extensions().end()) return false;
-    const RestageParam* begin = plugin->table->params;
-    const RestageParam* line = std::find_if(begin, begin + plugin->table->param_count,
-                                            [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
-    e.edit([id = instance->material, param = std::string(line->id), file = path.string()](const scene::Scene& s) {
-        return scene::set_param(s, id, param, scene::Value::table(file));
+    return reader && std::ranges::find(reader->extensions(), extension) != reader->extensions().end();
+}
+
+void drop_table(Editor& e, const fs::path& path, InstanceId on) {
+    ask_scope(e, {on}, path.filename().string(), [path](Editor& editor, const MaterialScope& scope) {
+        editor.edit([scope, file = path.string(), &registry = editor.registry()](const scene::Scene& s) {
+            return edit_in_scope(
+                s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
+                    const auto plugin = registry.find_material(now.materials[id].type);
+                    if (!plugin) return fail("the material's plugin is not there any more");
+                    const RestageParam* begin = plugin->table->params;
+                    const RestageParam* line = std::find_if(begin, begin + plugin->table->param_count,
+                                                            [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
+                    return scene::set_param(now, id, line->id, scene::Value::table(file));
+                });
+        });
     });
-    return true;
+}
+
+// Reads it on a thread, then calls `with` on the main one.
+void with_image(Editor& e, const fs::path& path,
+                std::function<void(Editor&, std::shared_ptr<const scene::PixelData>)> with) {
+    e.files().jobs.start({.title = "Reading " + path.filename().string()},
+                         [path, with = std::move(with)](BackgroundJob&) -> std::function<void(Editor&)> {
+                             auto pixels = io::read_image(path.string(), RESTAGE_SRGB);
+                             if (!pixels)
+                                 return [message = pixels.error().message](Editor& editor) {
+                                     editor.notices.add(LogLevel::error, message);
+                                 };
+                             return [with, data = std::make_shared<const scene::PixelData>(std::move(*pixels))](
+                                        Editor& editor) { with(editor, data); };
+                         });
 }
 
 void drop_image(Editor& e, const fs::path& path, InstanceId on) {
-    const std::string extension = extension_of(path);
-    const bool sky = !on || is_one_of(extension, {"hdr", "exr", "pfm"});
-    e.files().jobs.start(
-        {.title = "Reading " + path.filename().string()},
-        [path, sky, on](BackgroundJob&) -> std::function<void(Editor&)> {
-            auto pixels = io::read_image(path.string(), RESTAGE_SRGB);
-            if (!pixels)
-                return [message = pixels.error().message](Editor& editor) {
-                    editor.notices.add(LogLevel::error, message);
-                };
-            return
-                [path, sky, on, data = std::make_shared<const scene::PixelData>(std::move(*pixels))](Editor& editor) {
-                    editor.edit(
-                        [path, sky, on, data, up = editor.up(), &registry = editor.registry()](const scene::Scene& s) {
-                            return sky ? Result<scene::Edit>(session::image_sky(s, path.string(), data, up))
-                                       : make_texture(s, registry, on, path, data);
-                        });
-                };
+    if (becomes_sky(extension_of(path), on))
+        return with_image(e, path, [path](Editor& editor, std::shared_ptr<const scene::PixelData> data) {
+            editor.edit([path, data = std::move(data), up = editor.up()](const scene::Scene& s) {
+                return Result<scene::Edit>(session::image_sky(s, path.string(), data, up));
+            });
         });
+    ask_scope(e, {on}, path.filename().string(), [path](Editor& editor, const MaterialScope& scope) {
+        with_image(editor, path, [path, scope](Editor& ed, std::shared_ptr<const scene::PixelData> data) {
+            ed.edit([path, scope, data = std::move(data), &registry = ed.registry()](const scene::Scene& s) {
+                return edit_in_scope(s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) {
+                    return make_texture(now, registry, id, path, data);
+                });
+            });
+        });
+    });
 }
 
 } // namespace
@@ -100,20 +149,15 @@ void drop_image(Editor& e, const fs::path& path, InstanceId on) {
 void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     const glm::dvec2 film = viewport.film_point(screen);
     const bool over = film.x >= 0 && film.y >= 0 && film.x < 1 && film.y < 1;
-    InstanceId on; // asked of the scene, not of the picture, which may be of another moment
-    if (over && scene().instances.live() > 0) {
-        const session::ViewRay ray = session::view_ray(camera(), film, film_aspect());
-        if (const auto hits = session::raycast_all(scene(), ray.origin, ray.direction); !hits.empty())
-            on = hits[0].instance;
-    }
+    const InstanceId on = target_at(*this, film);
     for (const fs::path& given : paths) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
-        if (is_one_of(extension, {"png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr", "pfm"}))
+        if (is_one_of(extension, picture_files))
             drop_image(*this, path, on);
         // Files of objects join what is there; scenes, and anything when there is nothing yet, are opened.
-        else if (drop_table(*this, path, extension, on))
-            continue;
+        else if (takes_table(*this, extension, on))
+            drop_table(*this, path, on);
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
         else {
@@ -121,6 +165,86 @@ void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
             return; // there is room for one
         }
     }
+}
+
+void preview_drop(Editor& e, const fs::path& path, ImVec2 screen) {
+    const std::string extension = extension_of(path);
+    const InstanceId on = target_at(e, e.viewport.film_point(screen));
+    const bool picture = is_one_of(extension, picture_files), table = !picture && takes_table(e, extension, on);
+    std::string text;
+    if (picture && becomes_sky(extension, on)) {
+        text = "becomes the sky";
+    } else if (picture || table) {
+        e.drop_target = on;
+        const scene::Material* material = material_of(e, on);
+        const std::size_t users = material ? users_of(e.scene(), e.scene().instances[on].material) : 0;
+        text = !material  ? "there is no material for it"
+               : users > 1 ? fmt::format("onto \"{}\", the material of {} objects", material->name, users)
+                           : fmt::format("onto \"{}\", the material of {}", material->name,
+                                         e.scene().instances[on].name);
+    } else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && e.scene().instances.live() > 0) {
+        e.drop_target = on;
+        text = on ? "to stand on " + e.scene().instances[on].name : "into the scene";
+    } else {
+        text = "is opened";
+    }
+    if (ImGui::BeginTooltip()) { // beside the name of what is dragged
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::EndTooltip();
+    }
+    e.mark("drop.preview", screen);
+}
+
+void ask_scope(Editor& e, const std::vector<InstanceId>& objects, const std::string& what,
+               std::function<void(Editor&, const MaterialScope&)> then) {
+    const scene::Material* material = objects.empty() ? nullptr : material_of(e, objects.back());
+    const auto id = material ? e.scene().instances[objects.back()].material : scene::Id<scene::Material>{};
+    std::vector<InstanceId> mine; // those that have it
+    for (const InstanceId one : objects)
+        if (const scene::Instance* instance = e.scene().instances.find(one); instance && instance->material == id)
+            mine.push_back(one);
+    const std::size_t users = material ? users_of(e.scene(), id) : 0;
+    if (users <= mine.size()) return then(e, {.alone = false, .objects = mine});
+    const std::string these =
+        mine.size() == 1 ? "Only " + e.scene().instances[mine[0]].name : fmt::format("Only these {}", mine.size());
+    e.show_modal("Shared material",
+                 [text = fmt::format("{} goes onto the material \"{}\", which {} objects have.", what, material->name,
+                                     users),
+                  these, users, mine, then = std::move(then)](Editor& editor) {
+                     dialog_width(420);
+                     ImGui::TextWrapped("%s", text.c_str());
+                     ImGui::Spacing();
+                     bool stay = true;
+                     const auto choice = [&](const std::string& label, const char* mark, bool alone) {
+                         if (ImGui::Button((label + "###" + mark).c_str())) {
+                             editor.later([&editor, then, alone, mine] { then(editor, {alone, mine}); });
+                             stay = false;
+                         }
+                         editor.mark(mark);
+                     };
+                     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+                     choice(these, "scope.alone", true);
+                     choice(fmt::format("All {} objects", users), "scope.all", false);
+                     if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+                     editor.mark("scope.cancel");
+                     return stay;
+                 });
+}
+
+Result<scene::Edit> edit_in_scope(
+    const scene::Scene& s, const MaterialScope& scope,
+    const std::function<Result<scene::Edit>(const scene::Scene&, scene::Id<scene::Material>)>& build) {
+    const scene::Instance* instance = scope.objects.empty() ? nullptr : s.instances.find(scope.objects.back());
+    if (!instance || !s.materials.find(instance->material)) return fail("There is no material for it to go on");
+    if (!scope.alone) return build(s, instance->material);
+    RESTAGE_TRY(scene::MadeUnique unique, scene::make_unique(s, scope.objects, instance->material));
+    scene::Scene apart = s; // shares its data
+    scene::apply(apart, unique.edit);
+    RESTAGE_TRY(scene::Edit edit, build(apart, unique.material));
+    unique.edit.changes.insert(unique.edit.changes.end(), std::make_move_iterator(edit.changes.begin()),
+                               std::make_move_iterator(edit.changes.end()));
+    unique.edit.label = std::move(edit.label);
+    return std::move(unique.edit);
 }
 
 void Editor::place_inserted(const io::ImportedScene& imported) {

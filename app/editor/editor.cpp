@@ -3,6 +3,7 @@
 
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "layout.hpp"
 #include "panels/panels.hpp"
 #include "panels/state.hpp"
 #include "recovery_dialog.hpp"
@@ -31,11 +32,43 @@ Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
         panels_open_[panel.title] = panel.open;
     preferences = remembered_ = read_preferences(options_.config_dir);
     view.keys = preferences.keys;
+    view.snap_move = preferences.snap_move;
+    view.snap_angle = preferences.snap_angle;
+    view.snap_scale = preferences.snap_scale;
 }
 
 Editor::~Editor() = default;
 
 const scene::Camera& Editor::camera() const {
+    if (!views.now()) return scene_camera();
+    seen_from_ = scene_camera();
+    seen_from_.camera_to_world = *views.now();
+    return seen_from_;
+}
+
+void Editor::look_from(const glm::dmat4& camera_to_world, const std::string& gesture, const char* label) {
+    if (view.camera_locked) {
+        later([this, camera_to_world, gesture] { views.go(camera_to_world, gesture); });
+        return;
+    }
+    edit(
+        [camera_to_world, label](const scene::Scene& s) {
+            const scene::Camera* camera = s.cameras.find(s.active_camera.value);
+            if (!camera) return Result<scene::Edit>(fail("the scene has no camera"));
+            scene::Camera moved = *camera;
+            moved.camera_to_world = camera_to_world;
+            return scene::set_camera(s, s.active_camera.value, moved, label);
+        },
+        gesture);
+}
+
+void Editor::follow_camera() {
+    const glm::dmat4& now = scene_camera().camera_to_world;
+    if (camera_place_ && *camera_place_ != now) views.go(std::nullopt, view.camera_locked ? "" : "camera");
+    camera_place_ = now;
+}
+
+const scene::Camera& Editor::scene_camera() const {
     static const scene::Camera none;
     const scene::Camera* found = scene().cameras.find(camera_id());
     return found ? *found : none;
@@ -111,6 +144,7 @@ void Editor::request_quit() {
 void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     marks_.clear();
     hovered_before = std::exchange(hovered, {});
+    drop_target_before = std::exchange(drop_target, {});
     follow_opening();
     follow_plugins();
     panel_state->loads.poll();
@@ -136,6 +170,9 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
 
 void Editor::remember_preferences() {
     preferences.keys = view.keys;
+    preferences.snap_move = view.snap_move;
+    preferences.snap_angle = view.snap_angle;
+    preferences.snap_scale = view.snap_scale;
     if (preferences == remembered_) return;
     remembered_ = preferences;
     write_preferences(options_.config_dir, preferences);
@@ -186,6 +223,8 @@ void Editor::document_changed() {
     ++document_;
     original_ = session_.base().file.empty() ? scene() : session_.base().scene;
     selection = {};
+    views = {};
+    camera_place_.reset();
     locked.clear();
     pick_tool.reset();
     panel_state->forget_document();
@@ -238,7 +277,11 @@ void Editor::apply_pending() {
         if (auto changed = session_.edit(pending.builder(scene()), pending.gesture); !changed)
             notices.add(LogLevel::error, changed.error().message);
     }
-    if (std::exchange(end_gesture_, false)) session_.end_gesture();
+    if (std::exchange(end_gesture_, false)) {
+        session_.end_gesture();
+        views.end_gesture();
+    }
+    follow_camera();
     selection.prune(scene());
 }
 
@@ -246,6 +289,7 @@ void Editor::refresh_picture() {
     const scene::Settings& settings = scene().settings.value;
     const Shown wanted{.version = session_.version(),
                        .plugins = registry_.version(),
+                       .view = views.version(),
                        .size = picture_size_,
                        .document = document_,
                        .original = show_original && original_,
@@ -263,6 +307,8 @@ void Editor::refresh_picture() {
         shown.active_camera = scene().active_camera;
         shown.film = scene().film;
     }
+    if (const auto id = shown.active_camera.value; views.now() && shown.cameras.find(id)) // versions no edit ever has
+        shown.cameras.set(id, camera(), (std::uint64_t(1) << 48) + views.version());
     const std::uint64_t request = live_->show(std::move(shown), {.size = wanted.size,
                                                                  .document = document_,
                                                                  .variant = wanted.original ? 1u : 0u,
@@ -332,12 +378,15 @@ void Editor::draw_menu() {
             ImGui::SetItemTooltip("%s", panel.tooltip);
             mark(std::string("panels.") + panel.title);
         }
+        ImGui::Separator();
+        menu_item(*this, "view.reset_layout");
         ImGui::EndMenu();
     }
     // What goes on, at the right end.
     const session::ViewStatus status = live_->status();
-    const std::string state = status.state == session::ViewState::starting    ? "starting the renderer"
-                              : status.state == session::ViewState::preparing ? "preparing"
+    const bool waits = scene().instances.live() > 0; // for a picture
+    const std::string state = status.state == session::ViewState::starting    ? waits ? "starting the renderer" : ""
+                              : status.state == session::ViewState::preparing ? waits ? "preparing" : ""
                               : status.state == session::ViewState::failed    ? "cannot render"
                               : status.compiling.empty()                      ? ""
                                                                               : "compiling " + status.compiling;
@@ -362,35 +411,6 @@ bool settled(const ImGuiWindow* window) {
     return true;
 }
 
-// Where panels are when no layout file says otherwise. Panels are as wide as their contents need at this scale; in a
-// small window the outliner shares the right side with the inspector, so that the picture keeps more than half of it.
-void first_layout(ImGuiID space, ImVec2 size) {
-    ImGui::DockBuilderRemoveNode(space);
-    ImGui::DockBuilderAddNode(space, ImGuiDockNodeFlags_DockSpace);
-    ImGui::DockBuilderSetNodeSize(space, size);
-    const float scale = ImGui::GetStyle().FontScaleMain;
-    const float side = std::max(0.24f * size.x, std::min(300 * scale, 0.4f * size.x));
-    const float list = std::max(0.17f * size.x, 210 * scale);
-    const bool small = side + list > 0.46f * size.x;
-    const float low = std::clamp(190 * scale, 0.24f * size.y, 0.34f * size.y);
-    ImGuiID center = space, left = 0;
-    ImGuiID right = ImGui::DockBuilderSplitNode(center, ImGuiDir_Right, side / size.x, nullptr, &center);
-    if (small)
-        left = ImGui::DockBuilderSplitNode(right, ImGuiDir_Up, 0.36f, nullptr, &right);
-    else
-        left = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, list / (size.x - side), nullptr, &center);
-    const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, low / size.y, nullptr, &center);
-    for (const Panel& panel : all_panels()) {
-        if (panel.dock == Dock::floating) continue;
-        ImGui::DockBuilderDockWindow(panel.title, panel.dock == Dock::left     ? left
-                                                  : panel.dock == Dock::right  ? right
-                                                  : panel.dock == Dock::bottom ? bottom
-                                                                               : center);
-    }
-    if (ImGuiDockNode* node = ImGui::DockBuilderGetNode(center)) node->LocalFlags |= ImGuiDockNodeFlags_AutoHideTabBar;
-    ImGui::DockBuilderFinish(space);
-}
-
 } // namespace
 
 void Editor::draw_panels() {
@@ -409,7 +429,8 @@ void Editor::draw_panels() {
         return;
     }
     const float scale = ImGui::GetStyle().FontScaleMain;
-    if (!ImGui::DockBuilderGetNode(space)) first_layout(space, main->WorkSize);
+    if (std::exchange(reset_layout_, false) || !ImGui::DockBuilderGetNode(space)) first_layout(space, main->WorkSize);
+    keep_picture_large(space, main->WorkSize);
     ImGui::DockSpaceOverViewport(space, main, ImGuiDockNodeFlags_PassthruCentralNode);
     for (const Panel& panel : all_panels()) {
         bool& open = panels_open_[panel.title];
@@ -434,6 +455,13 @@ void Editor::draw_panels() {
     }
 }
 
+void Editor::reset_layout() {
+    reset_layout_ = true;
+    view.show_panels = true;
+    for (const Panel& panel : all_panels())
+        panels_open_[panel.title] = panel.open;
+}
+
 void Editor::configure_renderer(const render::RendererOptions& renderer) {
     options_.renderer = renderer;
     live_->configure(renderer);
@@ -447,8 +475,10 @@ void Editor::draw_modals() {
     if (modals_.empty()) return;
     Modal& modal = modals_.front(); // one at a time
     if (modal.frames == 0) ImGui::OpenPopup(modal.title.c_str());
-    // It finds its size in its first frames; then it can be moved.
-    const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
+    // It finds its size in its first frames; then it can be moved, until the window has another size.
+    const ImVec2 center = ImGui::GetMainViewport()->GetCenter(), space = ImGui::GetMainViewport()->Size;
+    if (modal.space.x != space.x || modal.space.y != space.y) modal.frames = std::min(modal.frames, 1);
+    modal.space = space;
     if (++modal.frames < 5) ImGui::SetNextWindowPos(center, ImGuiCond_Always, {0.5f, 0.5f});
     bool keep = true;
     if (ImGui::BeginPopupModal(modal.title.c_str(), nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {

@@ -5,11 +5,13 @@
 #pragma once
 
 #include "actions.hpp"
+#include "copy_paste.hpp"
 #include "gizmo.hpp"
 #include "notices.hpp"
 #include "opening.hpp"
 #include "preferences.hpp"
 #include "selection.hpp"
+#include "view_history.hpp"
 #include "session/display.hpp"
 #include "session/live_view.hpp"
 #include "session/session.hpp"
@@ -52,6 +54,7 @@ struct ViewSettings {
     bool local_axes = false;
     float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // scene units, deg, factor
     KeyPreset keys = KeyPreset::standard;
+    bool camera_locked = true; // looking around moves the view alone
     float fly_speed = 1; // times the scene's size a few seconds
     std::uint32_t samples = 0; // where the live picture stops; 0 = the scene's number
     double seconds = 0, error = 0;
@@ -91,7 +94,14 @@ class Editor {
     const scene::Scene& scene() const { return session_.scene(); }
     const plugin::Registry& registry() const { return session_.registry(); }
     scene::Id<scene::Camera> camera_id() const { return scene().active_camera.value; }
-    const scene::Camera& camera() const; // a default one where the scene has none
+    // What the picture is seen from: the scene's camera, or the view that has left it. A default one where the scene has
+    // none.
+    const scene::Camera& camera() const;
+    const scene::Camera& scene_camera() const;
+    // Looks from there. Where the camera is locked only the view goes, which is no change of the document; else the
+    // camera does.
+    void look_from(const glm::dmat4& camera_to_world, const std::string& gesture = {}, const char* label = "Move camera");
+    ViewHistory views;
     double film_aspect() const;
     const glm::dvec3& up() const { return up_; }
     std::uint64_t document() const { return document_; } // another number = another one was opened; as in Frame
@@ -129,6 +139,8 @@ class Editor {
     Selection selection;
     InstanceId hovered; // under the mouse in the viewport or a list, by the panels drawn in this frame
     InstanceId hovered_before; // in the frame before: what is outlined
+    InstanceId drop_target; // what is dragged would go there: outlined alone, in the frame after
+    InstanceId drop_target_before;
     ViewSettings view;
     session::LiveView& live() { return *live_; }
     const session::LiveView& live() const { return *live_; }
@@ -137,9 +149,10 @@ class Editor {
     bool show_original = false; // the scene as it was opened, while a key is held
     std::set<std::uint32_t> locked; // Id<Instance>::value: not picked by clicks
     Notices notices;
-    GizmoDrag gizmo_drag;
+    Drag gizmo_drag; // of the handles
     Viewport viewport;
     std::optional<scene::Id<scene::Material>> material_clipboard;
+    Copied copied;
     std::optional<PickTool> pick_tool;
     std::unique_ptr<PanelState> panel_state; // what panels remember: searches, open folds
 
@@ -148,6 +161,7 @@ class Editor {
     void run(std::string_view action) { actions_to_run_.emplace_back(action); }
     bool panel_open(std::string_view title) const;
     void open_panel(std::string_view title, bool open = true);
+    void reset_layout(); // panels are open, and where they are, as at the first start
     // A modal that shows until its function returns false.
     void show_modal(std::string title, std::function<bool(Editor&)> body);
 
@@ -179,7 +193,8 @@ class Editor {
     struct Modal {
         std::string title;
         std::function<bool(Editor&)> body;
-        int frames = 0; // it is shown for
+        int frames = 0; // it is shown for, in a window of this size
+        ImVec2 space{0, 0};
     };
     void draw_menu();
     void draw_panels();
@@ -191,6 +206,7 @@ class Editor {
     void place_inserted(const io::ImportedScene& imported);
     void ask_for_base(const std::string& message, bool some_fits);
     void refresh_picture();
+    void follow_camera(); // the view comes back to the scene's camera where that was moved
     void remember_preferences(); // when they changed
 
     EditorOptions options_;
@@ -207,15 +223,18 @@ class Editor {
     bool end_gesture_ = false;
     glm::dvec3 up_{0, 1, 0};
     std::uint64_t document_ = 1; // of ViewOptions
+    mutable scene::Camera seen_from_; // camera() of a view that has left the scene's
+    std::optional<glm::dmat4> camera_place_; // of the scene's camera when the view last looked
     std::optional<scene::Scene> original_; // as opened
     std::map<std::string, bool, std::less<>> panels_open_;
     std::deque<Modal> modals_;
-    bool quit_ = false;
+    bool quit_ = false, reset_layout_ = false;
 
     glm::uvec2 picture_size_{640, 360};
     struct Shown { // what the live picture was last asked for
         scene::Version version = 0;
         std::uint64_t plugins = 0; // plugin::Registry::version
+        std::uint64_t view = 0; // ViewHistory::version
         glm::uvec2 size{0};
         std::uint64_t document = 0;
         bool original = false;

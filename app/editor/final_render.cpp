@@ -24,6 +24,7 @@ namespace {
 struct Wish {
     std::uint32_t samples = 64;
     float error = 0; // > 0: stop there, at `samples` at the latest
+    bool from_view = true; // not from the scene's camera, where both differ
     bool denoise = true;
     fs::path path;
 };
@@ -102,9 +103,12 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
 void start(Editor& e, const Wish& wish) {
     e.files().last_picture = wish.path;
     const fs::path path(e.session().path());
+    scene::Scene seen = e.scene();
+    if (const auto id = seen.active_camera.value; wish.from_view && seen.cameras.find(id))
+        seen.cameras.set(id, e.camera(), ++seen.clock);
     e.files().jobs.start(
         {.title = "Final picture " + wish.path.filename().string(), .can_finish_early = true, .pauses_picture = true},
-        [wish, scene = e.scene(), &registry = e.registry(), &log = e.log(), options = e.options().renderer,
+        [wish, scene = std::move(seen), &registry = e.registry(), &log = e.log(), options = e.options().renderer,
          name = path.filename().string()](BackgroundJob& job) -> Done {
             auto done = render(job, registry, log, options, scene, wish, name);
             return done ? *done : say(LogLevel::error, done.error().message);
@@ -122,6 +126,14 @@ void final_render_dialog(Editor& e) {
         dialog_width(360);
         form_row("Size", "Of the picture: change it in the Scene panel, under Picture");
         ImGui::Text("%u × %u pixels", film.width, film.height);
+        if (editor.views.now()) {
+            form_row("From", "Where it is seen from: here, or from the scene's camera, which you have looked away from");
+            if (ImGui::RadioButton("View", wish->from_view)) wish->from_view = true;
+            editor.mark("final.view");
+            ImGui::SameLine();
+            if (ImGui::RadioButton("Camera", !wish->from_view)) wish->from_view = false;
+            editor.mark("final.camera");
+        }
         int samples = int(wish->samples);
         form_row("Samples", "Light paths for each pixel: twice as many take twice the time and leave 0.7 of the noise");
         if (ImGui::DragInt("##samples", &samples, 1, 1, 1 << 20, "%d a pixel", ImGuiSliderFlags_AlwaysClamp))

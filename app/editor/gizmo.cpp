@@ -16,6 +16,7 @@ namespace restage::editor {
 
 namespace {
 
+constexpr float knob_pixels = 10; // half of its side, as ImGuizmo draws it
 constexpr float handle_pixels = 90; // of one across the view; those that point at the viewer are shorter
 
 glm::dmat3 rotation_of(const glm::dmat4& m) {
@@ -28,64 +29,25 @@ glm::dmat3 rotation_of(const glm::dmat4& m) {
     return r;
 }
 
-Result<scene::Edit> place(const scene::Scene& s, const GizmoDrag& d, const glm::dmat4& by, const char* verb) {
-    scene::Edit edit;
-    for (const auto& [id, start] : d.start) {
-        auto one = scene::set_transform(s, id, by * start);
-        if (!one) return one;
-        edit.changes.insert(edit.changes.end(), one->changes.begin(), one->changes.end());
-    }
-    const scene::Instance* first = d.start.empty() ? nullptr : s.instances.find(d.start[0].first);
-    edit.label = std::string(verb) + " " +
-                 (d.start.size() == 1 && first ? first->name : std::to_string(d.start.size()) + " objects");
-    return edit;
+DragPath::Mouse mouse_of(const Editor& e) {
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    return {session::view_ray(e.camera(), e.viewport.film_point(at), e.film_aspect()),
+            glm::normalize(glm::dvec3(e.camera().camera_to_world[1]))};
 }
 
 } // namespace
 
-void begin_drag(Editor& e, GizmoDrag& drag, bool copy) {
-    const scene::Scene& s = e.scene();
-    const scene::Light* light = s.lights.find(e.selection.light());
-    drag.active = true;
-    drag.copied = false;
-    drag.start.clear();
-    drag.light_start = light ? std::optional(light->light_to_world) : std::nullopt;
-    const auto ids = e.selection.instances();
-    if (copy && !light) {
-        // Copies stay where the originals are; they are what is dragged on.
-        if (auto made = scene::duplicate_instances(s, ids, glm::dmat4(1))) {
-            for (std::size_t i = 0; i < ids.size(); ++i)
-                drag.start.emplace_back(made->copies[i], s.instances[ids[i]].object_to_world);
-            drag.copied = true;
-            e.edit([edit = made->edit](const scene::Scene&) { return Result<scene::Edit>(edit); }, "gizmo");
-            e.later([&e, copies = made->copies] { e.selection.set(copies); });
-            return;
-        }
-    }
-    for (const InstanceId id : ids)
-        drag.start.emplace_back(id, s.instances[id].object_to_world);
+void release_gizmo() {
+    ImGuizmo::Enable(false); // its one way to forget a drag
+    ImGuizmo::Enable(true);
 }
 
-void ask_drag(Editor& e, const GizmoDrag& drag, const glm::dmat4& by, const char* verb) {
-    if (drag.copied) verb = "Copy";
-    if (drag.light_start)
-        e.edit(
-            [id = e.selection.light(), m = by * *drag.light_start](const scene::Scene& now) {
-                scene::Light changed = now.lights[id];
-                changed.light_to_world = m;
-                return scene::set_light(now, id, changed, "Move light");
-            },
-            "gizmo");
-    else
-        e.edit([d = drag, by, verb](const scene::Scene& now) { return place(now, d, by, verb); }, "gizmo");
-}
-
-bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
-    GizmoDrag& drag = e.gizmo_drag;
+GizmoState draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
+    Drag& drag = e.gizmo_drag;
     // Handles are straight; what a spherical camera sees is not. The camera's panel says so.
     if (e.selection.empty() || e.view.gizmo == GizmoMode::select || scene::is_spherical(e.camera())) {
         drag = {};
-        return false;
+        return {};
     }
     const scene::Scene& s = e.scene();
     const scene::Camera& camera = e.camera();
@@ -134,19 +96,20 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
                                                            : e.view.snap_scale;
     const float snap[3] = {step, step, step};
     // The knob in the middle would move in the plane of the screen, so that things end up in the air: there, as on the
-    // object itself, the viewport slides them over the floor (viewport_drag.cpp).
+    // object itself, the viewport slides them over the floor (viewport_drag.cpp). ImGuizmo takes no click while an item
+    // is under the mouse, so the knob is one.
     const glm::dvec3 middle = session::project(camera, drag.pivot, e.film_aspect());
     const ImVec2 knob(corner.x + float(middle.x) * size.x, corner.y + float(middle.y) * size.y);
-    const bool on_knob = e.view.gizmo == GizmoMode::move && !ImGuizmo::IsUsing() &&
-                         std::abs(io.MousePos.x - knob.x) <= 10 && std::abs(io.MousePos.y - knob.y) <= 10;
-    bool& clicked = ImGui::GetIO().MouseClicked[ImGuiMouseButton_Left];
-    const bool was_clicked = clicked;
-    if (on_knob) clicked = false;
+    GizmoState state;
+    if (e.view.gizmo == GizmoMode::move && middle.z > 0 && !ImGuizmo::IsUsing() && knob.x > corner.x &&
+        knob.y > corner.y && knob.x < corner.x + size.x && knob.y < corner.y + size.y) {
+        ImGui::SetCursorScreenPos({knob.x - knob_pixels, knob.y - knob_pixels});
+        ImGui::InvisibleButton("knob", {2 * knob_pixels, 2 * knob_pixels});
+        state.knob = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    }
     const bool moved =
         ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation, ImGuizmo::LOCAL,
                              glm::value_ptr(drag.current), nullptr, io.KeyCtrl ? snap : nullptr);
-
-    clicked = was_clicked;
 
     // A point on each handle, near its tip, for tests. Handles are as long in the world as makes one across the view
     // that long on the screen.
@@ -163,20 +126,28 @@ bool draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     }
     e.mark("gizmo.center", knob);
 
-    if (ImGuizmo::IsUsing() && !drag.active) begin_drag(e, drag, io.KeyAlt);
-    if (drag.active && moved) {
+    if (ImGuizmo::IsUsing() && !drag.active && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) {
+        begin_drag(e, drag, io.KeyShift); // a click is none
+        drag.path.begin(drag.pivot, e.up(), mouse_of(e), true);
+    }
+    if (drag.active && (moved || io.KeyAlt)) {
         // What the handles did since the start, about the pivot.
         const glm::dmat4 there = glm::translate(glm::dmat4(1), drag.pivot);
-        ask_drag(e, drag, there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there),
-                 e.view.gizmo == GizmoMode::move     ? "Move"
-                 : e.view.gizmo == GizmoMode::rotate ? "Rotate"
-                                                     : "Scale");
+        if (e.view.gizmo == GizmoMode::move) {
+            const glm::dvec3 by = drag.path.update(io.KeyAlt, mouse_of(e), glm::dvec3(drag.current[3]),
+                                                   io.KeyCtrl ? double(e.view.snap_move) : 0);
+            ask_drag(e, drag, glm::translate(glm::dmat4(1), by), "Move");
+        } else {
+            ask_drag(e, drag, there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there),
+                     e.view.gizmo == GizmoMode::rotate ? "Rotate" : "Scale");
+        }
     }
     if (drag.active && !ImGuizmo::IsUsing()) {
         drag.active = false;
         e.end_gesture();
     }
-    return ImGuizmo::IsUsing() || (ImGuizmo::IsOver() && !on_knob);
+    state.wants_mouse = ImGuizmo::IsUsing() || (ImGuizmo::IsOver() && !state.knob);
+    return state;
 }
 
 } // namespace restage::editor

@@ -22,13 +22,23 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     if (!j.is_object()) return preferences;
     if (const auto seen = j.find("hint_seen"); seen != j.end() && seen->is_boolean()) preferences.hint_seen = *seen;
     if (const auto keys = j.find("keys"); keys != j.end() && *keys == "blender") preferences.keys = KeyPreset::blender;
+    const auto step = [&](const char* key, float& value, float most) {
+        if (const auto found = j.find(key); found != j.end() && found->is_number())
+            if (const double given = *found; given > 0 && given <= double(most)) value = float(given);
+    };
+    step("snap_move", preferences.snap_move, 1e6f);
+    step("snap_angle", preferences.snap_angle, 180);
+    step("snap_scale", preferences.snap_scale, 100);
     return preferences;
 }
 
 void write_preferences(const std::filesystem::path& config_dir, const Preferences& preferences) {
     if (config_dir.empty()) return;
     const nlohmann::json j{{"hint_seen", preferences.hint_seen},
-                           {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"}};
+                           {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"},
+                           {"snap_move", preferences.snap_move},
+                           {"snap_angle", preferences.snap_angle},
+                           {"snap_scale", preferences.snap_scale}};
     // What cannot be remembered is no reason to bother anybody.
     (void)write_file_atomic(file_in(config_dir), j.dump(1) + "\n");
 }

@@ -11,6 +11,7 @@ namespace restage::editor {
 struct Preferences {
     bool hint_seen = false; // how to begin, over the first picture
     KeyPreset keys = KeyPreset::standard;
+    float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // steps of drags with Ctrl: scene units, deg, factor
     bool operator==(const Preferences&) const = default;
 };
 

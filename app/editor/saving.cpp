@@ -5,6 +5,7 @@
 #include "file_browser.hpp"
 #include "files.hpp"
 #include "session/studio.hpp"
+#include "theme.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +56,10 @@ fs::path document_folder(const Editor& e) {
 
 void save_to(Editor& e, const fs::path& path, const Then& then) {
     if (const auto saved = e.session_for_changes().save_project(path.string()); !saved) {
-        e.notices.add(LogLevel::error, saved.error().message);
+        show_failure(e, {.title = "Not saved",
+                         .reason = saved.error().message,
+                         .again = [path, then](Editor& editor) { save_to(editor, path, then); },
+                         .elsewhere = [then](Editor& editor) { save_as(editor, then); }});
         return;
     }
     e.files().recent.add_file(path);
@@ -64,6 +68,32 @@ void save_to(Editor& e, const fs::path& path, const Then& then) {
 }
 
 } // namespace
+
+void show_failure(Editor& e, WriteFailure failure) {
+    e.log().error(failure.reason);
+    std::string title = failure.title;
+    e.show_modal(std::move(title), [failure = std::move(failure)](Editor& editor) {
+        dialog_width(460);
+        ImGui::PushStyleColor(ImGuiCol_Text, colors::error);
+        ImGui::TextWrapped("%s", failure.reason.c_str());
+        ImGui::PopStyleColor();
+        ImGui::Spacing();
+        const auto choice = [&](const char* label, const char* mark, const Then& then) {
+            const bool pressed = ImGui::Button(label);
+            editor.mark(mark);
+            if (pressed) editor.later([&editor, then] { then(editor); });
+            ImGui::SameLine();
+            return pressed;
+        };
+        bool stay = true;
+        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+        if (choice("Save as...", "failure.elsewhere", failure.elsewhere)) stay = false;
+        if (choice("Try again", "failure.again", failure.again)) stay = false;
+        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        editor.mark("failure.cancel");
+        return stay;
+    });
+}
 
 void ask_unsaved(Editor& e, const char* doing, Then then) {
     if (!e.session().modified()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace restage::editor {
 
@@ -21,6 +22,13 @@ void save_as(Editor& editor, Then then = {});
 void revert(Editor& editor);
 void export_dialog(Editor& editor);
 void save_image_dialog(Editor& editor);
+// What could not be written, and why, with the ways out of it: a note that fades would be missed, and work lost.
+struct WriteFailure {
+    std::string title, reason; // "The project was not saved"
+    Then again; // the same once more
+    Then elsewhere; // asks for another place
+};
+void show_failure(Editor& editor, WriteFailure failure);
 void recent_menu(Editor& editor); // a submenu
 
 } // namespace restage::editor

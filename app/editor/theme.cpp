@@ -9,13 +9,20 @@ ImVec4 grey(float v, float alpha = 1) { return {v, v * 1.01f, v * 1.04f, alpha};
 
 } // namespace
 
-void apply_theme(float scale, const std::filesystem::path& fonts) {
+void apply_theme(float scale, const std::filesystem::path& fonts, std::span<const FallbackFont> fallback) {
     ImGuiIO& io = ImGui::GetIO();
     std::error_code none;
     if (const auto text = fonts / "Roboto-Medium.ttf"; std::filesystem::exists(text, none))
         io.Fonts->AddFontFromFileTTF(text.string().c_str(), 15.f);
     else
         io.Fonts->AddFontDefaultVector();
+    for (const FallbackFont& font : fallback) {
+        ImFontConfig config;
+        config.MergeMode = true;
+        config.FontNo = static_cast<ImU32>(font.face);
+        config.Flags |= ImFontFlags_NoLoadError; // it is a help, and no reason to stop
+        io.Fonts->AddFontFromFileTTF(font.file.string().c_str(), 15.f, &config);
+    }
 
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();

@@ -2,13 +2,17 @@
 // Theme: fonts, colours and spacing of the editor, for any scale.
 #pragma once
 
+#include "fonts.hpp"
+
 #include <imgui.h>
 #include <filesystem>
+#include <span>
 
 namespace restage::editor {
 
-// Call once after the context is made. A font that is missing leaves Dear ImGui's own.
-void apply_theme(float scale, const std::filesystem::path& fonts);
+// Call once after the context is made. A font that is missing leaves Dear ImGui's own. `fallback`: for what it has no
+// glyphs for; they are drawn when they are first needed.
+void apply_theme(float scale, const std::filesystem::path& fonts, std::span<const FallbackFont> fallback = {});
 
 namespace colors {
 inline constexpr ImVec4 accent{0.96f, 0.62f, 0.22f, 1}; // selection, active things

@@ -46,19 +46,25 @@ void Viewport::draw(Editor& e) {
     } else if (e.scene().instances.live() > 0) { // a picture is on its way: draw_progress() says how far
         draw->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));
     }
-    bool gizmo = false;
+    GizmoState gizmo;
     if (e.view.show_overlays && picture_.ready()) {
         if (outline_.ready()) draw->AddImage(outline_.ref(), corner, end);
-        gizmo = draw_gizmo(e, corner, size);
         draw_overlays(e);
+        gizmo = draw_gizmo(e, corner, size);
+        if (cone_held_) gizmo.wants_mouse = true;
     }
     // No button: ImGuizmo takes no click while an item is hovered, or was a frame ago.
     ImGui::SetCursorScreenPos(corner);
     ImGui::Dummy(size);
     e.mark("picture");
     accept_asset(e);
-    const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, end) && !ImGui::IsAnyItemHovered();
-    navigate(e, over);
+    const bool over = (gizmo.knob || (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered())) &&
+                      ImGui::IsMouseHoveringRect(corner, end) && !cancelled_;
+    if (cancelled_ && !ImGui::IsKeyDown(ImGuiKey_T) && !ImGui::IsAnyMouseDown()) cancelled_ = false;
+    if (dragging(e) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+        cancel(e);
+    else
+        navigate(e, over);
     stick(e, over);
     if (!sticking_) pick(e, over, gizmo);
     inspect_pixel(e, over);
@@ -110,7 +116,9 @@ void Viewport::update_textures(Editor& e) {
     }
     // Outlines: the edge of what is selected or hovered, from the instance ids.
     OutlineKey key{frame.get(), e.selection.instances(), {}};
-    if (e.scene().instances.find(e.hovered_before) && frame->divider <= 2)
+    if (e.scene().instances.find(e.drop_target_before))
+        key.hovered = {e.drop_target_before}, key.selected.clear(); // it alone
+    else if (e.scene().instances.find(e.hovered_before) && frame->divider <= 2)
         key.hovered = e.selection.click_target(e.scene(), e.hovered_before);
     if (key == outlined_) return;
     const render::FilmImage& image = frame->image;
@@ -128,24 +136,7 @@ void Viewport::update_textures(Editor& e) {
 }
 
 void Viewport::draw_overlays(Editor& e) {
-    // Lights without a surface, as marks that can be clicked.
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    const float r = 6 * ImGui::GetStyle().FontScaleMain;
-    draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-    e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
-        if (light.kind == RESTAGE_LIGHT_DISTANT) return;
-        const glm::dvec3 p = session::project(e.camera(), glm::dvec3(light.light_to_world[3]), e.film_aspect());
-        if (p.z <= 0) return;
-        const ImVec2 c(corner.x + float(p.x) * size.x, corner.y + float(p.y) * size.y);
-        const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::accent : colors::warning);
-        draw->AddCircle(c, r, color, 0, 2);
-        for (int i = 0; i < 8; ++i) {
-            const float a = float(i) * 0.785398f;
-            draw->AddLine({c.x + std::cos(a) * r * 1.3f, c.y + std::sin(a) * r * 1.3f},
-                          {c.x + std::cos(a) * r * 1.8f, c.y + std::sin(a) * r * 1.8f}, color, 1.5f);
-        }
-    });
-    draw->PopClipRect();
+    draw_lights(e);
     if (const scene::Bounds box = e.selection.bounds(e.scene()); !box.empty()) { // for tests
         glm::dvec2 lo(1e9), hi(-1e9);
         for (int i = 0; i < 8; ++i) {
@@ -195,10 +186,10 @@ std::vector<InstanceId> Viewport::in_box(const Editor& e, ImVec2 from, ImVec2 to
     return ids;
 }
 
-void Viewport::pick(Editor& e, bool over, bool gizmo) {
+void Viewport::pick(Editor& e, bool over, const GizmoState& gizmo) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
-    const bool free = over && !gizmo && navigation_ == Navigation::none;
+    const bool free = over && !gizmo.wants_mouse && navigation_ == Navigation::none;
     if (run_pick_tool(e, over && navigation_ == Navigation::none)) return;
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
@@ -218,14 +209,18 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
     }
     if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         pressed_ = true;
+        on_knob_ = gizmo.knob;
         press_ = io.MousePos;
     }
-    if (!pressed_) return;
+    if (!pressed_) {
+        on_knob_ = false;
+        return;
+    }
     const bool far = std::abs(io.MousePos.x - press_.x) + std::abs(io.MousePos.y - press_.y) > 6;
-    if (far && !boxing_ && !grabbed_ && can_drag(e, press_)) start_sliding(e, press_);
-    if (grabbed_) {
+    if (far && !boxing_ && !slide_.active && can_drag(e, press_)) start_sliding(e, press_);
+    if (slide_.active) {
         slide(e);
-        pressed_ = bool(grabbed_);
+        pressed_ = slide_.active;
         return;
     }
     boxing_ = boxing_ || far;
@@ -248,16 +243,7 @@ void Viewport::pick(Editor& e, bool over, bool gizmo) {
         return;
     }
     // A light's mark comes first.
-    scene::Id<scene::Light> light;
-    if (e.view.show_overlays)
-        e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& l) {
-            const glm::dvec3 p = session::project(e.camera(), glm::dvec3(l.light_to_world[3]), e.film_aspect());
-            const float r = 9 * ImGui::GetStyle().FontScaleMain;
-            if (l.kind != RESTAGE_LIGHT_DISTANT && p.z > 0 &&
-                std::hypot(corner.x + float(p.x) * size.x - io.MousePos.x,
-                           corner.y + float(p.y) * size.y - io.MousePos.y) < r)
-                light = id;
-        });
+    const scene::Id<scene::Light> light = e.view.show_overlays ? light_at(e, io.MousePos) : scene::Id<scene::Light>{};
     if (light) {
         e.selection.set_light(light);
         return;

@@ -3,6 +3,7 @@
 // drop.
 #pragma once
 
+#include "drag.hpp"
 #include "gizmo.hpp"
 #include "selection.hpp"
 #include "session/display.hpp"
@@ -32,19 +33,24 @@ class Viewport {
     bool shows_clay() const { return drawn_ && drawn_->clay; }
     bool shows_clean() const { return drawn_ && drawn_->denoised && drawn_->divider <= 2; }
     bool navigating() const { return navigation_ != Navigation::none; }
+    bool dragging(const Editor& editor) const; // what is selected, or a box
+    void cancel(Editor& editor); // the drag that runs; until all is let go, the mouse and T do nothing more
 
   private:
     enum class Navigation { none, orbit, pan, dolly, fly };
     void draw_toolbar(Editor& editor);
     void update_textures(Editor& editor);
     void draw_overlays(Editor& editor);
+    void draw_lights(Editor& editor); // without a surface: their marks, and the selected spot's cone with its handle
+    void draw_cone(Editor& editor, scene::Id<scene::Light> id);
+    scene::Id<scene::Light> light_at(const Editor& editor, ImVec2 screen) const; // whose mark is there
     void draw_status(Editor& editor);
     void draw_progress(Editor& editor); // over the picture, while a scene is opened and prepared
     void draw_darkness(Editor& editor); // over a scene without light
     void draw_hint(Editor& editor); // until the first gesture of somebody's first start
     void draw_welcome(Editor& editor, ImVec2 origin, ImVec2 space); // where there is no scene
     void navigate(Editor& editor, bool over);
-    void pick(Editor& editor, bool over, bool gizmo);
+    void pick(Editor& editor, bool over, const GizmoState& gizmo);
     bool can_drag(const Editor& editor, ImVec2 screen) const; // something selected is there
     void start_sliding(Editor& editor, ImVec2 screen);
     void slide(Editor& editor);
@@ -69,10 +75,12 @@ class Viewport {
     Navigation navigation_ = Navigation::none;
     std::optional<glm::dvec3> orbit_center_; // set by a double click
     double wheel_time_ = 0;                  // of the last turn
-    std::optional<glm::dvec3> grabbed_; // where what slides over the floor was taken up
-    GizmoDrag slide_;
+    Drag slide_; // of the object itself, or the knob
     ImVec2 press_{0, 0};
     bool pressed_ = false, boxing_ = false, sticking_ = false;
+    bool on_knob_ = false; // the knob was pressed
+    bool cone_held_ = false; // the handle of a spot's cone
+    bool cancelled_ = false; // until all buttons, and T, are up
     ImVec2 last_click_{-1, -1};
     std::size_t behind_ = 0; // how often the same point was clicked
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mouse and WASD do to the camera. Every gesture is one step of the history.
+// What the mouse and WASD do to the view, or to the camera where it is not locked. Every gesture is one step of its
+// history.
 #include "editor.hpp"
 #include "session/navigation.hpp"
 
@@ -27,12 +28,7 @@ glm::dvec3 Viewport::pivot(const Editor& e) const {
 }
 
 void Viewport::set_camera(Editor& e, const scene::Camera& camera, const char* gesture) {
-    e.edit(
-        [camera](const scene::Scene& s) {
-            if (!s.active_camera.value) return Result<scene::Edit>(fail("the scene has no camera"));
-            return scene::set_camera(s, s.active_camera.value, camera);
-        },
-        gesture);
+    e.look_from(camera.camera_to_world, gesture);
 }
 
 void Viewport::navigate(Editor& e, bool over) {
@@ -43,7 +39,7 @@ void Viewport::navigate(Editor& e, bool over) {
             navigation_ = e.view.keys == KeyPreset::blender && !io.KeyShift ? Navigation::orbit : Navigation::pan;
         else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
             navigation_ = alt ? Navigation::dolly : Navigation::fly;
-        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt)
+        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt && !can_drag(e, io.MousePos)) // else it is lifted
             navigation_ = Navigation::orbit;
     }
     const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ||

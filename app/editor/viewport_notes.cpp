@@ -13,6 +13,29 @@
 
 namespace restage::editor {
 
+namespace {
+
+// Of what is dragged with Ctrl held; remembered with the preferences.
+void draw_steps(Editor& e) {
+    if (!ImGui::BeginPopup("steps")) return;
+    dialog_width(230);
+    ImGui::TextColored(colors::dim, "A drag with Ctrl goes in steps of");
+    const auto row = [&](const char* label, const char* tooltip, float* value, float least, float most,
+                         const char* format, const char* mark) {
+        ImGui::PushID(mark);
+        form_row(label, tooltip);
+        ImGui::DragFloat("##step", value, drag_speed(*value), least, most, format, ImGuiSliderFlags_AlwaysClamp);
+        e.mark(mark);
+        ImGui::PopID();
+    };
+    row("Move", "In scene units, mostly metres", &e.view.snap_move, 1e-4f, 1e6f, "%.4g", "steps.move");
+    row("Turn", "Of a rotation", &e.view.snap_angle, 0.1f, 180, "%.4g°", "steps.angle");
+    row("Stretch", "Of the factor", &e.view.snap_scale, 1e-3f, 100, "%.4g×", "steps.scale");
+    ImGui::EndPopup();
+}
+
+} // namespace
+
 void Viewport::draw_toolbar(Editor& e) {
     const float scale = ImGui::GetStyle().FontScaleMain, margin = 6 * scale;
     ImGui::SetCursorPos({margin, ImGui::GetCursorPosY() + 4 * scale});
@@ -32,6 +55,11 @@ void Viewport::draw_toolbar(Editor& e) {
     button("view.gizmo_rotate", "Rotate", true);
     button("view.gizmo_scale", "Scale", true);
     button("view.local", e.view.local_axes ? "Local axes" : "World axes");
+    next(ImGui::CalcTextSize("Steps").x + 2 * ImGui::GetStyle().FramePadding.x);
+    if (ImGui::Button("Steps")) ImGui::OpenPopup("steps");
+    tip("The steps that drags with Ctrl go in");
+    e.mark("toolbar.steps");
+    draw_steps(e);
     const std::string missing = e.live().denoiser_missing();
     ImGui::BeginDisabled(!missing.empty());
     button("view.denoise", "Denoise");
@@ -82,6 +110,7 @@ void Viewport::draw_status(Editor& e) {
                            samples == 1 ? "" : "s");
         if (drawn_->relative_error < 1) text += fmt::format(", error {:.1f} %", drawn_->relative_error * 100);
         if (drawn_->denoised) text += ", denoised";
+        if (e.views.now()) text += ", seen from beside the camera";
     }
     if (!text.empty() && (e.view.show_overlays || status.state == session::ViewState::failed)) {
         const float wrap = std::max(size.x - 20 * scale, 60.f);

@@ -13,7 +13,7 @@ namespace restage::editor {
 
 void Viewport::stick(Editor& e, bool over) {
     const bool held = over && ImGui::IsKeyDown(ImGuiKey_T) && !ImGui::GetIO().WantTextInput &&
-                      navigation_ == Navigation::none && !e.selection.instances().empty();
+                      navigation_ == Navigation::none && !cancelled_ && !e.selection.instances().empty();
     if (!held) {
         if (std::exchange(sticking_, false)) e.end_gesture();
         return;

@@ -165,7 +165,7 @@ bool flow_button(const char* label, bool first) {
 }
 
 void searched_list(std::string& search, std::size_t count, const std::function<std::string_view(std::size_t)>& name,
-                   const std::function<void(std::size_t)>& row) {
+                   const std::function<void(std::size_t)>& row, float row_height) {
     if (ImGui::IsWindowAppearing()) {
         search.clear();
         ImGui::SetKeyboardFocusHere();
@@ -178,9 +178,9 @@ void searched_list(std::string& search, std::size_t count, const std::function<s
     for (std::size_t i = 0; i < count; ++i)
         if (contains_word(name(i), search)) found.push_back(i);
     if (found.empty()) ImGui::TextDisabled("Nothing is called that.");
-    const float height = ImGui::GetTextLineHeightWithSpacing();
+    const float height = row_height > 0 ? row_height : ImGui::GetTextLineHeightWithSpacing();
     if (!ImGui::BeginChild("list", {std::max(ImGui::GetContentRegionAvail().x, 220 * ImGui::GetStyle().FontScaleMain),
-                                    height * float(std::clamp<std::size_t>(found.size(), 1, 12)) + 4})) {
+                                    height * float(std::clamp<std::size_t>(found.size(), 1, row_height > 0 ? 7 : 12)) + 4})) {
         ImGui::EndChild();
         return;
     }

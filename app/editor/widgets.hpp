@@ -41,7 +41,7 @@ bool flow_button(const char* label, bool first = false);
 // A field for a list that is long: draws "search" and calls row(i) for the names that match, virtualised. Between
 // BeginCombo/BeginPopup and their end. `search` is the caller's, and emptied when the list appears.
 void searched_list(std::string& search, std::size_t count, const std::function<std::string_view(std::size_t)>& name,
-                   const std::function<void(std::size_t)>& row);
+                   const std::function<void(std::size_t)>& row, float row_height = 0); // 0 = a line of text
 
 // A name that can be typed over. True once a new one is given, not while it is typed.
 bool name_field(const char* id, std::string& name);

@@ -240,7 +240,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     float monitor_scale = 1;
     glfwGetWindowContentScale(impl->window, &monitor_scale, nullptr);
     impl->scale = options.scale > 0 ? options.scale : std::max(1.f, monitor_scale);
-    apply_theme(impl->scale, options.fonts);
+    apply_theme(impl->scale, options.fonts, find_fallback_fonts(system_font_folders()).fonts);
     // Sizes in it are pixels: each scale has its own.
     if (!options.layout.empty())
         impl->layout_path = (options.layout / fmt::format("layout-{:.0f}.ini", impl->scale * 100)).string();

@@ -121,8 +121,11 @@ void start_export(Editor& e, const fs::path& path, io::ExportOptions options) {
             options.progress = [&job](float done, std::string_view what) { return job.report(double(done), what); };
             auto report = io::export_scene(scene, path.string(), registry, options);
             if (!report)
-                return [message = report.error().message](Editor& editor) {
-                    editor.notices.add(LogLevel::error, message);
+                return [message = report.error().message, path, options](Editor& editor) {
+                    show_failure(editor, {.title = "Not exported",
+                                          .reason = message,
+                                          .again = [path, options](Editor& ed) { start_export(ed, path, options); },
+                                          .elsewhere = export_dialog});
                 };
             return [path, report = std::move(*report)](Editor& editor) { show_report(editor, path, report); };
         });
@@ -269,7 +272,13 @@ void save_image_dialog(Editor& e) {
                                         const std::string message =
                                             written ? "Written: " + place.string() : written.error().message;
                                         return [message, good = written.has_value()](Editor& x) {
-                                            x.notices.add(good ? LogLevel::info : LogLevel::error, message);
+                                            if (good)
+                                                x.notices.add(LogLevel::info, message);
+                                            else
+                                                show_failure(x, {.title = "Not written",
+                                                                 .reason = message,
+                                                                 .again = save_image_dialog,
+                                                                 .elsewhere = save_image_dialog});
                                         };
                                     });
                             }});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <unordered_map>
 
 namespace restage::scene {
@@ -51,33 +52,53 @@ bool History::push(Scene& scene, Edit edit, std::string_view gesture) {
     drop_idle_changes(edit);
     if (edit.changes.empty()) return false;
     apply(scene, edit);
-    const bool merges = !gesture.empty() && gesture == gesture_ && position_ > 0;
-    edits_.resize(position_);
-    if (clean_ && *clean_ > position_) clean_.reset();
-    if (merges) {
+    if (!gesture.empty() && gesture == gesture_ && position_ > 0) {
         merge(edits_.back(), edit);
         if (edits_.back().changes.empty()) { // dragged back to where it began
             edits_.pop_back();
             --position_;
-            gesture_.clear();
+            end_gesture();
         }
         return true;
     }
+    end_gesture();
+    if (!gesture.empty()) {
+        redo_before_.assign(std::make_move_iterator(edits_.begin() + std::ptrdiff_t(position_)),
+                            std::make_move_iterator(edits_.end()));
+        clean_before_ = clean_;
+    }
+    edits_.resize(position_);
+    if (clean_ && *clean_ > position_) clean_.reset();
     edits_.push_back(std::move(edit));
     ++position_;
     gesture_ = gesture;
     return true;
 }
 
-bool History::undo(Scene& scene) {
+void History::end_gesture() {
     gesture_.clear();
+    redo_before_.clear();
+}
+
+bool History::cancel_gesture(Scene& scene) {
+    if (gesture_.empty() || position_ == 0) return false;
+    apply(scene, inverse(edits_[position_ - 1]));
+    edits_.resize(--position_);
+    std::ranges::move(redo_before_, std::back_inserter(edits_)); // comes back, and so does the saved state
+    clean_ = clean_before_;
+    end_gesture();
+    return true;
+}
+
+bool History::undo(Scene& scene) {
+    end_gesture();
     if (position_ == 0) return false;
     apply(scene, inverse(edits_[--position_]));
     return true;
 }
 
 bool History::redo(Scene& scene) {
-    gesture_.clear();
+    end_gesture();
     if (position_ == edits_.size()) return false;
     apply(scene, edits_[position_++]);
     return true;
@@ -85,7 +106,7 @@ bool History::redo(Scene& scene) {
 
 void History::mark_clean() {
     clean_ = position_;
-    gesture_.clear();
+    end_gesture();
 }
 
 } // namespace restage::scene

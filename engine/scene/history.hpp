@@ -17,7 +17,10 @@ class History {
     // Applies the edit and records it; what could be redone is gone. An edit that changes nothing is not recorded.
     // `gesture`: not empty = merge with the entry of the same running gesture. True when the scene changed.
     bool push(Scene&, Edit edit, std::string_view gesture = {});
-    void end_gesture() { gesture_.clear(); }
+    void end_gesture();
+    // Takes back what the running gesture did and forgets it: position, entries and what could be redone are as they
+    // were before it began. True when the scene changed.
+    bool cancel_gesture(Scene&);
 
     bool undo(Scene&); // false = nothing to undo
     bool redo(Scene&);
@@ -38,6 +41,8 @@ class History {
     std::size_t position_ = 0;
     std::optional<std::size_t> clean_ = 0; // position of the saved state; none = it cannot be reached any more
     std::string gesture_; // key of the running gesture; its entry is edits_[position_ - 1]
+    std::vector<Edit> redo_before_; // what could be redone when the running gesture began
+    std::optional<std::size_t> clean_before_; // the same of clean_
 };
 
 } // namespace restage::scene

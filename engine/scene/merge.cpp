@@ -105,7 +105,7 @@ Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
     const glm::dmat4 frame = frame_change(into, from);
 
     // A group around them all comes first, so its own come after it.
-    const bool several = from.instances.live() + from.lights.live() > 1;
+    const bool several = !name.empty() && from.instances.live() + from.lights.live() > 1;
     std::uint32_t next_group = into.groups.next().value;
     if (several) result.group = {next_group++};
     std::unordered_map<std::uint32_t, Id<Group>> groups;

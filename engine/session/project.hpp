@@ -22,5 +22,7 @@ struct ProjectContent {
 std::string project_text(const ProjectContent&, const std::filesystem::path& folder);
 
 Result<Document> read_project(const std::string& path, const plugin::Registry&, const ReadOptions& = {}); // [worker]
+// The same of a project's text; `name` is what errors call it.
+Result<Document> read_project_text(const std::string& text, const std::string& name, const plugin::Registry&);
 
 } // namespace restage::session

@@ -45,8 +45,12 @@ class Reader : public ValueReader {
     }
 
     Result<Document> run() {
-        doc_.path = path_;
         RESTAGE_TRY(const std::string text, read_file(path_));
+        return run(text);
+    }
+
+    Result<Document> run(const std::string& text) {
+        doc_.path = path_;
         RESTAGE_TRY(const json j, parse(text));
         if (const auto note = j.find("recovery"); note != j.end() && note->is_object())
             for (const auto& [key, value] : note->items())
@@ -340,6 +344,10 @@ class Reader : public ValueReader {
 
 Result<Document> read_project(const std::string& path, const plugin::Registry& registry, const ReadOptions& options) {
     return Reader(path, registry, options).run();
+}
+
+Result<Document> read_project_text(const std::string& text, const std::string& name, const plugin::Registry& registry) {
+    return Reader(name, registry, {}).run(text);
 }
 
 } // namespace restage::session

@@ -37,6 +37,7 @@ class Session {
     const scene::History& history() const { return history_; }
     const io::Report& report() const { return report_; } // of the import
     const std::string& path() const { return path_; } // of the file that was opened or saved; "" = none
+    const DataSources& sources() const { return sources_; } // of geometry and pixels that other files hold
     const Base& base() const { return base_; } // what projects hold the changes against
     bool modified() const { return !history_.clean(); }
     const plugin::Registry& registry() const { return registry_; }
@@ -50,6 +51,7 @@ class Session {
     // scene/edits.hpp refuse, and values that scene::check_edit does not let in.
     Result<bool> edit(Result<scene::Edit>, std::string_view gesture = {});
     void end_gesture() { history_.end_gesture(); }
+    bool cancel_gesture() { return history_.cancel_gesture(scene_); } // see scene::History
     bool undo() { return history_.undo(scene_); }
     bool redo() { return history_.redo(scene_); }
 

@@ -94,6 +94,15 @@ class Headless {
         }
         return found.rect;
     }
+    // The same, for what comes with the first picture: however long that takes on a busy machine.
+    void wait_for(ImGuiTestContext* ctx, const std::string& mark) {
+        const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+        while (!editor_->find_mark(mark) && std::chrono::steady_clock::now() < limit) {
+            ctx->Yield();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        IM_CHECK_SILENT_RETV(editor_->find_mark(mark), (ctx->LogError("there is no \"%s\"", mark.c_str()), void()));
+    }
     bool has(ImGuiTestContext* ctx, const std::string& mark) {
         ctx->Yield(2);
         return editor_->find_mark(mark) != nullptr;

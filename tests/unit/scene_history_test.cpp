@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene: history and gestures: undo restores what was there, a drag is one edit, clean means as saved.
+#include "scene/edits_light.hpp"
 #include "scene/history.hpp"
 #include "scene_room.hpp"
 
@@ -122,6 +123,44 @@ TEST_CASE("a gesture may insert and then move what it inserted", "[scene]") {
     CHECK(same(start, r.scene));
     history.redo(r.scene);
     CHECK(r.scene.instances[copy->copies[0]].object_to_world[3].y == 5);
+}
+
+TEST_CASE("a cancelled drag leaves everything as it was, also what could be redone", "[scene]") {
+    Room r;
+    History history;
+    const auto move = [&](double x) { return *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {x, 0, 0})); };
+    history.push(r.scene, move(1));
+    history.push(r.scene, move(2));
+    history.mark_clean();
+    history.undo(r.scene);
+    const Scene start = r.scene;
+    history.push(r.scene, move(3), "drag");
+    history.push(r.scene, move(4), "drag");
+    CHECK(history.size() == 2);
+    CHECK(history.cancel_gesture(r.scene));
+    CHECK(same(start, r.scene));
+    CHECK(history.position() == 1);
+    CHECK(history.clean_position() == 2);
+    CHECK_FALSE(history.cancel_gesture(r.scene)); // none runs
+    CHECK(history.redo(r.scene));
+    CHECK(r.scene.instances[r.chair].object_to_world[3].x == 2);
+    CHECK(history.clean());
+    history.push(r.scene, move(5), "drag");
+    history.end_gesture();
+    CHECK_FALSE(history.cancel_gesture(r.scene)); // it ended
+    CHECK(r.scene.instances[r.chair].object_to_world[3].x == 5);
+}
+
+TEST_CASE("a light is duplicated", "[scene]") {
+    Scene scene;
+    apply(scene, insert(scene, Light{.name = "Spot", .kind = RESTAGE_LIGHT_SPOT}, "Add"));
+    const Id<Light> spot{1};
+    const auto made = duplicate_light(scene, spot, glm::translate(glm::dmat4(1), {0, 3, 0}));
+    REQUIRE(made);
+    apply(scene, made->edit);
+    CHECK(scene.lights[made->copy].name == "Spot 2");
+    CHECK(scene.lights[made->copy].light_to_world[3].y == 3);
+    CHECK_FALSE(duplicate_light(scene, Id<Light>{7}, glm::dmat4(1)));
 }
 
 TEST_CASE("clean means: as the file holds it", "[scene]") {

@@ -3,6 +3,7 @@
 #include "panels.hpp"
 
 #include "base/file.hpp"
+#include "drop.hpp"
 #include "file_browser.hpp"
 #include "inspector.hpp"
 #include "io/image_file.hpp"
@@ -52,14 +53,13 @@ void load(Editor& e, AssetsState& state) {
     }
 }
 
-void ask_thumbnail(Editor& e, AssetsState::Thumbnail& thumbnail, const Asset& asset) {
+void ask_thumbnail(Editor& e, AssetsState::Thumbnail& thumbnail, const std::string& file) {
     thumbnail.asked = true;
-    const bool hdr = asset.kind == AssetKind::sky;
     e.panel_state->loads.start(
-        {.path = asset.path,
-         .encoding = hdr ? RESTAGE_LINEAR : RESTAGE_SRGB,
+        {.path = file,
+         .encoding = RESTAGE_SRGB, // of what has eight bits
          .thumbnail = thumbnail_pixels,
-         .done = [&e, path = asset.path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+         .done = [&e, path = file](Result<std::shared_ptr<const scene::PixelData>> pixels) {
              AssetsState::Thumbnail& to = e.panel_state->assets.thumbnails[path];
              if (!pixels) {
                  to.failed = true;
@@ -101,7 +101,7 @@ void apply(Editor& e, const Asset& asset) {
     }
 }
 
-void cell(Editor& e, AssetsState& state, const Asset& asset, float side) {
+void cell(Editor& e, const Asset& asset, float side) {
     ImGui::PushID(asset.path.c_str());
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -122,10 +122,9 @@ void cell(Editor& e, AssetsState& state, const Asset& asset, float side) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(at, {at.x + side, at.y + side},
                         ImGui::GetColorU32(hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), 4);
-    auto& thumbnail = state.thumbnails[asset.path];
     const bool image = asset.kind == AssetKind::sky || asset.kind == AssetKind::texture;
-    if (image && visible && !thumbnail.asked && state.thumbnails.size() < most_thumbnails)
-        ask_thumbnail(e, thumbnail, asset);
+    static const AssetsState::Thumbnail none;
+    const AssetsState::Thumbnail& thumbnail = image && visible ? thumbnail_of(e, asset.path) : none;
     if (thumbnail.texture && thumbnail.texture->ready()) {
         const float fit = std::min(side / thumbnail.size.x, side / thumbnail.size.y);
         const ImVec2 size(thumbnail.size.x * fit, thumbnail.size.y * fit),
@@ -160,11 +159,24 @@ void add_folder(Editor& e, const fs::path& folder) {
 
 } // namespace
 
+const AssetsState::Thumbnail& thumbnail_of(Editor& e, const std::string& file) {
+    AssetsState& state = e.panel_state->assets;
+    AssetsState::Thumbnail& thumbnail = state.thumbnails[file];
+    if (!thumbnail.asked && state.thumbnails.size() < most_thumbnails) ask_thumbnail(e, thumbnail, file);
+    return thumbnail;
+}
+
 void accept_asset(Editor& e) {
     if (!ImGui::BeginDragDropTarget()) return;
-    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path"))
-        e.later([&e, path = std::filesystem::path(static_cast<const char*>(payload->Data)),
-                 at = ImGui::GetIO().MousePos] { e.drop({path}, at); }); // as if it came from outside
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(
+            "restage.path", ImGuiDragDropFlags_AcceptBeforeDelivery | ImGuiDragDropFlags_AcceptNoDrawDefaultRect)) {
+        const std::filesystem::path path(static_cast<const char*>(payload->Data));
+        const ImVec2 at = ImGui::GetIO().MousePos;
+        if (payload->IsDelivery())
+            e.later([&e, path, at] { e.drop({path}, at); }); // as if it came from outside
+        else
+            preview_drop(e, path, at);
+    }
     ImGui::EndDragDropTarget();
 }
 
@@ -207,7 +219,7 @@ void draw_assets(Editor& e) {
             if ((state.kind > 0 && int(asset.kind) != state.kind - 1) || !contains_word(asset.name, state.search))
                 continue;
             if (shown++ % columns) ImGui::SameLine();
-            cell(e, state, asset, side);
+            cell(e, asset, side);
         }
         if (shown == 0) empty_note("Nothing is called that.");
     }

@@ -22,13 +22,15 @@ constexpr Gesture mouse[] = {
     {"Click", "Select; again: what is behind. Shift adds, Ctrl toggles", nullptr},
     {"Drag", "Select all in a box", nullptr},
     {"Double click", "Enter a group; on anything else: orbit about that point", nullptr},
-    {"Alt + drag", "Orbit", "Middle drag, or Alt + drag"},
+    {"Alt + drag", "Orbit (not on what is selected)", "Middle drag, or Alt + drag"},
     {"Middle drag", "Pan", "Shift + middle drag"},
     {"Wheel", "Zoom to what is under the mouse", nullptr},
     {"Right drag", "Look around; with W A S D Q E: fly. Wheel: speed, Shift: faster", nullptr},
-    {"Drag what is selected", "It slides over the floor, at its height. Ctrl: in steps, Shift: a copy", nullptr},
+    {"Drag what is selected",
+     "It slides over the floor, at its height. Shift: a copy, Ctrl: in steps, Alt: up and down", nullptr},
     {"Drag a box", "To the right: select what is wholly in it. To the left: all that it touches", nullptr},
-    {"Drag a handle", "Move, turn or stretch. Ctrl: in steps, Alt: a copy", nullptr},
+    {"Drag a handle", "Move, turn or stretch. Shift: a copy, Ctrl: in steps; of a move, Alt: up and down", nullptr},
+    {"Esc, right click in a drag", "All is as it was before the drag", nullptr},
     {"Right click on a value", "Back to its default", nullptr},
     {"Ctrl + click on a value", "Type a number", nullptr},
 };
@@ -83,7 +85,7 @@ void draw_help(Editor& e) {
         std::string_view last;
         for (const Action& action : all_actions()) {
             const std::string_view id = action.id, menu = id.substr(0, id.find('.'));
-            const std::string key(key_text(key_of(action, e.view.keys)));
+            const std::string key = key_text(key_of(action, e.view.keys));
             if (key.empty()) continue;
             if (menu != last) {
                 std::string title(menu);

@@ -200,6 +200,8 @@ void light_section(Editor& e, scene::Id<scene::Light> id) {
         e.edit([id, light](const scene::Scene& s) { return scene::set_light(s, id, light, "Change " + light.name); },
                "inspector.light");
     ImGui::Spacing();
+    action_button(e, "edit.duplicate", "Duplicate");
+    ImGui::SameLine();
     if (ImGui::Button("Delete this light")) e.edit([id](const scene::Scene& s) { return scene::remove(s, id); });
     e.mark("light.remove");
 }

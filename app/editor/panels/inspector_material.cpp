@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inspector, material: which one, who shares it, its type, and a row for every line of the plugin's table.
+#include "copy_paste.hpp"
+#include "drop.hpp"
 #include "inspector.hpp"
 #include "panels/plugin_ui.hpp"
 #include "param_widget.hpp"
 #include "pick_tool.hpp"
+#include "scene/merge.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -84,11 +87,11 @@ void material_choice(Editor& e, MaterialId current) {
                                      ? "diffuse"
                                      : e.registry().materials().front().table->type;
         e.edit([selected, type](const scene::Scene& s) {
-            std::set<std::string> taken{"Material"};
+            std::set<std::string> taken;
             s.materials.each([&](auto, const scene::Material& m) { taken.insert(m.name); });
             const MaterialId id = s.materials.next();
             scene::Edit edit = scene::insert(
-                s, scene::Material{.name = scene::next_name("Material", taken), .type = type}, "New material");
+                s, scene::Material{.name = scene::free_name("Material", taken), .type = type}, "New material");
             for (const InstanceId one : selected) {
                 scene::Instance after = s.instances[one];
                 after.material = id;
@@ -100,15 +103,22 @@ void material_choice(Editor& e, MaterialId current) {
     tip("A new matte material for what is selected");
     e.mark("material.new");
     ImGui::BeginDisabled(!material);
-    if (flow_button("Copy")) e.material_clipboard = current;
+    if (flow_button("Copy")) {
+        e.material_clipboard = current;
+        copy_material(e, current);
+    }
     ImGui::EndDisabled();
-    tip("Remember this material, to paste it on others");
+    tip("Remember this material, to paste it on others, also in another window of Restage");
     e.mark("material.copy");
     const scene::Material* held = e.material_clipboard ? e.scene().materials.find(*e.material_clipboard) : nullptr;
-    ImGui::BeginDisabled(!held);
-    if (flow_button("Paste") && held) assign(*e.material_clipboard);
-    ImGui::EndDisabled();
-    tip(held ? ("Give what is selected \"" + held->name + "\"").c_str() : "Copy a material first");
+    if (flow_button("Paste")) {
+        if (held && !newer_in_clipboard(e))
+            assign(*e.material_clipboard);
+        else
+            e.run("edit.paste");
+    }
+    tip(held ? ("Give what is selected \"" + held->name + "\"").c_str()
+             : "Give what is selected the material that was copied, here or in another window of Restage");
     e.mark("material.paste");
     bool mixed = false;
     for (const InstanceId one : selected)
@@ -171,6 +181,28 @@ void ask_image(Editor& e, MaterialId id, const RestageParam& line, const std::st
          }});
 }
 
+// Reads the file, then it is the texture of that colour.
+void give_image(Editor& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
+    e.panel_state->loads.start(
+        {.path = path,
+         .encoding = RESTAGE_SRGB,
+         .done = [&e, scope, param, path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+             if (!pixels) {
+                 e.notices.add(LogLevel::error, pixels.error().message);
+                 return;
+             }
+             scene::Image image{.name = std::filesystem::path(path).stem().string(),
+                                .path = path,
+                                .encoding = RESTAGE_SRGB,
+                                .data = *pixels};
+             e.edit([scope, param, image](const scene::Scene& s) {
+                 return edit_in_scope(s, scope, [&](const scene::Scene& now, MaterialId id) {
+                     return scene::set_image_texture(now, id, param, RESTAGE_COLOR, false, image);
+                 });
+             });
+         }});
+}
+
 void param_row(Editor& e, MaterialId id, const scene::Material& material, const RestageParam& line) {
     const scene::Value* set = material.params.find(line.id);
     const bool fits = set && set->type == static_cast<RestageType>(line.type);
@@ -196,7 +228,11 @@ void texture_for_selected(Editor& e, const std::string& file) {
     const auto plugin = e.registry().find_material(material->type);
     for (const RestageParam& line : table_of(plugin))
         if (line.type == RESTAGE_COLOR && (line.flags & RESTAGE_PARAM_TEXTURABLE)) {
-            ask_image(e, instance->material, line, file);
+            const std::string path = std::filesystem::absolute(file).lexically_normal().string();
+            ask_scope(e, e.selection.instances(), std::filesystem::path(path).filename().string(),
+                      [path, param = std::string(line.id)](Editor& editor, const MaterialScope& scope) {
+                          give_image(editor, scope, param, path);
+                      });
             return;
         }
     e.notices.add(LogLevel::info, material->name + " has no colour that a texture could stand for");

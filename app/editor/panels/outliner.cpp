@@ -25,12 +25,6 @@ void click(Editor& e, std::span<const InstanceId> ids) {
                                        : Selection::Mode::replace);
 }
 
-void start_renaming(OutlinerState& state, const Row& row, const std::string& name) {
-    state.renaming = row;
-    state.new_name = name;
-    state.focus_name = true;
-}
-
 template <class T>
 void rename_field(Editor& e, OutlinerState& state, scene::Id<T> id) {
     if (std::exchange(state.focus_name, false)) ImGui::SetKeyboardFocusHere();
@@ -52,27 +46,50 @@ void ask_hidden(Editor& e, std::vector<InstanceId> ids, bool hidden) {
     e.edit([ids = std::move(ids), hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
 }
 
+// The row itself, with its name as far as there is room before `icons` at its right end. Names are no labels of Dear
+// ImGui's: "##" in one is shown, and two rows may be called the same. True when it is clicked.
+bool row_label(const std::string& name, bool selected, int icons, bool dim = false, const std::string& tooltip = {}) {
+    const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const bool pressed = ImGui::Selectable(
+        "##row", selected, ImGuiSelectableFlags_AllowOverlap | ImGuiSelectableFlags_AllowDoubleClick, {0, side});
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    const float left = from.x + gap / 2, right = to.x - float(icons) * side - gap;
+    const bool cut = left + ImGui::CalcTextSize(name.c_str(), name.c_str() + name.size()).x > right;
+    const ImVec2 at(left, from.y + (to.y - from.y - ImGui::GetTextLineHeight()) / 2);
+    if (dim) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    if (right > left)
+        ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, {right, to.y}, right, name.c_str(),
+                                  name.c_str() + name.size(), nullptr);
+    if (dim) ImGui::PopStyleColor();
+    if (cut || !tooltip.empty())
+        tip((!cut ? tooltip : tooltip.empty() ? name : name + "\n" + tooltip).c_str());
+    return pressed;
+}
+
 // At the right end of the row: locked, visible.
 struct RightIcons {
     bool lock = false, eye = false; // pressed
 };
-RightIcons right_icons(Editor& e, bool locked, bool visible, const std::string& name) {
+// `locked`: none = it cannot be.
+RightIcons right_icons(Editor& e, std::optional<bool> locked, bool visible, const std::string& name) {
     RightIcons pressed;
     const float size = ImGui::GetFrameHeight();
     const ImVec2 top = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
     ImGui::SameLine();
-    ImGui::SetCursorScreenPos({end.x - 2 * size - ImGui::GetStyle().ItemSpacing.x, top.y});
-    // Open locks and open eyes everywhere would drown those that are not: they come with the mouse.
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const bool near = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && mouse.y >= top.y &&
-                      mouse.y < top.y + size;
-    if (!locked && !near) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0);
-    pressed.lock = icon_button(
-        "lock", locked ? Icon::lock : Icon::lock_open, locked,
-        locked ? "Locked: clicks in the picture go through it" : "Lock: clicks in the picture go through it");
-    if (!locked && !near) ImGui::PopStyleVar();
-    e.mark("outliner.lock." + name);
-    ImGui::SameLine(0, 0);
+    ImGui::SetCursorScreenPos({end.x - (locked ? 2 : 1) * size - ImGui::GetStyle().ItemSpacing.x / 2, top.y});
+    if (locked) {
+        // Open locks everywhere would drown those that are not: they come with the mouse.
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        const bool near = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && mouse.y >= top.y &&
+                          mouse.y < top.y + size;
+        if (!*locked && !near) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0);
+        pressed.lock = icon_button(
+            "lock", *locked ? Icon::lock : Icon::lock_open, *locked,
+            *locked ? "Locked: clicks in the picture go through it" : "Lock: clicks in the picture go through it");
+        if (!*locked && !near) ImGui::PopStyleVar();
+        e.mark("outliner.lock." + name);
+        ImGui::SameLine(0, 0);
+    }
     pressed.eye = icon_button("eye", visible ? Icon::eye : Icon::eye_closed, visible, visible ? "Hide it" : "Show it");
     e.mark("outliner.eye." + name);
     return pressed;
@@ -119,14 +136,11 @@ void instance_row(Editor& e, OutlinerState& state, const Row& row) {
         return;
     }
     const InstanceId ids[] = {id};
-    if (instance->hidden) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
-    if (ImGui::Selectable(instance->name.c_str(), e.selection.contains(id),
-                          ImGuiSelectableFlags_AllowOverlap | ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetFrameHeight()})) {
+    if (row_label(instance->name, e.selection.contains(id), 2, instance->hidden)) {
         click(e, ids);
+        state.cursor = row;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, instance->name);
     }
-    if (instance->hidden) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) e.hovered = id;
     e.mark("outliner." + instance->name);
     if (ImGui::BeginDragDropSource()) {
@@ -179,16 +193,13 @@ void group_row(Editor& e, OutlinerState& state, const Row& row) {
     const bool hidden = state.members[row.id] > 0 && state.hidden[row.id] == state.members[row.id];
     const bool selected =
         e.selection.active() && is_within(e.scene(), e.scene().instances[e.selection.active()].group, id);
-    if (hidden) ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
-    if (ImGui::Selectable(group->name.c_str(), selected,
-                          ImGuiSelectableFlags_AllowOverlap | ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetFrameHeight()})) {
+    if (row_label(group->name, selected, 2, hidden,
+                  fmt::format("{} objects. Click: select all of them; double click: rename", state.members[row.id]))) {
         click(e, instances_in(e.scene(), id));
+        state.cursor = row;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, group->name);
     }
-    if (hidden) ImGui::PopStyleColor();
     e.mark("outliner.group." + group->name);
-    tip(fmt::format("{} objects. Click: select all of them; double click: rename", state.members[row.id]).c_str());
     drop_target(e, id);
     if (ImGui::BeginPopupContextItem("group")) {
         if (ImGui::MenuItem("Select")) e.selection.set(instances_in(e.scene(), id));
@@ -227,12 +238,19 @@ void light_row(Editor& e, OutlinerState& state, const Row& row) {
         rename_field(e, state, id);
         return;
     }
-    if (ImGui::Selectable(light->name.c_str(), e.selection.light() == id, ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetFrameHeight()})) {
+    if (row_label(light->name, e.selection.light() == id, 0)) {
         e.selection.set_light(id);
+        state.cursor = row;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, light->name);
     }
     e.mark("outliner.light." + light->name);
+    if (ImGui::BeginPopupContextItem("light")) {
+        e.selection.set_light(id);
+        if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, light->name);
+        for (const char* action : {"edit.duplicate", "edit.copy", "edit.delete"})
+            menu_item(e, action);
+        ImGui::EndPopup();
+    }
 }
 
 void camera_row(Editor& e, OutlinerState& state, const Row& row) {
@@ -243,11 +261,11 @@ void camera_row(Editor& e, OutlinerState& state, const Row& row) {
         rename_field(e, state, id);
         return;
     }
-    if (ImGui::Selectable(camera->name.c_str(), id == e.camera_id(), ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetFrameHeight()}) &&
-        ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-        e.edit([id](const scene::Scene& s) { return scene::set_active_camera(s, id); });
-    tip("Double click: look through it");
+    if (row_label(camera->name, id == e.camera_id(), 0, false, "Double click: look through it")) {
+        state.cursor = row;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+            e.edit([id](const scene::Scene& s) { return scene::set_active_camera(s, id); });
+    }
     e.mark("outliner.camera." + camera->name);
     if (ImGui::BeginPopupContextItem("camera")) {
         if (ImGui::MenuItem("Look through it"))
@@ -294,20 +312,6 @@ void draw_row(Editor& e, OutlinerState& state, const Row& row) {
     ImGui::PopID();
 }
 
-// Up and down go through the objects as they are listed.
-void arrow_keys(Editor& e, const OutlinerState& state) {
-    if (!ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) || ImGui::GetIO().WantTextInput) return;
-    const int step = int(ImGui::IsKeyPressed(ImGuiKey_DownArrow)) - int(ImGui::IsKeyPressed(ImGuiKey_UpArrow));
-    if (step == 0) return;
-    const int now = find_row(state, e.selection.active());
-    for (int i = now + step; i >= 0 && i < int(state.rows.size()); i += step)
-        if (const Row& row = state.rows[std::size_t(i)]; row.kind == Row::Kind::instance) {
-            const InstanceId ids[] = {{row.id}};
-            e.selection.set(ids);
-            return;
-        }
-}
-
 } // namespace
 
 void draw_outliner(Editor& e) {
@@ -332,7 +336,7 @@ void draw_outliner(Editor& e) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ImGui::GetStyle().ItemSpacing.x, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0, 0.5f));
     if (ImGui::BeginChild("rows", {0, 0}, 0, ImGuiWindowFlags_NoNavInputs)) {
-        arrow_keys(e, state);
+        outliner_keys(e, state);
         const float height = ImGui::GetFrameHeight();
         if (e.selection.active() != state.last_active) { // picked elsewhere: show where it is
             state.last_active = e.selection.active();
@@ -341,9 +345,6 @@ void draw_outliner(Editor& e) {
             if (row >= 0 && (y < ImGui::GetScrollY() || y + height > ImGui::GetScrollY() + ImGui::GetWindowHeight()))
                 ImGui::SetScrollY(std::max(0.f, y - ImGui::GetWindowHeight() / 2));
         }
-        if (ImGui::IsWindowFocused() && ImGui::IsKeyPressed(ImGuiKey_F2) && e.selection.active())
-            start_renaming(state, {Row::Kind::instance, e.selection.active().value, 0},
-                           e.scene().instances[e.selection.active()].name);
         if (state.rows.empty()) empty_note("Nothing is called that.");
         ImGuiListClipper clipper;
         clipper.Begin(int(state.rows.size()), height);

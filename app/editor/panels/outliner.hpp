@@ -12,6 +12,11 @@ void update_rows(const Editor& editor, OutlinerState& state);
 // The row of an object; -1 = it is not listed.
 int find_row(const OutlinerState& state, InstanceId id);
 
+// Up and down go through the rows as they are listed, with Shift what is passed is added; right opens a group, left
+// closes it or goes to the one around; F2 renames. Within the list's window.
+void outliner_keys(Editor& editor, OutlinerState& state);
+void start_renaming(OutlinerState& state, const OutlinerState::Row& row, const std::string& name);
+
 void move_to_group(Editor& editor, GroupId group); // the selected objects; none = out of theirs
 void group_selected(Editor& editor);
 void ungroup(Editor& editor, GroupId group); // what is in it goes to the group around it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the outliner does to groups.
 #include "outliner.hpp"
+#include "scene/merge.hpp"
 
 #include <set>
 
@@ -21,10 +22,10 @@ void move_to_group(Editor& e, GroupId group) {
 
 void group_selected(Editor& e) {
     e.edit([ids = e.selection.instances()](const scene::Scene& s) {
-        std::set<std::string> taken{"Group"};
+        std::set<std::string> taken;
         s.groups.each([&](auto, const scene::Group& g) { taken.insert(g.name); });
         const GroupId id = s.groups.next();
-        scene::Edit edit = scene::insert(s, scene::Group{.name = scene::next_name("Group", taken)}, "Group");
+        scene::Edit edit = scene::insert(s, scene::Group{.name = scene::free_name("Group", taken)}, "Group");
         for (const InstanceId one : ids) {
             scene::Instance after = s.instances[one];
             after.group = id;

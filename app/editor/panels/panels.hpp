@@ -3,6 +3,7 @@
 // add one: a file here, a line here, a line in the table of panels.cpp.
 #pragma once
 
+#include "assets.hpp"
 #include "editor.hpp"
 
 #include <span>
@@ -24,6 +25,8 @@ void draw_help(Editor& editor);
 // The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
 // a scene.
 void accept_asset(Editor& editor);
+// A small picture of that file; it is read when first asked for.
+const AssetsState::Thumbnail& thumbnail_of(Editor& editor, const std::string& file);
 // Notes the error of the live picture, whether the panel is seen or not; once a frame.
 void follow_convergence(Editor& editor);
 

@@ -163,7 +163,7 @@ void camera_section(Editor& e) {
     ImGui::PushID("camera");
     if (e.scene().cameras.live() > 1) {
         form_row("Look through", "One of the scene's cameras");
-        if (ImGui::BeginCombo("##active", e.camera().name.c_str())) {
+        if (ImGui::BeginCombo("##active", e.scene_camera().name.c_str())) {
             e.scene().cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& c) {
                 if (ImGui::Selectable(fmt::format("{}##{}", c.name, id.value).c_str(), id == e.camera_id()))
                     e.edit([id](const scene::Scene& s) { return scene::set_active_camera(s, id); });
@@ -172,7 +172,12 @@ void camera_section(Editor& e) {
         }
         e.mark("camera.active");
     }
-    scene::Camera camera = e.camera();
+    if (e.views.now()) {
+        action_button(e, "view.set_camera");
+        ImGui::SameLine();
+        action_button(e, "view.camera", "Look through it");
+    }
+    scene::Camera camera = e.scene_camera();
     bool changed = projection_rows(e, camera);
     if (scene::is_spherical(camera)) {
         if (changed) ask_camera(e, camera);

@@ -3,6 +3,7 @@
 #include "scene_panel.hpp"
 
 #include "io/material_emission.hpp"
+#include "scene/merge.hpp"
 #include "session/navigation.hpp"
 #include "session/raycast.hpp"
 #include "theme.hpp"
@@ -59,6 +60,9 @@ void add_light(Editor& e, RestageLightKind kind) {
     e.later([&e, light = std::move(light)]() mutable {
         session::Session& session = e.session_for_changes();
         const auto id = session.scene().lights.next();
+        std::set<std::string> taken;
+        session.scene().lights.each([&](auto, const scene::Light& other) { taken.insert(other.name); });
+        light.name = scene::free_name(light.name, taken);
         const std::string label = "Add " + light.name;
         if (auto made = session.edit(scene::insert(session.scene(), std::move(light), label)); !made)
             e.notices.add(LogLevel::error, made.error().message);

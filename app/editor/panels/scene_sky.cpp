@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <algorithm>
+#include <set>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -42,6 +43,31 @@ void ask_sky(Editor& e, std::optional<Environment> sky, const char* label, const
            gesture);
 }
 
+// Files at hand that may be one: assets, and what the scene has read. Bump maps and the like are left out.
+std::vector<std::string> known_skies(Editor& e) {
+    std::vector<std::string> known;
+    const auto add = [&](const std::string& path) {
+        if (!path.empty() && std::find(known.begin(), known.end(), path) == known.end()) known.push_back(path);
+    };
+    for (const std::string& path : e.panel_state->assets.files_of(AssetKind::sky)) {
+        const auto small = e.panel_state->assets.thumbnails.find(path);
+        const bool seen = small != e.panel_state->assets.thumbnails.end();
+        if (seen && small->second.failed) continue;
+        // Of a thumbnail only the shape counts; one that is not there yet gets the benefit of the doubt.
+        const bool shaped = seen && small->second.size.y > 0;
+        const auto wide = std::uint32_t(shaped ? std::lround(4096 * small->second.size.x / small->second.size.y) : 8192);
+        if (plausible_sky(path, wide, 4096)) add(path);
+    }
+    std::set<std::uint32_t> on_surfaces; // images that textures show
+    e.scene().textures.each([&](auto, const scene::Texture& t) { on_surfaces.insert(t.image.value); });
+    e.scene().images.each([&](scene::Id<scene::Image> id, const scene::Image& i) {
+        const bool sky = e.scene().environment.value && e.scene().environment.value->image == id;
+        if (sky || (i.data && !on_surfaces.contains(id.value) && plausible_sky(i.path, i.data->width, i.data->height)))
+            add(i.path);
+    });
+    return known;
+}
+
 void image_row(Editor& e, const Environment& sky) {
     const scene::Image* image = e.scene().images.find(sky.image);
     form_row("Image", image ? image->path.c_str() : "A panorama that shines from all around: HDR or EXR is best");
@@ -59,26 +85,34 @@ void image_row(Editor& e, const Environment& sky) {
     }
     if (const std::string file = chosen_image_file(e, "sky"); !file.empty()) use_as_sky(e, file);
     if (!ImGui::BeginPopup("sky image")) return;
-    std::vector<std::string> known = e.panel_state->assets.files_of(AssetKind::sky);
-    e.scene().images.each([&](auto, const scene::Image& i) {
-        if (!i.path.empty() && i.encoding == RESTAGE_LINEAR &&
-            std::find(known.begin(), known.end(), i.path) == known.end())
-            known.push_back(i.path);
-    });
+    const std::vector<std::string> known = known_skies(e);
     if (!known.empty()) {
         std::vector<std::string> names;
         for (const std::string& path : known)
             names.push_back(std::filesystem::path(path).filename().string());
+        const float high = 2.2f * ImGui::GetTextLineHeight(), wide = 2 * high;
         searched_list(
             e.panel_state->scene.sky_search, known.size(), [&](std::size_t i) -> std::string_view { return names[i]; },
             [&](std::size_t i) {
-                if (ImGui::Selectable(names[i].c_str(), image && image->path == known[i])) {
+                const ImVec2 at = ImGui::GetCursorScreenPos();
+                if (ImGui::Selectable("##sky", image && image->path == known[i], 0, {0, high})) {
                     use_as_sky(e, known[i]);
                     ImGui::CloseCurrentPopup();
                 }
                 tip(known[i].c_str());
                 e.mark("sky.choose." + names[i]);
-            });
+                ImDrawList* draw = ImGui::GetWindowDrawList();
+                const AssetsState::Thumbnail& small = thumbnail_of(e, known[i]);
+                if (small.texture && small.texture->ready())
+                    draw->AddImage(small.texture->ref(), {at.x, at.y + 1}, {at.x + wide, at.y + high - 1});
+                else
+                    draw->AddRectFilled({at.x, at.y + 1}, {at.x + wide, at.y + high - 1},
+                                        ImGui::GetColorU32(ImGuiCol_FrameBg));
+                draw->AddText({at.x + wide + ImGui::GetStyle().ItemSpacing.x,
+                               at.y + (high - ImGui::GetTextLineHeight()) / 2},
+                              ImGui::GetColorU32(ImGuiCol_Text), names[i].c_str());
+            },
+            high + ImGui::GetStyle().ItemSpacing.y);
         ImGui::Separator();
     }
     image_file_item(e, "sky");

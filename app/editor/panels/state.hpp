@@ -48,7 +48,7 @@ struct OutlinerState {
     std::vector<std::uint32_t> members, hidden; // objects in each group, at any depth
     std::string search;
     scene::Id<scene::Material> material; // only what uses it
-    OutlinerState::Row renaming{.id = 0};
+    Row renaming{.id = 0}, cursor{.id = 0}; // cursor: where the arrow keys go on from
     std::string new_name;
     bool focus_name = false;
     InstanceId last_active; // scrolls when it changes elsewhere

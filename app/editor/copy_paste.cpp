@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "copy_paste.hpp"
+
+#include "editor.hpp"
+#include "files.hpp"
+#include "session/clipboard.hpp"
+
+#include <imgui.h>
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <cmath>
+
+namespace restage::editor {
+
+namespace {
+
+void copy(Editor& e, const session::Selected& selected, const std::string& what) {
+    const auto text = session::copy_text(e.session(), selected);
+    if (!text) {
+        e.notices.add(LogLevel::error, text.error().message);
+        return;
+    }
+    ImGui::SetClipboardText(text->c_str());
+    e.copied = {.text = *text, .instances = {}};
+    for (const InstanceId id : selected.instances)
+        e.copied.instances.emplace_back(id, e.scene().instances[id]);
+    e.notices.add(LogLevel::info, "Copied " + what);
+}
+
+// What came is in the document now, or not.
+void add(Editor& e, const session::Copy& copied) {
+    session::Session& session = e.session_for_changes();
+    if (copied.material) {
+        if (e.selection.instances().empty()) {
+            e.notices.add(LogLevel::info, "Select the objects that shall have the material");
+            return;
+        }
+        if (const auto done =
+                session.edit(session::paste_material(session.scene(), copied, e.selection.instances()));
+            !done)
+            e.notices.add(LogLevel::error, done.error().message);
+        return;
+    }
+    session::Pasted pasted =
+        session::paste(session.scene(), copied.scene, aside(e, scene::world_bounds(copied.scene)));
+    session.edit(std::move(pasted.edit));
+    if (pasted.instances.empty())
+        e.selection.set_light(pasted.light);
+    else
+        e.selection.set(pasted.instances);
+}
+
+} // namespace
+
+void copy_selected(Editor& e) {
+    const auto& ids = e.selection.instances();
+    if (const scene::Light* light = e.scene().lights.find(e.selection.light()))
+        copy(e, {.light = e.selection.light()}, light->name);
+    else if (!ids.empty())
+        copy(e, {.instances = ids},
+             ids.size() == 1 ? e.scene().instances[ids[0]].name : std::to_string(ids.size()) + " objects");
+}
+
+void copy_material(Editor& e, scene::Id<scene::Material> id) {
+    if (const scene::Material* material = e.scene().materials.find(id))
+        copy(e, {.material = id}, "material " + material->name);
+}
+
+bool newer_in_clipboard(const Editor& e) {
+    const char* held = ImGui::GetClipboardText();
+    return held && session::is_copy(held) && e.copied.text != held;
+}
+
+void paste(Editor& e) {
+    const char* held = ImGui::GetClipboardText();
+    std::string text = held ? held : "";
+    if (!session::is_copy(text)) {
+        e.notices.add(LogLevel::info, "The clipboard holds nothing of Restage's: copy objects or a material first");
+        return;
+    }
+    const auto& ours = e.copied.instances;
+    if (text == e.copied.text && !ours.empty() && std::ranges::all_of(ours, [&](const auto& one) {
+            const scene::Instance* now = e.scene().instances.find(one.first);
+            return now && *now == one.second;
+        })) { // they share geometry and materials
+        std::vector<InstanceId> ids;
+        scene::Bounds bounds;
+        for (const auto& [id, instance] : ours) {
+            ids.push_back(id);
+            bounds.add(scene::world_bounds(e.scene(), id));
+        }
+        auto made = e.session_for_changes().duplicate(ids, glm::translate(glm::dmat4(1), aside(e, bounds)));
+        if (!made) return e.notices.add(LogLevel::error, made.error().message);
+        return e.selection.set(*made);
+    }
+    // What names files reads them.
+    e.files().jobs.start({.title = "Pasting"},
+                         [text = std::move(text),
+                          &registry = e.registry()](BackgroundJob&) -> std::function<void(Editor&)> {
+                             auto copied = session::read_copy(text, registry);
+                             if (!copied)
+                                 return [message = copied.error().message](Editor& editor) {
+                                     editor.notices.add(LogLevel::error, message);
+                                 };
+                             return [copied = std::make_shared<const session::Copy>(std::move(*copied))](
+                                        Editor& editor) { editor.later([&editor, copied] { add(editor, *copied); }); };
+                         });
+}
+
+glm::dvec3 aside(const Editor& e, const scene::Bounds& bounds) {
+    const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(right[i]) > std::abs(right[axis])) axis = i;
+    double length = bounds.empty() ? 0 : std::max(bounds.size()[axis] * 1.05, bounds.radius() * 0.1);
+    if (!(length > 0)) { // a lamp is a point
+        const scene::Bounds all = scene::world_bounds(e.scene());
+        length = all.empty() || !(all.radius() > 0) ? 1 : all.radius() * 0.1;
+    }
+    glm::dvec3 step(0);
+    step[axis] = std::copysign(length, right[axis]);
+    return step;
+}
+
+} // namespace restage::editor

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The system's clipboard: objects, lights and materials, also of another window of Restage.
+#pragma once
+
+#include "scene/bounds.hpp"
+#include "scene/scene.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace restage::editor {
+
+class Editor;
+
+// What this window put into the clipboard last, to know it again.
+struct Copied {
+    std::string text;
+    std::vector<std::pair<scene::Id<scene::Instance>, scene::Instance>> instances; // as they were
+};
+
+void copy_selected(Editor& editor);
+void copy_material(Editor& editor, scene::Id<scene::Material> material);
+// Objects and lights are put where they were, beside what is there already; a material goes to what is selected.
+void paste(Editor& editor);
+bool newer_in_clipboard(const Editor& editor); // something of another window's
+// To the right of something as large as this, seen from the camera, along a world axis: where a copy of it is seen.
+glm::dvec3 aside(const Editor& editor, const scene::Bounds& bounds);
+
+} // namespace restage::editor

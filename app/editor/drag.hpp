@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dragging what is selected, by its handles, by the knob between them or by itself. One rule for all: what is moved
+// keeps the plane it stands on, Shift drags a copy, Ctrl goes in steps, Alt lifts; Esc or a right click cancels. A drag
+// is one step of the history, and none when it ends where it began.
+#pragma once
+
+#include "selection.hpp"
+#include "session/navigation.hpp"
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace restage::editor {
+
+class Editor;
+
+// How far a moved thing is from where it was, as the mouse goes: over the plane of `up` or along an axis handle, and
+// along `up` while Alt is held. A change between both goes on from where the thing is then.
+class DragPath {
+  public:
+    struct Mouse {
+        session::ViewRay ray; // through it
+        glm::dvec3 view_up; // the camera's own, where the ray looks along `up`
+    };
+    // `at`: a point of what is dragged, in world space, near the ray. `handle`: by an axis handle.
+    void begin(const glm::dvec3& at, const glm::dvec3& up, const Mouse& mouse, bool handle);
+    // `handle`: what an axis handle says; none = over the plane. `step`: of what is moved from now on; 0 = any.
+    glm::dvec3 update(bool lift, const Mouse& mouse, std::optional<glm::dvec3> handle, double step);
+
+  private:
+    double height(const Mouse& mouse) const; // along up_, of the point nearest to the ray
+
+    glm::dvec3 up_{0, 1, 0};
+    glm::dvec3 at_{0}, kept_{0}, now_{0}; // where, and how far from the start, the last change was; how far it is now
+    glm::dvec3 from_{0}; // where on the plane, or how far along the handle, the mouse was then
+    double height_ = 0;
+    bool lifting_ = false, steep_ = false;
+};
+
+// A drag as it runs: what was selected, where it was, and the handles' frame, when it began.
+struct Drag {
+    bool active = false;
+    bool copied = false;
+    std::vector<InstanceId> originals; // selected before copies were
+    std::vector<std::pair<InstanceId, glm::dmat4>> start;
+    scene::Id<scene::Light> light, original_light;
+    glm::dmat4 light_start{1};
+    DragPath path; // of moves
+    glm::dvec3 pivot{0};
+    // Of the handles, about the pivot: at the start, and now, as ImGuizmo has it.
+    glm::dmat4 frame{1};
+    glm::mat4 current{1};
+};
+
+// Notes what is dragged, or copies of it, and where it is.
+void begin_drag(Editor& editor, Drag& drag, bool copy);
+// Asks that it is where `by` brings it from there. Editor::end_gesture() ends it.
+void ask_drag(Editor& editor, const Drag& drag, const glm::dmat4& by, const char* verb);
+// What it changed is taken back, and no step of the history is left.
+void cancel_drag(Editor& editor, Drag& drag);
+
+} // namespace restage::editor

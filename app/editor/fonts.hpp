@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fonts of the system for the names that the UI's own font has no glyphs for: Chinese, Japanese, Korean and others.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace restage::editor {
+
+struct Script {
+    const char* name; // "Japanese"
+    char32_t sample; // a character that a font for it has
+    char32_t first, last; // where its characters lie
+};
+std::span<const Script> known_scripts();
+// That of a character outside of what the UI's font covers; null = none of ours.
+const Script* script_of(char32_t c);
+
+// Where this system keeps fonts.
+std::vector<std::filesystem::path> system_font_folders();
+
+struct FallbackFont {
+    std::filesystem::path file;
+    int face = 0; // within a collection (.ttc)
+};
+struct FallbackFonts {
+    std::vector<FallbackFont> fonts; // in the order in which they are asked
+    std::vector<std::string> missing; // scripts that none of them has
+};
+// As few fonts as cover every script, where there are some. Reads no more than the character maps.
+FallbackFonts find_fallback_fonts(std::span<const std::filesystem::path> folders);
+
+// Whether that face of the file has a glyph for the character (its table "cmap", formats 4 and 12).
+bool font_has(const std::filesystem::path& file, int face, char32_t c);
+
+} // namespace restage::editor
