@@ -39,8 +39,9 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->excludes(time);
     command.add_option("--size", o.size, "Film size WxH [pixel] (default: what the scene says)");
     command.add_option("--camera", o.camera, "Camera by its name or number, from 1, as `restage info` lists them");
-    command.add_flag("--studio", o.studio,
-                     "Light it with a neutral studio; where that does not reach what the camera sees, with a lamp there");
+    command.add_flag(
+        "--studio", o.studio,
+        "Light it with a neutral studio; where that does not reach what the camera sees, with a lamp there");
     command.add_option("--denoise", o.denoise, "Denoise the result; quality fast, balanced or high (default high)")
         ->expected(0, 1)
         ->default_str("high")
@@ -146,8 +147,8 @@ Result<scene::Id<scene::Camera>> choose_camera(const scene::Scene& scene, const 
     });
     if (const auto by_name = scene::find_by_name<scene::Camera>(scene, wanted)) return by_name;
     if (by_number) return by_number;
-    return fail(fmt::format("--camera {}: there is no such camera; there are {}", wanted,
-                            known.empty() ? "none" : known));
+    return fail(
+        fmt::format("--camera {}: there is no such camera; there are {}", wanted, known.empty() ? "none" : known));
 }
 
 } // namespace

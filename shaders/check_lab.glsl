@@ -41,7 +41,7 @@ void main() {
     }
     SceneData scene;
     scene.params = push.params;
-    Material m = material_fetch(scene, job.config * push.words, vec2(0));
+    Material m = material_fetch(scene, job.config * push.words, vec4(0));
 
     BsdfSample s = BSDF_NONE;
     for (uint k = 0u; k < (push.mode == LAB_LOOK ? 0u : 1u); ++k)

@@ -24,9 +24,8 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     s.meshes.each([&](auto, const scene::Mesh& m) {
         if (!m.data || !seen.insert(m.data.get()).second) return;
         triangles += m.data->triangles.size();
-        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 + m.data->uvs2.size() * 8 +
-                    m.data->tangents.size() * 16 +
-                    m.data->triangles.size() * 12;
+        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 +
+                    m.data->uvs2.size() * 8 + m.data->tangents.size() * 16 + m.data->triangles.size() * 12;
     });
     s.images.each([&](auto, const scene::Image& i) { pixels += i.data ? i.data->values.size() * sizeof(float) : 0; });
     s.instances.each([&](auto, const scene::Instance& i) {
@@ -108,7 +107,8 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
                 l["environment"].get<std::string>().c_str());
     if (!d["lit"].get<bool>()) std::printf("            %s; `restage render --studio` lights it\n", session::no_light);
     line.clear();
-    for (std::size_t i = 0; i < d["camera_list"].size(); ++i) { // by these names and numbers `render --camera` takes them
+    for (std::size_t i = 0; i < d["camera_list"].size();
+         ++i) { // by these names and numbers `render --camera` takes them
         const auto& c = d["camera_list"][i];
         line += fmt::format("{}{} \"{}\"{}", i == 0 ? "" : ", ", i + 1, c["name"].get<std::string>(),
                             c["active"].get<bool>() ? " (active)" : "");

@@ -41,8 +41,9 @@ void Opening::run() {
     const auto read = [&]() -> Result<Opened> {
         Opened opened;
         if (request_.purpose == Purpose::insert) {
-            RESTAGE_TRY(opened.inserted, session::read_scene(request_.path.string(), registry_,
-                                                             {.progress = progress, .isolate = isolate_, .expose = false}));
+            RESTAGE_TRY(opened.inserted,
+                        session::read_scene(request_.path.string(), registry_,
+                                            {.progress = progress, .isolate = isolate_, .expose = false}));
         } else {
             const session::ReadOptions options{.progress = progress,
                                                .isolate = isolate_,

@@ -99,7 +99,7 @@ void Viewport::navigate(Editor& e, bool over) {
     if (over && io.MouseWheel != 0 && navigation_ == Navigation::none) {
         // Towards what is under the mouse.
         const session::ViewRay ray = session::view_ray(camera, film_point(io.MousePos), aspect);
-        double distance = glm::length(pivot(e) - ray.origin); // along the view, where rays are parallel
+        double distance = glm::length(pivot(e) - ray.origin);
         if (const InstanceId id = instance_at(e, io.MousePos); id && drawn_) {
             const glm::dvec2 p = film_point(io.MousePos);
             const auto& image = drawn_->image;

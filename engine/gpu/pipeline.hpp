@@ -79,10 +79,9 @@ class RayTracingPipeline : public Pipeline {
                                              std::uint32_t push_constant_bytes, std::span<const SpecConstant> constants,
                                              const char* name);
     // Push constants are visible to all of them.
-    static constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
-                                                 VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
-                                                 VK_SHADER_STAGE_INTERSECTION_BIT_KHR |
-                                                 VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+    static constexpr VkShaderStageFlags stages =
+        VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
+        VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR;
 
   private:
     friend class CommandList;

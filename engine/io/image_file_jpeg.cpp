@@ -5,6 +5,7 @@
 #include "io/image_file_codecs.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio> // jpeglib.h needs FILE
 
@@ -64,7 +65,7 @@ struct Decoder {
     Decoder(const Decoder&) = delete;
     Decoder& operator=(const Decoder&) = delete;
 
-    // Each is false when libjpeg gave up. Nothing with a destructor lives in them, as longjmp asks.
+    // Each is false when libjpeg gave up. Nothing with a destructor begins in them, as longjmp asks.
     bool read_header(std::string_view bytes) {
         if (setjmp(errors.back)) return false; // NOLINT(cert-err52-cpp): libjpeg's only way
         jpeg_create_decompress(&jpeg);
@@ -77,12 +78,16 @@ struct Decoder {
                                                           : JCS_RGB;
         return true;
     }
-    bool read_rows(JSAMPLE* to) {
+    // Memory is asked for as rows come: a file that ends early gets little.
+    bool read_rows(std::vector<std::uint8_t>& to) {
         if (setjmp(errors.back)) return false; // NOLINT(cert-err52-cpp)
         jpeg_start_decompress(&jpeg);
         const std::size_t stride = std::size_t{jpeg.output_width} * static_cast<unsigned>(jpeg.output_components);
+        const std::size_t whole = stride * jpeg.output_height;
         while (jpeg.output_scanline < jpeg.output_height) {
-            JSAMPROW row = to + stride * jpeg.output_scanline;
+            const std::size_t at = stride * jpeg.output_scanline;
+            if (to.size() < at + stride) to.resize(std::min(whole, std::max(2 * to.size(), 64 * stride)));
+            JSAMPROW row = to.data() + at;
             jpeg_read_scanlines(&jpeg, &row, 1);
         }
         jpeg_finish_decompress(&jpeg);
@@ -122,9 +127,8 @@ Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
     DecodedImage image{.width = jpeg.image_width, .height = jpeg.image_height, .channels = cmyk ? 3u : 0u};
     if (!cmyk) image.channels = static_cast<std::uint32_t>(jpeg.num_components);
     if (header_only) return image;
-    std::vector<std::uint8_t> values(std::size_t{image.width} * image.height *
-                                     static_cast<unsigned>(jpeg.num_components));
-    if (!decoder.read_rows(values.data())) return decoder.problem(bytes.size());
+    std::vector<std::uint8_t> values;
+    if (!decoder.read_rows(values)) return decoder.problem(bytes.size());
     if (decoder.errors.manager.num_warnings > 0)
         image.warning = fmt::format("JPEG: {}; the picture is shown as far as it goes", decoder.errors.message);
     image.values = cmyk ? cmyk_to_rgb(values, jpeg.saw_Adobe_marker != 0) : std::move(values);

@@ -64,7 +64,7 @@ Result<DecodedImage> decode_png(std::string_view bytes, bool header_only) {
     constexpr std::uint32_t samples[] = {1, 0, 3, 1, 2, 0, 4};
     const std::uint64_t row = (std::uint64_t{header.width} * samples[header.color_type] * header.bit_depth + 7) / 8;
     if (row * header.height > 1032 * std::uint64_t{bytes.size()})
-        return fail(fmt::format("truncated: {} x {} pixels cannot be in a PNG file that has only {} bytes",
+        return fail(fmt::format("truncated: the header says {} x {} pixels, but the file has only {} bytes",
                                 header.width, header.height, bytes.size()));
     spng_trns transparency{};
     code = spng_get_trns(context.get(), &transparency); // reads all chunks before the pixels
@@ -80,6 +80,8 @@ Result<DecodedImage> decode_png(std::string_view bytes, bool header_only) {
         if (size != values.size() * sizeof values[0]) return fail("the picture is broken: PNG: its size is not clear");
         if (const int e = spng_decode_image(context.get(), values.data(), size, wanted.format, wanted.flags))
             return broken(e, bytes.size());
+        // What follows the pixels matters to nobody, but that the file ends before its end is said.
+        if (spng_decode_chunks(context.get()) == SPNG_IO_EOF) return broken(SPNG_IO_EOF, bytes.size());
         image.values = std::move(values);
         return std::move(image);
     };

@@ -24,6 +24,10 @@ Result<DecodedImage> decode_webp(std::string_view bytes, bool header_only) {
     const auto width = static_cast<std::uint32_t>(std::max(features.width, 0)),
                height = static_cast<std::uint32_t>(std::max(features.height, 0));
     RESTAGE_CHECK(check_image_size(width, height, bytes.size()));
+    std::uint64_t riff = 8; // bytes 4-7: how many follow them, little-endian; asked before memory is
+    for (std::size_t i = 0; i < 4; ++i)
+        riff += std::uint64_t{data[4 + i]} << (8 * i);
+    if (riff > bytes.size()) return truncated();
     DecodedImage image{.width = width, .height = height, .channels = features.has_alpha ? 4u : 3u};
     if (header_only) return image;
 

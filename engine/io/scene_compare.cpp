@@ -239,7 +239,9 @@ class Comparison {
                 std::string text = "light " + std::to_string(l.kind) + " of " + shown(l.value);
                 if (l.kind != RESTAGE_LIGHT_DISTANT) text += " at " + shown(glm::vec3(at));
                 if (l.kind != RESTAGE_LIGHT_POINT) text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
-                if (l.kind == RESTAGE_LIGHT_SPOT) text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta);
+                if (l.kind == RESTAGE_LIGHT_SPOT)
+                    text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta) +
+                            (l.falloff == RESTAGE_FALLOFF_QUARTIC ? " quartic" : "");
                 if (options_.names) text += " called \"" + l.name + "\"";
                 all.push_back(std::move(text));
             });

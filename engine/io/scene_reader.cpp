@@ -187,7 +187,8 @@ struct SceneReader::Calls {
                 .value = {},
                 .light_to_world = {},
                 .cone_angle = l->cone_angle,
-                .cone_delta = l->cone_delta};
+                .cone_delta = l->cone_delta,
+                .falloff = static_cast<std::uint32_t>(l->falloff)};
         copy(l->value, out->value);
         copy(l->light_to_world, out->light_to_world);
         return 1;

@@ -93,7 +93,8 @@ void box_occluded(const RTCOccludedFunctionNArguments* args) {
 }
 void box_bounds(const RTCBoundsFunctionArguments* args) { *args->bounds_o = {-1, -1, -1, 0, 1, 1, 1, 0}; }
 
-// Cut-outs, lamps that are no surface, and mixes with a share of none: called for candidate hits of meshes that some instance uses so.
+// Cut-outs, lamps that are no surface, and mixes with a share of none: called for candidate hits of meshes that some
+// instance uses so.
 void hit_filter(const RTCFilterFunctionNArguments* args) {
     const auto* scene = *static_cast<const GpuScene* const*>(args->geometryUserPtr);
     const auto& query = *reinterpret_cast<const QueryContext*>(args->context);

@@ -28,8 +28,8 @@ class EmbreeScene {
     void intersect(shared::RayHit& ray) const;
     void occluded(shared::ShadowRay& shadow) const;
 
-    // What is left of light on its way along a ray from t_start to t_end, and the medium there: Beer-Lambert between the
-    // borders of media that the ray passes, nearest first; what a border says behind it holds (pbrt 4ed, 11.4).
+    // What is left of light on its way along a ray from t_start to t_end, and the medium there: Beer-Lambert between
+    // the borders of media that the ray passes, nearest first; what a border says behind it holds (pbrt 4ed, 11.4).
     struct Passed {
         glm::vec3 transmittance;
         std::uint32_t medium;

@@ -199,7 +199,8 @@ class EmbreeTracer final : public Tracer {
             if (shadow.tfar > 0) {
                 glm::vec3 c = shadow.contribution;
                 if (scene.features().borders)
-                    c *= embree_->pass_borders({shadow.origin, shadow.direction, 0, distance}, shadow.medium).transmittance;
+                    c *= embree_->pass_borders({shadow.origin, shadow.direction, 0, distance}, shadow.medium)
+                             .transmittance;
                 paths[active[a]].radiance += c;
             }
             shadow.tfar = -1;
@@ -225,7 +226,8 @@ class EmbreeTracer final : public Tracer {
                 ray.geom = ray.inst = NONE;
                 embree_->intersect(ray);
                 if (scene.features().borders) {
-                    const auto passed = embree_->pass_borders({ray.origin, ray.direction, ray.tnear, ray.tfar}, paths[i].medium);
+                    const auto passed =
+                        embree_->pass_borders({ray.origin, ray.direction, ray.tnear, ray.tfar}, paths[i].medium);
                     paths[i].throughput *= passed.transmittance;
                     paths[i].medium = passed.medium;
                 }

@@ -80,7 +80,7 @@ namespace {
 
 shared::QuadricData quadric_data(const scene::Quadric& q) {
     const bool sphere = q.kind == scene::Quadric::Kind::sphere;
-    return {.kind = sphere                                  ? QUADRIC_SPHERE
+    return {.kind = sphere                                 ? QUADRIC_SPHERE
                     : q.kind == scene::Quadric::Kind::disk ? QUADRIC_DISK
                                                            : QUADRIC_CYLINDER,
             .whole = q.whole_sphere() ? 1u : 0u,

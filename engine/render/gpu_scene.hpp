@@ -99,7 +99,7 @@ class GpuScene {
     struct Pixels {
         gpu::Buffer buffer;
         scene::Version version = 0;
-        std::shared_ptr<const scene::PixelData> data;  // of the scene
+        std::shared_ptr<const scene::PixelData> data; // of the scene
         std::shared_ptr<const scene::PixelData> clean; // the same, or a copy with black where it is not finite
     };
     Result<void> sync_meshes(const scene::Scene&, SceneChanges&);
@@ -129,7 +129,7 @@ class GpuScene {
 
     std::unordered_map<std::uint32_t, GpuMesh> meshes_;
     std::vector<std::shared_ptr<const scene::MeshData>> mesh_data_; // by Id<Mesh>::value
-    std::vector<Pixels> pixels_;                                    // by Id<Image>::value
+    std::vector<Pixels> pixels_; // by Id<Image>::value
     std::vector<CpuImage> cpu_images_;
     TexturePrograms textures_;
     TableStore tables_;
@@ -138,7 +138,7 @@ class GpuScene {
     std::vector<float> mix_amount_; // constants by MaterialData index
     std::vector<std::uint32_t> mix_texture_;
     std::vector<std::optional<scene::MaterialEmission>> emission_; // by MaterialData index
-    std::vector<char> emission_changed_;                           // the same, since the last sync
+    std::vector<char> emission_changed_; // the same, since the last sync
     std::vector<char> has_gaps_; // by MaterialData index: a mix with a share of no surface
     std::vector<char> traced_, border_, flat_; // flat: no ray can be turned into its object space
     std::vector<scene::Id<scene::Mesh>> mesh_of_;

@@ -173,8 +173,8 @@ std::optional<scene::MaterialEmission> GpuScene::emission_of(const Scene& scene,
     return scene.materials.find(in.material) ? emission_[in.material.value] : std::nullopt;
 }
 
-// At points that are spread over the triangle: a lattice of Kronecker's by the plastic number (Roberts 2018). What alpha
-// takes away does not shine.
+// At points that are spread over the triangle: a lattice of Kronecker's by the plastic number (Roberts 2018). What
+// alpha takes away does not shine.
 double GpuScene::mean_emission(std::uint32_t id, std::uint32_t triangle, int points) const {
     const auto& instance = instances_[id];
     const auto& mesh = *mesh_data_[mesh_of_[id].value];

@@ -10,6 +10,7 @@
 #endif
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <vector>

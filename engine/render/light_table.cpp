@@ -169,8 +169,11 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
                 light.b = axis;
                 const double total = std::cos(glm::radians(double(item.cone_angle)));
                 const double start = std::cos(glm::radians(double(item.cone_angle - item.cone_delta)));
-                light.c = {total, start, 0};
-                power.push_back(2 * pi * ((1 - start) + (start - total) / 2) * luminance(item.value));
+                const bool quartic = item.falloff == RESTAGE_FALLOFF_QUARTIC;
+                light.c = {total, start, quartic ? 1 : 0};
+                // Over the edge the mean of t^2 (3 - 2t) is 1/2, that of t^4 is 1/5.
+                power.push_back(2 * pi * ((1 - start) + (start - total) * (quartic ? 0.2 : 0.5)) *
+                                luminance(item.value));
                 break;
             }
             case RESTAGE_LIGHT_DISTANT:

@@ -145,8 +145,7 @@ class VulkanTracer final : public Tracer {
     // The geometry of all quadrics: a box, which instances place around each.
     Result<void> build_box() {
         const VkAabbPositionsKHR unit{-1, -1, -1, 1, 1, 1};
-        RESTAGE_TRY(gpu::Buffer buffer,
-                    c_.device.create_buffer(sizeof unit, gpu::BufferKind::host, "box of quadrics"));
+        RESTAGE_TRY(gpu::Buffer buffer, c_.device.create_buffer(sizeof unit, gpu::BufferKind::host, "box of quadrics"));
         RESTAGE_CHECK(c_.device.upload(buffer, 0, std::as_bytes(std::span(&unit, 1))));
         const gpu::BlasInput input{.boxes = buffer.address(), .box_count = 1, .name = "box of quadrics"};
         RESTAGE_TRY(auto built, gpu::build_blas(c_.device, std::span(&input, 1)));
@@ -180,9 +179,9 @@ class VulkanTracer final : public Tracer {
                                  .push_constant_bytes = sizeof(shared::TracePush),
                                  .name = "path tracer"};
         std::vector<std::pair<const char*, gpu::ShaderStage>> files = {{"trace.rgen", gpu::ShaderStage::raygen},
-                                                                  {"trace.rmiss", gpu::ShaderStage::miss},
-                                                                  {"trace.rchit", gpu::ShaderStage::closest_hit},
-                                                                  {"trace.rahit", gpu::ShaderStage::any_hit}};
+                                                                       {"trace.rmiss", gpu::ShaderStage::miss},
+                                                                       {"trace.rchit", gpu::ShaderStage::closest_hit},
+                                                                       {"trace.rahit", gpu::ShaderStage::any_hit}};
         if (scene.features().quadrics) {
             r.hit_groups.push_back({2, gpu::RayTracingRequest::none, 4});
             r.hit_groups.push_back({2, 3, 4});

@@ -129,6 +129,7 @@ struct Light { // without a surface
     glm::dmat4 light_to_world{1};
     float cone_angle = 30, cone_delta = 5; // spot [deg]
     Origin origin;
+    RestageFalloff falloff = RESTAGE_FALLOFF_SMOOTH; // of a spot's edge
     bool operator==(const Light&) const = default;
 };
 

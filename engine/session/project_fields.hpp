@@ -95,6 +95,7 @@ void fields(V& v, scene::Light& l) {
     v("cone_angle", l.cone_angle);
     v("cone_delta", l.cone_delta);
     v("origin", l.origin);
+    v("falloff", l.falloff);
 }
 template <class V>
 void fields(V& v, scene::Environment& e) {
@@ -177,6 +178,11 @@ template <>
 struct Names<RestageLightKind> {
     static constexpr const char* list[] = {"point", "spot", "distant"};
     static constexpr int first = RESTAGE_LIGHT_POINT;
+};
+template <>
+struct Names<RestageFalloff> {
+    static constexpr const char* list[] = {"smooth", "quartic"};
+    static constexpr int first = RESTAGE_FALLOFF_SMOOTH;
 };
 template <>
 struct Names<RestageMapping> {

@@ -89,6 +89,13 @@ void bind_light(nb::module_& m) {
     field<Light>(
         c, "cone_delta", "Change light", "Of a spot: width of the smooth edge [deg].",
         [](const Light& l) { return exact(l.cone_delta); }, [](Light& l, double v) { l.cone_delta = float(v); });
+    field<Light>(
+        c, "falloff", "Change light", "Of a spot: how its edge fades, smooth (pbrt-v4) or quartic (pbrt-v3: t^4).",
+        [](const Light& l) { return std::string(l.falloff == RESTAGE_FALLOFF_QUARTIC ? "quartic" : "smooth"); },
+        [](Light& l, const std::string& v) {
+            if (v != "smooth" && v != "quartic") throw Failure("falloff is smooth or quartic, not \"" + v + "\"");
+            l.falloff = v == "quartic" ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH;
+        });
     c.def("remove", [](const LightHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); }, "Removes it.");
 }
 

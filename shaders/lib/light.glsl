@@ -215,9 +215,9 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
         s.delta = true;
         s.radiance = light.value / d2;
         s.pdf = light.pmf;
-        if (kind == LIGHT_SPOT) { // pbrt 4ed, 12.2.1
+        if (kind == LIGHT_SPOT) { // pbrt 4ed, 12.2.1; c.z = 1: pbrt 3ed, 12.3.1
             float t = clamp((-dot(light.b, s.wi) - light.c.x) / max(light.c.y - light.c.x, 1e-7), 0.0, 1.0);
-            s.radiance *= t * t * (3.0 - 2.0 * t);
+            s.radiance *= t * t * (light.c.z > 0.0 ? t * t : 3.0 - 2.0 * t);
         }
     }
     return s;

@@ -43,7 +43,7 @@ layout(constant_id = 14) const uint CAMERA_KIND = 0u;        // CAMERA_*
 
 // The second set of uv where the mesh has one, else the first.
 vec2 second_uv(InstanceData inst, uvec3 tri, vec2 bary, vec2 first) {
-    if (inst.uvs2 == 0ul) return first;
+    if (inst.uvs2 == uint64_t(0)) return first;
     Vec2Array uvs = Vec2Array(inst.uvs2);
     return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
 }

@@ -69,6 +69,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         next.tmin = t * (1.0 + 4.0 * EPS) + away / max(abs(dot(wo_world, s.ng)), 1e-4);
         next.tmax = 1e30;
         guide.weight = -1.0; // guides nobody
+        // As a border it may lie in neither part of the ray, or in both.
+        if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
+            path.medium = dot(ray.direction, s.ng) > 0.0 ? inst.exterior : inst.interior;
         return finite(path.radiance);
     }
 

@@ -161,7 +161,7 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
             orthonormal_basis(s.ns, dpdu, dpdv);
         }
         vec3 tangent = dpdu;
-        if (inst.tangents != 0ul) { // glTF 2.0, 3.7.2.1; a mirrored object mirrors its bitangents, too
+        if (inst.tangents != uint64_t(0)) { // glTF 2.0, 3.7.2.1; a mirrored object mirrors its bitangents, too
             Vec4Array tangents = Vec4Array(inst.tangents);
             vec4 t = (1.0 - bary.x - bary.y) * tangents.at[tri.x] + bary.x * tangents.at[tri.y] + bary.y * tangents.at[tri.z];
             if (dot(t.xyz, t.xyz) > 0.0) {

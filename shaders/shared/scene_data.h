@@ -34,7 +34,7 @@ RESTAGE_UINT(TEXEL_HALF4, 0u);
 RESTAGE_UINT(TEXEL_FLOAT4, 1u);
 RESTAGE_UINT(LIGHT_TRIANGLE, 0u); // a = p0, b = p1-p0, c = p2-p0
 RESTAGE_UINT(LIGHT_POINT, 1u); // a = position
-RESTAGE_UINT(LIGHT_SPOT, 2u); // a = position, b = axis, c = (cos total, cos falloff start, 0)
+RESTAGE_UINT(LIGHT_SPOT, 2u); // a = position, b = axis, c = (cos total, cos falloff start, 1 = quartic edge)
 RESTAGE_UINT(LIGHT_DISTANT, 3u); // b = direction towards the light
 RESTAGE_UINT(LIGHT_ENVIRONMENT, 4u);
 RESTAGE_UINT(LIGHT_QUADRIC, 5u); // of `instance`; area is that in object space
@@ -60,19 +60,19 @@ RESTAGE_SHARED_BEGIN
 struct InstanceData { // 184 bytes
     mat4x3 object_to_world;
     mat3 normal_to_world; // inverse transpose of the linear part, no sign changes
-    vec3 emission;        // radiance; times emission_texture
-    address positions;    // vec3[]
-    address normals;      // vec3[] or 0
-    address uvs;          // vec2[] or 0
-    address indices;      // uvec3[]
+    vec3 emission; // radiance; times emission_texture
+    address positions; // vec3[]
+    address normals; // vec3[] or 0
+    address uvs; // vec2[] or 0
+    address indices; // uvec3[]
     uint material;
-    uint light_base;      // index of the light of triangle 0, or NONE
+    uint light_base; // index of the light of triangle 0, or NONE
     uint flags;
-    uint alpha_texture;   // 0 = `alpha`
+    uint alpha_texture; // 0 = `alpha`
     float alpha;
     uint interior, exterior; // media, 0 = vacuum
-    uint object_id;          // Id<Instance>
-    uint emission_texture;   // 0 = none
+    uint object_id; // Id<Instance>
+    uint emission_texture; // 0 = none
     uint pad0;
     address tangents;        // vec4[] or 0; w: sign of the bitangent
     address uvs2;            // vec2[] or 0: the second set
@@ -90,11 +90,11 @@ struct QuadricData { // 40 bytes; scene/quadric.hpp
 };
 
 struct MaterialData { // 32 bytes
-    uint type;           // index of the material type in this scene
-    uint params;         // first word in SceneData.params; before it, three of the colour that stands in for it
-    uint bump;           // texture or 0
-    uint normal_map;     // texture or 0
-    uint id;             // Id<Material>
+    uint type; // index of the material type in this scene
+    uint params; // first word in SceneData.params; before it, three of the colour that stands in for it
+    uint bump; // texture or 0
+    uint normal_map; // texture or 0
+    uint id; // Id<Material>
     uint mix_first,
         mix_second; // MaterialData indices or MATERIAL_NOTHING when the type is a mix; its first parameter is `amount`
     uint flags;

@@ -119,7 +119,8 @@ TEST_CASE("every strategy sees the same of a lamp with alpha") {
     const Mean m = mean_luminance(mis);
     for (const auto strategy : {render::Strategy::light_only, render::Strategy::bsdf_only}) {
         const Mean other = mean_luminance(traced(strategy, 2));
-        INFO(tracer << ": " << m.value << " +- " << m.std_error << ", alone " << other.value << " +- " << other.std_error);
+        INFO(tracer << ": " << m.value << " +- " << m.std_error << ", alone " << other.value << " +- "
+                    << other.std_error);
         CHECK(m.value > 0.01);
         CHECK(std::abs(m.value - other.value) < 4 * std::hypot(m.std_error, other.std_error));
     }

@@ -51,6 +51,29 @@ TEST_CASE("point light: inverse square and cosine") {
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 20 / 25 * 0.8);
 }
 
+TEST_CASE("spot light: its edge fades as pbrt-v4's or as pbrt-v3's") {
+    const auto tracer = GENERATE("embree", "vulkan");
+    const auto falloff = GENERATE(RESTAGE_FALLOFF_SMOOTH, RESTAGE_FALLOFF_QUARTIC);
+    SceneBuilder b;
+    look_down(b);
+    ground(b, 0.5f);
+    const double height = 5, angle = 20 * pi / 180,
+                 edge = 40 * pi / 180; // seen 20 degrees off its axis, all of it edge
+    glm::dmat4 m = glm::rotate(glm::dmat4(1), pi, glm::dvec3(1, 0, 0)); // down
+    m[3] = {height * std::tan(angle), 0, height, 1};
+    b.light({.kind = RESTAGE_LIGHT_SPOT,
+             .value = glm::vec3(100),
+             .light_to_world = m,
+             .cone_angle = 40,
+             .cone_delta = 40,
+             .falloff = falloff});
+    const double t = (std::cos(angle) - std::cos(edge)) / (1 - std::cos(edge));
+    const double faded = falloff == RESTAGE_FALLOFF_QUARTIC ? t * t * t * t : t * t * (3 - 2 * t);
+    const double distance = height / std::cos(angle);
+    check_mean(render_image(*make_renderer(tracer), b.scene, 16),
+               0.5 / pi * 100 * faded * std::cos(angle) / (distance * distance)); // 0.441 and 0.160
+}
+
 TEST_CASE("distant light: irradiance times cosine") {
     const auto tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;

@@ -291,8 +291,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     for (std::uint32_t y = 0; y < 24; ++y)
         for (std::uint32_t x = 0; x < 32; ++x) {
             const float got = image.color[y * 32 + x].y;
-            const double weight =
-                projection == RESTAGE_SPHERICAL ? std::sin((y + 0.5) / 24 * std::numbers::pi) : 1.0;
+            const double weight = projection == RESTAGE_SPHERICAL ? std::sin((y + 0.5) / 24 * std::numbers::pi) : 1.0;
             const int side = side_of(x + 0.5, y + 0.5);
             weights += weight;
             up += side == 1 ? weight : 0;

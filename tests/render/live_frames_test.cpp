@@ -2,6 +2,7 @@
 // What somebody at the editor sees while they work: every picture that LiveView offers is recorded, and held against what
 // it must be. With denoising on none is noisy, none dark, none of another document, none older than one that was shown
 // before, and none half one scene and half another.
+#include "paths.hpp"
 #include "io/image_file.hpp"
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
@@ -141,7 +142,7 @@ class Recorder {
   private:
     static render::RendererOptions with(render::RendererOptions options) {
         options.tracer = "embree";
-        options.shader_dir = std::filesystem::path(RESTAGE_SOURCE_DIR) / "shaders";
+        options.shader_dir = restage::test::source_dir() / "shaders";
         return options;
     }
     std::atomic<Recorder*> self_ = nullptr;

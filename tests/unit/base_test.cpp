@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // base: the hash against published values, files that are whole or absent, loops that cover each index once.
 #include "base/file.hpp"
-#include "base/json.hpp"
 #include "base/jobs.hpp"
+#include "base/json.hpp"
 #include "base/log.hpp"
 #include "temporary_folder.hpp"
 
-#include <atomic>
 #include <sys/stat.h>
-#include <nlohmann/json.hpp>
+#include <atomic>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 #include <vector>

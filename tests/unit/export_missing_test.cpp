@@ -138,6 +138,20 @@ TEST_CASE("strict exports refuse what the format lacks and write nothing", "[exp
     CHECK(out.contents().count("out.pbrt") == 1);
 }
 
+TEST_CASE("a spot that fades as the other version's is reported", "[export]") {
+    Plugins plugins;
+    Folder folder, out;
+    write(folder.file("in.pbrt"), v3_head + "LightSource \"spot\" \"float conedeltaangle\" 20\nWorldEnd\n");
+    const auto scene = imported(folder.file("in.pbrt"), plugins);
+    const auto same = io::export_scene(scene.scene, out.file("a.pbrt"), plugins.registry, version("v3"));
+    REQUIRE(same);
+    CHECK(same->entries.empty());
+    const auto other = io::export_scene(scene.scene, out.file("b.pbrt"), plugins.registry, version("v4"));
+    REQUIRE(other);
+    REQUIRE(other->count(RESTAGE_APPROXIMATED) == 1);
+    CHECK_THAT(other->entries[0].note, ContainsSubstring("fourth power"));
+}
+
 TEST_CASE("what both versions of pbrt have is written in the words of the other", "[export]") {
     Plugins plugins;
     Folder folder, out, back;

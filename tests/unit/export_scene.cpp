@@ -161,7 +161,8 @@ Everything::Everything(bool v4) {
               .value = {5, 5, 1},
               .light_to_world = place(1, 2),
               .cone_angle = 25,
-              .cone_delta = 4});
+              .cone_delta = 4,
+              .falloff = v4 ? RESTAGE_FALLOFF_SMOOTH : RESTAGE_FALLOFF_QUARTIC});
     add(Light{.name = "sun", .kind = RESTAGE_LIGHT_DISTANT, .value = {1, 1, 0.3f}, .light_to_world = place(0, 0.7)});
     apply(scene, set_environment(scene, Environment{.name = "sky",
                                                     .image = v4 ? sky : picture,

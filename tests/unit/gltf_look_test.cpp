@@ -308,8 +308,7 @@ TEST_CASE("gltf: unknown extensions are refused where the file requires them, el
     Builder b;
     b.root["extensionsUsed"] = {"ACME_geometry", "MSFT_lod", "KHR_texture_transform"};
     const auto in = b.load(files);
-    CHECK(says(in, RESTAGE_DROPPED, "a.gltf", "\"ACME_geometry\""));
-    CHECK(in.report.count(RESTAGE_DROPPED) == 2 - 1); // alike lines are one, with their number
+    CHECK(says(in, RESTAGE_DROPPED, "a.gltf", "not read: ACME_geometry, MSFT_lod"));
     b.root["extensionsRequired"] = {"ACME_geometry"};
     CHECK_THAT(b.error(files), ContainsSubstring("requires what is not known here: ACME_geometry"));
 }

@@ -119,7 +119,8 @@ std::array<float, 3> first_texel(const io::ImportedScene& in) {
 
 std::string ply(const std::string& vertex, const std::string& more, const std::string& data) {
     return "ply\nformat ascii 1.0\ncomment TextureFile a b.png\nelement vertex 4\nproperty float x\nproperty float y\n"
-           "property float z\n" + vertex + more + "end_header\n" + data;
+           "property float z\n" +
+           vertex + more + "end_header\n" + data;
 }
 
 } // namespace
@@ -128,7 +129,8 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
     ModelFiles files;
     const std::string rgb = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     const std::string list = "property list uchar int vertex_index\n";
-    files.write("v.ply", ply(rgb, "element face 1\n" + list, "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 255 255 0\n4 0 1 2 3\n"));
+    files.write("v.ply", ply(rgb, "element face 1\n" + list,
+                             "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 255 255 0\n4 0 1 2 3\n"));
     const auto vertices = files.load("v.ply");
     CHECK(first_texel(vertices) == std::array<float, 3>{1, 0, 0});
     CHECK(vertices.scene.meshes[{1}].source_file.empty()); // the uv are ours
@@ -142,8 +144,9 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
 
 TEST_CASE("ply: MeshLab's textures, by the corners of faces", "[mesh]") {
     ModelFiles files;
-    files.write("t.ply", ply("", "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n",
-                             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0 0 1 1 0 .5\n"));
+    files.write("t.ply",
+                ply("", "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n",
+                    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0 0 1 1 0 .5\n"));
     const auto in = files.load("t.ply");
     const auto& mesh = *in.scene.meshes[{1}].data;
     REQUIRE(mesh.uvs.size() == 6);
@@ -168,8 +171,8 @@ TEST_CASE("ply: strips, concave polygons, points, map coordinates", "[mesh]") {
         return sum;
     };
     const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-    CHECK(area(ply("", "element tristrips 1\nproperty list int int vertex_indices\n", square + "9 0 1 3 2 -1 0 1 2 -1\n")) ==
-          Catch::Approx(1.5));
+    CHECK(area(ply("", "element tristrips 1\nproperty list int int vertex_indices\n",
+                   square + "9 0 1 3 2 -1 0 1 2 -1\n")) == Catch::Approx(1.5));
     CHECK(area("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n5 0 1 2 3 4\n") == Catch::Approx(10));
@@ -181,9 +184,10 @@ TEST_CASE("ply: strips, concave polygons, points, map coordinates", "[mesh]") {
     CHECK(first_texel(points) == std::array<float, 3>{0, 1, 0});
     CHECK(says(points, RESTAGE_APPROXIMATED, "", "its 4 points get a radius"));
 
-    files.write("u.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
-                         "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                         "500000.125 5400000 0\n500000.25 5400000 0\n500000.125 5400001 0\n3 0 1 2\n");
+    files.write("u.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                "500000.125 5400000 0\n500000.25 5400000 0\n500000.125 5400001 0\n3 0 1 2\n");
     const auto utm = files.load("u.ply");
     const auto& instance = utm.scene.instances[{1}];
     const auto& m = *utm.scene.meshes[instance.mesh].data;
@@ -207,8 +211,9 @@ TEST_CASE("meshes: broken files say where", "[mesh]") {
                ContainsSubstring("the file ends"));
     CHECK_THAT(error("a.stl", "solid nothing\nendsolid nothing\n"), ContainsSubstring("no faces"));
     CHECK_THAT(error("a.ply", "ply\nformat ascii 1.0\nend_header\n"), ContainsSubstring("a.ply: it has no vertices"));
-    const std::string head = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                             "property list uchar int vertex_indices\nend_header\n";
+    const std::string head =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n";
     CHECK_THAT(error("a.ply", "ply\nformat ascii 1.0\n" + head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
                ContainsSubstring("a.ply:13:1: a face names vertex 7 of 3"));
     const std::string start = "ply\nformat binary_little_endian 1.0\n" + head + std::string(36, '\0');

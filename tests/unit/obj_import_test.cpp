@@ -140,8 +140,9 @@ TEST_CASE("obj: what is missing is reported with its place, and the rest opens",
 
 TEST_CASE("obj: what other programs write is read", "[obj]") {
     ModelFiles files;
-    files.write("m.mtl", "\xef\xbb\xbfnewmtl wire 255 000 000\nKd 1 0 0\nillum 1\nnewmtl wire 000 255 000\nKd 0 1 \\\n"
-                         "0\nillum 1\n");
+    files.write("m.mtl",
+                "\xef\xbb\xbfnewmtl wire 255 000 000\nKd 1 0 0\nillum 1\nnewmtl wire 000 255 000\nKd 0 1 \\\n"
+                "0\nillum 1\n");
     const auto areas = [](const io::ImportedScene& in) {
         double sum = 0;
         in.scene.instances.each([&](auto, const scene::Instance& i) {
@@ -184,8 +185,9 @@ TEST_CASE("obj: what other programs write is read", "[obj]") {
 
 TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
     ModelFiles files;
-    files.write("utm.obj", "v 500000.125 5400000.25 100\nv 500001.125 5400000.25 100\nv 500000.125 5400000.375 100\n"
-                           "f 1 2 3\n");
+    files.write("utm.obj",
+                "v 500000.125 5400000.25 100\nv 500001.125 5400000.25 100\nv 500000.125 5400000.375 100\n"
+                "f 1 2 3\n");
     const auto in = files.load("utm.obj");
     const auto& instance = in.scene.instances[{1}];
     const auto& mesh = *in.scene.meshes[instance.mesh].data;
@@ -200,9 +202,11 @@ TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
 
 TEST_CASE("obj: options of textures may leave out numbers, and names may have blanks", "[obj]") {
     ModelFiles files;
-    files.write("m.mtl", "newmtl a\nillum 1\nmap_Kd -s 2 2 -o .5 .5 -clamp on my wood.png\nnewmtl b\nillum 1\nKd .5\n"
-                         "map_kd -s 3 -blendu off \"7.png\"\nnewmtl c\nKd spectral a.rfl\nbump -bm 0.25 7.png\n");
-    files.write("a.obj", std::string("mtllib m.mtl\n") + square + "o a\nusemtl a\nf 1 2 3\no b\nusemtl b\nf 1 2 3\no c\nusemtl c\nf 1 3 4\n");
+    files.write("m.mtl",
+                "newmtl a\nillum 1\nmap_Kd -s 2 2 -o .5 .5 -clamp on my wood.png\nnewmtl b\nillum 1\nKd .5\n"
+                "map_kd -s 3 -blendu off \"7.png\"\nnewmtl c\nKd spectral a.rfl\nbump -bm 0.25 7.png\n");
+    files.write("a.obj", std::string("mtllib m.mtl\n") + square +
+                             "o a\nusemtl a\nf 1 2 3\no b\nusemtl b\nf 1 2 3\no c\nusemtl c\nf 1 3 4\n");
     const auto in = files.load("a.obj");
     const auto texture = [&](const char* name) -> const scene::Texture& {
         return in.scene.textures[scene::find_by_name<scene::Texture>(in.scene, name)];

@@ -416,7 +416,8 @@ TEST_CASE("pbrt camera: orthographic and spherical ones are what they are", "[pb
         CHECK_FALSE(r.reports("Camera"));
         return r.raw_cameras.at(0);
     };
-    const RestageCamera flat = camera("LookAt 0 0 5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [ -5 5 -4 4 ]");
+    const RestageCamera flat =
+        camera("LookAt 0 0 5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [ -5 5 -4 4 ]");
     CHECK(flat.projection == RESTAGE_ORTHOGRAPHIC);
     CHECK(flat.screen_window[1] == 5);
     CHECK(flat.camera_to_world[14] == 5); // where the file puts it
@@ -427,9 +428,11 @@ TEST_CASE("pbrt camera: orthographic and spherical ones are what they are", "[pb
 
 TEST_CASE("pbrt lamps: alpha means what the version means by it", "[pbrt]") {
     const auto lamp = [](const std::string& head, const std::string& alpha, const std::string& shape) {
-        const Recorder r = loaded(head + " WorldBegin AreaLightSource \"diffuse\" Texture \"zero\" \"float\" \"constant\" "
-                                         "\"float value\" 0 Texture \"half\" \"float\" \"constant\" \"float value\" 0.5 Shape " +
-                                  shape + " " + alpha);
+        const Recorder r =
+            loaded(head +
+                   " WorldBegin AreaLightSource \"diffuse\" Texture \"zero\" \"float\" \"constant\" "
+                   "\"float value\" 0 Texture \"half\" \"float\" \"constant\" \"float value\" 0.5 Shape " +
+                   shape + " " + alpha);
         REQUIRE(r.instances.size() == 1);
         return r.instances[0].raw;
     };

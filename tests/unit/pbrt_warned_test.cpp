@@ -207,6 +207,14 @@ TEST_CASE("pbrt-v4: media may be defined after they are used, v3's before", "[pb
     CHECK(v3.reports("no medium has that name"));
 }
 
+TEST_CASE("pbrt spots fade as their version has it", "[pbrt]") {
+    Recorder v3, v4;
+    REQUIRE(v3.load_text(v3_head + "LightSource \"spot\"\nWorldEnd\n") == 1);
+    REQUIRE(v4.load_text(v4_head + "LightSource \"spot\"\n") == 1);
+    CHECK(v3.raw_lights.at(0).falloff == RESTAGE_FALLOFF_QUARTIC);
+    CHECK(v4.raw_lights.at(0).falloff == RESTAGE_FALLOFF_SMOOTH);
+}
+
 TEST_CASE("pbrt-v2: gamma of a picture is a power", "[pbrt]") {
     Recorder r;
     REQUIRE(r.load_text(v3_head +

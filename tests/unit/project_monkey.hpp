@@ -188,7 +188,7 @@ class Monkey {
             data->positions.push_back(vec());
             data->uvs.push_back({x(), x()});
             data->uvs2.push_back({x(), x()});
-            data->tangents.push_back({x(), x(), x(), pick(2) ? 1 : -1});
+            data->tangents.push_back({x(), x(), x(), pick(2) ? 1.f : -1.f});
         }
         if (pick(2)) data->normals.assign(4, {0, 0, 1});
         if (pick(2)) data->uvs.clear();

@@ -119,8 +119,9 @@ template <class D>
 bool same_data(const std::shared_ptr<const D>& a, const std::shared_ptr<const D>& b) {
     if (a == b || !a || !b) return a == b;
     if constexpr (std::is_same_v<D, MeshData>)
-        return a->positions == b->positions && a->normals == b->normals && a->uvs == b->uvs && a->uvs2 == b->uvs2 && a->tangents == b->tangents &&
-               a->triangles == b->triangles && a->lower == b->lower && a->upper == b->upper;
+        return a->positions == b->positions && a->normals == b->normals && a->uvs == b->uvs && a->uvs2 == b->uvs2 &&
+               a->tangents == b->tangents && a->triangles == b->triangles && a->lower == b->lower &&
+               a->upper == b->upper;
     else
         return a->width == b->width && a->height == b->height && a->channels == b->channels && a->values == b->values;
 }

@@ -195,6 +195,14 @@ void light_section(Editor& e, scene::Id<scene::Light> id) {
             ImGui::SliderFloat("##edge", &light.cone_delta, 0, light.cone_angle, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         light.cone_delta = std::min(light.cone_delta, light.cone_angle);
         e.mark("light.edge");
+        static constexpr const char* falloffs[] = {"Smooth", "Quartic"};
+        int falloff = int(light.falloff);
+        form_row("Fading", "How the edge fades. Smooth: as pbrt-v4. Quartic: as pbrt-v3, darker");
+        if (ImGui::Combo("##falloff", &falloff, falloffs, IM_ARRAYSIZE(falloffs))) {
+            light.falloff = RestageFalloff(falloff);
+            changed = true;
+        }
+        e.mark("light.falloff");
     }
     if (changed)
         e.edit([id, light](const scene::Scene& s) { return scene::set_light(s, id, light, "Change " + light.name); },

@@ -54,7 +54,8 @@ void ask_film(Editor& e, const scene::Film& film, const char* label, const char*
                 fitted.screen_window.reset();
                 if (camera->projection == RESTAGE_ORTHOGRAPHIC && camera->screen_window) { // it is the scale, too
                     const glm::vec4 w = *camera->screen_window;
-                    const float middle = (w.x + w.y) / 2, half = (w.w - w.z) / 2 * float(film.width) / float(film.height);
+                    const float middle = (w.x + w.y) / 2,
+                                half = (w.w - w.z) / 2 * float(film.width) / float(film.height);
                     fitted.screen_window = glm::vec4(middle - half, middle + half, w.z, w.w);
                 }
                 edit.changes.push_back(scene::Change<scene::Camera>{s.active_camera.value, *camera, fitted});
@@ -100,17 +101,16 @@ void filter_rows(Editor& e, scene::Film film) {
 }
 
 void ask_camera(Editor& e, const scene::Camera& camera) {
-    e.edit(
-        [camera](const scene::Scene& s) {
-            return scene::set_camera(s, s.active_camera.value, camera, "Change camera");
-        },
-        "scene.camera");
+    e.edit([camera](
+               const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, camera, "Change camera"); },
+           "scene.camera");
 }
 
 // How it maps the world to the picture, and how much of the world. True: changed.
 bool projection_rows(Editor& e, scene::Camera& camera) {
     static constexpr const char* kinds[] = {"Perspective", "Orthographic", "Panorama", "Panorama, equal areas"};
-    form_row("Projection", "How the world becomes a picture: as an eye sees it, without vanishing points, or all around");
+    form_row("Projection",
+             "How the world becomes a picture: as an eye sees it, without vanishing points, or all around");
     int kind = int(camera.projection);
     bool changed = ImGui::Combo("##projection", &kind, kinds, IM_ARRAYSIZE(kinds));
     if (changed) {

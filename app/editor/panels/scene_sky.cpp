@@ -151,8 +151,7 @@ void sky_section(Editor& e) {
     ImGui::PushID("sky");
     if (!has_light(e)) {
         warning_note("Nothing shines in this scene, so its picture is black.");
-        if (ImGui::Button("Light it with a neutral studio"))
-            light_with_studio(e);
+        if (ImGui::Button("Light it with a neutral studio")) light_with_studio(e);
         tip("Soft grey light from all around; in a closed room a lamp at the camera as well");
         e.mark("sky.studio");
     }

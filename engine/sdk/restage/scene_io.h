@@ -34,7 +34,9 @@ typedef struct RestageMesh {
     const float* uvs;         /* 2 a vertex, or NULL */
     const uint32_t* indices;  /* 3 a triangle, < vertex_count */
     const char* source_file;  /* the PLY/OBJ it was read from, absolute, or "": an exporter may refer to it */
-    const char* primitive;    /* "", or the shape this tessellates, as a pbrt line: `sphere "float radius" 1` */
+    /* "", or the shape this tessellates, as a pbrt line: `sphere "float radius" 1`. Spheres, disks and cylinders are
+     * rendered as that; the triangles stand for them elsewhere. */
+    const char* primitive;
     /* 4 a vertex, or NULL: along u, then the sign (1 or -1) of the bitangent, sign * cross(normal, tangent), which
      * normal maps call y (glTF 2.0, 3.7.2.1). Without them it is cross(normal, dp/du), as in pbrt, also where uv are
      * mirrored. */
@@ -119,6 +121,11 @@ typedef enum RestageLightKind {
     RESTAGE_LIGHT_SPOT = 2,
     RESTAGE_LIGHT_DISTANT = 3
 } RestageLightKind;
+/* How a spot fades over its edge, t = (cos - cos cone) / (cos(cone - delta) - cos cone) in [0,1]. */
+typedef enum RestageFalloff {
+    RESTAGE_FALLOFF_SMOOTH = 0, /* t^2 (3 - 2t): pbrt-v4 */
+    RESTAGE_FALLOFF_QUARTIC = 1 /* t^4: pbrt-v3 */
+} RestageFalloff;
 typedef struct RestageLight {
     RestageText text;
     uint32_t kind;
@@ -126,6 +133,7 @@ typedef struct RestageLight {
     double light_to_world[16]; /* at the origin; spot and distant light travels along +z */
     float cone_angle,
         cone_delta; /* spot [deg]: half angle, width of the smooth edge (pbrt: coneangle, conedeltaangle) */
+    uint32_t falloff; /* RestageFalloff, of a spot */
 } RestageLight;
 
 typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } RestageMapping;

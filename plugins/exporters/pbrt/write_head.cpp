@@ -85,8 +85,7 @@ void Exporter::camera(RestageHandle handle, bool active) {
     transform(to_camera->data(), indent);
     Params params;
     std::string type = "perspective";
-    const bool all_around =
-        camera.projection == RESTAGE_SPHERICAL || camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA;
+    const bool all_around = camera.projection == RESTAGE_SPHERICAL || camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA;
     if (camera.projection == RESTAGE_PERSPECTIVE) {
         params.add_float("fov", camera.fov);
     } else if (!all_around) {

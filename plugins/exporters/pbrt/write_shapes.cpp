@@ -288,8 +288,8 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
     return file;
 }
 
-// The two versions mean different things by alpha: v3's is a mask, of triangles only, and of lamps what is seen; v4's is
-// the share of rays that is stopped, and of lamps what shines, unless it is 0 everywhere.
+// The two versions mean different things by alpha: v3's is a mask, of triangles only, and of lamps what is seen; v4's
+// is the share of rays that is stopped, and of lamps what shines, unless it is 0 everywhere.
 void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
     if (!i.alpha_texture && i.alpha >= 1) return;
     const std::string what = std::string("alpha of \"") + i.text.name + "\"";
@@ -301,8 +301,7 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
             if (!(mask && whole)) approximated(what, "pbrt-v3 has it for triangles only; this shape is opaque there");
             return;
         }
-        if (!mask && (i.alpha_texture || i.alpha > 0))
-            approximated(what, "in pbrt-v3 whatever is above 0 is opaque");
+        if (!mask && (i.alpha_texture || i.alpha > 0)) approximated(what, "in pbrt-v3 whatever is above 0 is opaque");
         if (lamp && !unseen) approximated(what, "pbrt-v3's lamps shine where alpha makes holes, too");
         return;
     }

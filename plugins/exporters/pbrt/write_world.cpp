@@ -100,6 +100,11 @@ void Exporter::lights() {
                     .add_float("coneangle", light.cone_angle)
                     .add_float("conedeltaangle", light.cone_delta);
                 params.add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
+                if (light.cone_delta > 0 && (light.falloff == RESTAGE_FALLOFF_QUARTIC) != v3())
+                    approximated(what, v3() ? "pbrt-v3's spots fade by the fourth power, this one smoothly: its edge "
+                                              "becomes darker"
+                                            : "pbrt-v4's spots fade smoothly, this one by the fourth power (pbrt-v3): "
+                                              "its edge becomes brighter");
                 break;
             case RESTAGE_LIGHT_DISTANT:
                 type = "distant";

@@ -15,8 +15,8 @@ enum class Up { y, z };
 // Mirrored, therefore.
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up);
 
-// A camera in front of `bounds`, a little from above and from the right, with the whole of it in a picture of any aspect.
-// In one of 16:9 its field of view is 40 degrees.
+// A camera in front of `bounds`, a little from above and from the right, with the whole of it in a picture of any
+// aspect. In one of 16:9 its field of view is 40 degrees.
 void add_camera(const RestageSceneWriter1&, Report&, const Bounds& bounds, Up);
 // A picture of 1280 x 720 pixels, or of another aspect and that area. See RestageFilm::unexposed.
 void add_film(const RestageSceneWriter1&, double aspect = 16.0 / 9, bool unexposed = false);

@@ -37,8 +37,10 @@ void Importer::check_extensions() {
     if (!missing.empty())
         throw ImportError{"the file requires what is not known here: " + missing +
                           "; save it without, or with a version for programs that lack it"};
+    std::string unread;
     for (const std::string& name : model_.extensionsUsed)
-        if (!is_known(name)) report_.dropped("extension " + quote(name), "not read");
+        if (!is_known(name)) unread += (unread.empty() ? "" : ", ") + name;
+    if (!unread.empty()) report_.dropped("extensions", "not read: " + unread);
 }
 
 void Importer::tell_leftovers() {

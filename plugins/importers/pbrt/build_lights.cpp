@@ -71,6 +71,7 @@ void Builder::light(const Directive& d) {
         }
         out.cone_angle = static_cast<float>(cone);
         out.cone_delta = static_cast<float>(delta);
+        out.falloff = import_.v3() ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH;
         if (power > 0) { // pbrt-v4 SpotLight::Create: the smooth edge counts half
             const double end = std::cos(cone * std::numbers::pi / 180),
                          start = std::cos((cone - delta) * std::numbers::pi / 180);
@@ -161,7 +162,8 @@ void Builder::infinite_light(const Directive& d) {
     if (pending.set)
         displace_environment(pending.is_missing ? "there is one environment only, and one that is there follows"
                                                 : "there is one environment only, and one with a picture follows");
-    pending.lines = {{line, {state_.ctm[0], state_.ctm[1]}}};
+    pending.lines.clear();
+    pending.lines.emplace_back(line, std::array<Matrix, 2>{state_.ctm[0], state_.ctm[1]});
     pending.from = &d;
     pending.is_missing = is_missing;
     pending.set = true;

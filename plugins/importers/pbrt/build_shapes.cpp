@@ -323,16 +323,16 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
         d.params.find(name); // how, not what
     Matrix placed;
     std::memcpy(placed.m.data(), instance.object_to_world, sizeof instance.object_to_world);
-    const std::optional<double> scale = similarity(placed);
+    const std::optional<double> grown = similarity(placed);
     const bool quadric = shape.name == "sphere" || shape.name == "disk" || shape.name == "cylinder";
-    if (quadric && !(scale && std::abs(*scale - 1) < 1e-3))
+    if (quadric && !(grown && std::abs(*grown - 1) < 1e-3))
         import_.approximated(shape.at, "AreaLightSource on a scaled " + quote(shape.name),
                              "it shines by its size in the world; pbrt samples such a light as if nothing scaled it, "
                              "and warns that its picture may have errors");
     // Lamps that are not seen: v3's shine whatever alpha is (DiffuseAreaLight does not know it), v4's of alpha 0.
     const bool holes = instance.alpha_texture != 0 || instance.alpha < 1;
-    const bool gone = instance.alpha_texture != 0 ? zero_textures_.contains(instance.alpha_texture)
-                                                  : instance.alpha == 0;
+    const bool gone =
+        instance.alpha_texture != 0 ? zero_textures_.contains(instance.alpha_texture) : instance.alpha == 0;
     if (import_.v3() ? holes : gone) instance.flags |= RESTAGE_INSTANCE_EMITS_UNSEEN;
     instance.flags |= RESTAGE_INSTANCE_EMITS | (two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
     instance.emission[0] = static_cast<float>(radiance.r);

@@ -111,9 +111,9 @@ std::vector<std::uint32_t> ParamList::indices(std::string_view name, std::size_t
         const double value = param->numbers[i];
         const bool whole = value == std::floor(value);
         if (!(value >= 0 && value < static_cast<double>(bound)) || !whole)
-            throw ImportError{param->at, "\"" + param->name + "\" number " + std::to_string(i) + " is " +
-                                             shortest(value) + ", but there are " + std::to_string(bound) +
-                                             " vertices; indices count from 0",
+            throw ImportError{param->at,
+                              "\"" + param->name + "\" number " + std::to_string(i) + " is " + shortest(value) +
+                                  ", but there are " + std::to_string(bound) + " vertices; indices count from 0",
                               !whole};
         out.push_back(static_cast<std::uint32_t>(value));
     }

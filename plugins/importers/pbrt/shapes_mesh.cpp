@@ -26,9 +26,10 @@ std::vector<float> vertex_array(Import& import, const Directive& shape, const ch
         return vertex_array(import, whole, name, width);
     }
     if (!param->strings.empty() || !param->bools.empty() || param->numbers.size() % width != 0)
-        throw ImportError{param->at, "\"" + param->name + "\" of Shape \"" + shape.name + "\" needs " +
-                                         std::to_string(width) + " numbers a vertex; " +
-                                         std::to_string(param->numbers.size()) + " are given", true};
+        throw ImportError{param->at,
+                          "\"" + param->name + "\" of Shape \"" + shape.name + "\" needs " + std::to_string(width) +
+                              " numbers a vertex; " + std::to_string(param->numbers.size()) + " are given",
+                          true};
     out.reserve(param->numbers.size());
     for (const double value : param->numbers) {
         if (!(std::abs(value) < 1e38))

@@ -259,7 +259,7 @@ put("models/skin-joint.gltf", gltf(nodes__0__skin=0, skins=[{"joints": [77]}], m
 put("models/texture-9.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 9}}}]), "texture 9")
 put("models/material-9.gltf", gltf(meshes__0__primitives__0__material=9), "material 9")
 put("models/image-view.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"bufferView": 1, "mimeType": "image/png"}]), "report:no picture")
-put("models/image-huge.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"uri": "data:image/png;base64," + base64.b64encode(png(16000, 16000, chunk(b"IDAT", b"\x78\x9c"))).decode()}]), "report:cannot be in")
+put("models/image-huge.gltf", gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}], images=[{"uri": "data:image/png;base64," + base64.b64encode(png(16000, 16000, chunk(b"IDAT", b"\x78\x9c"))).decode()}]), "report:has only")
 def pictured(data, kind="image/png"):
     return gltf(meshes__0__primitives__0__material=0, materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], textures=[{"source": 0}],
                 images=[{"uri": f"data:{kind};base64," + base64.b64encode(data).decode()}])
