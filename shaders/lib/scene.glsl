@@ -50,8 +50,9 @@ vec2 second_uv(InstanceData inst, uvec3 tri, vec2 bary, vec2 first) {
 
 // What textures take as uv at a hit: the mesh's, or barycentrics where it has none; both sets.
 vec4 hit_uv(InstanceData inst, uint prim, vec2 bary) {
-    uvec3 tri = Uvec3Array(inst.indices).at[prim];
     vec2 uv = bary;
+    if ((inst.flags & INSTANCE_HAS_UVS) == 0u && inst.uvs2 == uint64_t(0)) return uv.xyxy; // quadrics have no indices
+    uvec3 tri = Uvec3Array(inst.indices).at[prim];
     if ((inst.flags & INSTANCE_HAS_UVS) != 0u) {
         Vec2Array uvs = Vec2Array(inst.uvs);
         uv = (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];

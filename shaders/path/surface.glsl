@@ -96,7 +96,7 @@ Surface quadric_surface(SceneData scene, InstanceData inst, MaterialData materia
     if ((inst.flags & INSTANCE_FLIP_NORMAL) != 0u) s.ng = -s.ng;
     s.ns = s.ng;
     s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon : quadric_offset(inst, q, p, s.p, s.ng);
-    s.uv = uv;
+    s.uv = uv.xyxy;
     if (HAS_TANGENTS) {
         vec3 dpdu, dpdv;
         quadric_tangents(q, p, dpdu, dpdv);
@@ -104,7 +104,7 @@ Surface quadric_surface(SceneData scene, InstanceData inst, MaterialData materia
         dpdv = linear_part(inst) * dpdv;
         set_frame(s, dpdu);
         if (HAS_BUMP && material.bump != 0u) apply_bump(scene, material.bump, dpdu, dpdv, s);
-        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, dpdu, s);
+        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, dpdu, 1.0, s);
     } else {
         orthonormal_basis(s.ns, s.ss, s.ts);
     }
