@@ -3,18 +3,12 @@
 # from the sources in RESTAGE_DEPS_DIR, or taken from vcpkg. None of it is built unless a target links it.
 set(bundle "${RESTAGE_DEPS_DIR}/imgui-bundle/external")
 if(NOT EXISTS "${bundle}/imgui/imgui/imgui.h")
-    find_package(imgui CONFIG QUIET)
-    if(TARGET imgui::imgui)
-        restage_dep(imgui imgui::imgui)
-        find_package(imguizmo CONFIG QUIET)
-        find_package(implot CONFIG QUIET)
-        if(TARGET imguizmo::imguizmo)
-            restage_dep(imguizmo imguizmo::imguizmo)
-        endif()
-        if(TARGET implot::implot)
-            restage_dep(implot implot::implot)
-        endif()
-    endif()
+    restage_find_package(imgui CONFIG) # vcpkg's; the sources are what tools/setup unpacks
+    restage_dep(imgui imgui::imgui)
+    restage_find_package(imguizmo CONFIG)
+    restage_dep(imguizmo imguizmo::imguizmo)
+    restage_find_package(implot CONFIG)
+    restage_dep(implot implot::implot)
     return()
 endif()
 
@@ -32,8 +26,11 @@ restage_imgui_library(imgui "${bundle}/imgui/imgui"
 target_include_directories(dep_imgui SYSTEM PUBLIC "${bundle}/imgui/imgui/backends" "${bundle}/imgui/imgui/misc/cpp")
 target_link_libraries(dep_imgui PUBLIC dep::glfw dep::volk)
 # Every user must see the same configuration: volk loads Vulkan; the test engine's hooks are compiled in where it is linked.
-target_compile_definitions(dep_imgui PUBLIC IMGUI_IMPL_VULKAN_USE_VOLK IMGUI_DISABLE_OBSOLETE_FUNCTIONS
-    IMGUI_ENABLE_TEST_ENGINE IMGUI_TEST_ENGINE_ENABLE_STD_FUNCTION=1 IMGUI_TEST_ENGINE_ENABLE_COROUTINE_STDTHREAD_IMPL=1)
+target_compile_definitions(dep_imgui PUBLIC IMGUI_IMPL_VULKAN_USE_VOLK IMGUI_DISABLE_OBSOLETE_FUNCTIONS)
+if(RESTAGE_BUILD_TESTS)
+    target_compile_definitions(dep_imgui PUBLIC IMGUI_ENABLE_TEST_ENGINE IMGUI_TEST_ENGINE_ENABLE_STD_FUNCTION=1
+        IMGUI_TEST_ENGINE_ENABLE_COROUTINE_STDTHREAD_IMPL=1)
+endif()
 
 restage_imgui_library(imguizmo "${bundle}/ImGuizmo/ImGuizmo/src" ImGuizmo.cpp)
 target_link_libraries(dep_imguizmo PUBLIC dep::imgui)
@@ -44,13 +41,15 @@ target_link_libraries(dep_implot PUBLIC dep::imgui)
 target_compile_definitions(dep_implot PUBLIC "IMPLOT_CUSTOM_NUMERIC_TYPES=(float)(double)")
 target_compile_options(dep_implot PRIVATE -O1)
 
-file(GLOB engine_sources RELATIVE "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine"
-    "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine/*.cpp")
-restage_imgui_library(imgui_test_engine "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine" ${engine_sources})
-target_include_directories(dep_imgui_test_engine SYSTEM PUBLIC "${bundle}/imgui_test_engine/imgui_test_engine")
-target_link_libraries(dep_imgui_test_engine PUBLIC dep::imgui Threads::Threads)
-# Dear ImGui calls the engine's hooks and the engine calls Dear ImGui: one links with the other.
-target_link_libraries(dep_imgui PUBLIC dep_imgui_test_engine)
+if(RESTAGE_BUILD_TESTS) # a wheel has no use for it
+    file(GLOB engine_sources RELATIVE "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine"
+        "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine/*.cpp")
+    restage_imgui_library(imgui_test_engine "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine" ${engine_sources})
+    target_include_directories(dep_imgui_test_engine SYSTEM PUBLIC "${bundle}/imgui_test_engine/imgui_test_engine")
+    target_link_libraries(dep_imgui_test_engine PUBLIC dep::imgui Threads::Threads)
+    # Dear ImGui calls the engine's hooks and the engine calls Dear ImGui: one links with the other.
+    target_link_libraries(dep_imgui PUBLIC dep_imgui_test_engine)
+endif()
 
 add_library(dep_portable_file_dialogs INTERFACE)
 target_include_directories(dep_portable_file_dialogs SYSTEM INTERFACE 
