@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace restage::render {
 
@@ -11,11 +12,31 @@ namespace {
 
 constexpr glm::vec3 ground(0.045f, 0.047f, 0.05f), clay(0.62f, 0.58f, 0.53f), lamp(1.f, 0.93f, 0.78f);
 
+// Clarberg 2008; pbrt 4ed, 3.8.3; as lib/octahedral.glsl
+glm::vec3 octahedral_direction(glm::vec2 film) {
+    const glm::vec2 p = 2.f * film - 1.f, a = glm::abs(p);
+    const float from_edge = 1 - (a.x + a.y), r = 1 - std::abs(from_edge);
+    const float phi = (r == 0 ? 1 : (a.y - a.x) / r + 1) * std::numbers::pi_v<float> / 4;
+    const float side = r * std::sqrt(std::max(0.f, 2 - r * r));
+    return {std::copysign(std::cos(phi), p.x) * side, std::copysign(std::sin(phi), p.y) * side,
+            std::copysign(1 - r * r, from_edge)};
+}
+
 // Through the middle of the lens and of the pixel, as camera_ray() in lib/camera.glsl.
-void aim(const shared::CameraData& camera, glm::vec2 film, shared::RayHit& ray) {
-    const glm::vec2 s = glm::mix(camera.screen_min, camera.screen_max, film);
-    ray.origin = camera.camera_to_world * glm::vec4(0, 0, 0, 1);
-    ray.direction = glm::normalize(glm::vec3(camera.camera_to_world * glm::vec4(s, 1, 0)));
+void aim(const shared::CameraData& camera, std::uint32_t kind, glm::vec2 film, shared::RayHit& ray) {
+    glm::vec3 from(0), towards(glm::mix(camera.screen_min, camera.screen_max, film), 1);
+    if (kind == CAMERA_ORTHOGRAPHIC) {
+        from = {towards.x, towards.y, 0};
+        towards = {0, 0, 1};
+    } else if (kind == CAMERA_SPHERICAL) {
+        const glm::vec2 angle = film * glm::vec2(2, 1) * std::numbers::pi_v<float>;
+        towards = {std::sin(angle.y) * std::cos(angle.x), std::cos(angle.y), std::sin(angle.y) * std::sin(angle.x)};
+    } else if (kind == CAMERA_EQUAL_AREA) {
+        const glm::vec3 w = octahedral_direction(film);
+        towards = {w.x, w.z, w.y};
+    }
+    ray.origin = camera.camera_to_world * glm::vec4(from, 1);
+    ray.direction = glm::normalize(glm::vec3(camera.camera_to_world * glm::vec4(towards, 0)));
 }
 
 } // namespace
@@ -39,7 +60,7 @@ FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& j
         for (std::size_t y = begin; y < end; ++y)
             for (std::uint32_t x = 0; x < size.x; ++x) {
                 alignas(16) shared::RayHit ray{};
-                aim(camera, (glm::vec2(float(x), float(y)) + 0.5f) / glm::vec2(size), ray);
+                aim(camera, scene.features().camera, (glm::vec2(float(x), float(y)) + 0.5f) / glm::vec2(size), ray);
                 ray.tfar = std::numeric_limits<float>::infinity();
                 ray.mask = ~0u;
                 ray.geom = ray.inst = NONE;
@@ -47,7 +68,12 @@ FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& j
                 if (ray.inst == NONE) continue;
                 const std::size_t i = y * size.x + x;
                 const shared::InstanceData& instance = scene.instances()[ray.inst];
-                const glm::vec3 across = instance.normal_to_world * ray.ng;
+                glm::vec3 own = ray.ng;
+                if (scene.is_quadric(ray.inst)) {
+                    const scene::Quadric& quadric = *scene.mesh(scene.mesh_of(ray.inst))->quadric;
+                    own = quadric.normal(quadric.at({ray.u, ray.v}));
+                }
+                const glm::vec3 across = instance.normal_to_world * own;
                 const float length = glm::length(across);
                 const glm::vec3 normal = length > 0 ? across / length : -ray.direction;
                 const float facing = std::abs(glm::dot(normal, ray.direction));
