@@ -3,12 +3,12 @@
 #include "io/scene_compare.hpp"
 
 #include "base/file.hpp"
-#include "scene/projection.hpp"
 #include "scene/params.hpp"
+#include "scene/projection.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <unordered_map>
 
@@ -242,6 +242,7 @@ class Comparison {
                 if (l.kind == RESTAGE_LIGHT_SPOT)
                     text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta) +
                             (l.falloff == RESTAGE_FALLOFF_QUARTIC ? " quartic" : "");
+                if (l.hidden) text += "; hidden";
                 if (options_.names) text += " called \"" + l.name + "\"";
                 all.push_back(std::move(text));
             });

@@ -188,7 +188,8 @@ struct SceneReader::Calls {
                 .light_to_world = {},
                 .cone_angle = l->cone_angle,
                 .cone_delta = l->cone_delta,
-                .falloff = static_cast<std::uint32_t>(l->falloff)};
+                .falloff = static_cast<std::uint32_t>(l->falloff),
+                .flags = l->hidden ? static_cast<std::uint32_t>(RESTAGE_LIGHT_HIDDEN) : 0u};
         copy(l->value, out->value);
         copy(l->light_to_world, out->light_to_world);
         return 1;

@@ -18,15 +18,16 @@ RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* in) {
             w.refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
             return 0;
         }
-        return w.push(Light{
-            .name = w.unique_name("light", text(in->text.name)),
-            .kind = static_cast<RestageLightKind>(in->kind),
-            .value = vec3(in->value),
-            .light_to_world = to_world,
-            .cone_angle = in->cone_angle,
-            .cone_delta = in->cone_delta,
-            .origin = w.origin(in->text),
-            .falloff = in->falloff == RESTAGE_FALLOFF_QUARTIC ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH});
+        return w.push(
+            Light{.name = w.unique_name("light", text(in->text.name)),
+                  .kind = static_cast<RestageLightKind>(in->kind),
+                  .value = vec3(in->value),
+                  .light_to_world = to_world,
+                  .cone_angle = in->cone_angle,
+                  .cone_delta = in->cone_delta,
+                  .origin = w.origin(in->text),
+                  .falloff = in->falloff == RESTAGE_FALLOFF_QUARTIC ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH,
+                  .hidden = (in->flags & RESTAGE_LIGHT_HIDDEN) != 0});
     });
 }
 

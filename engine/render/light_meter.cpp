@@ -104,11 +104,11 @@ class Meter {
         if (!shared) {
             shared = rtcNewScene(device_);
             RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-            if (void* v = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                                  data.positions.size()))
+            if (void* v =
+                    rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, data.positions.size()))
                 std::copy_n(data.positions.data(), data.positions.size(), static_cast<glm::vec3*>(v));
-            if (void* v = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
-                                                  data.triangles.size()))
+            if (void* v =
+                    rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, data.triangles.size()))
                 std::copy_n(data.triangles.data(), data.triangles.size(), static_cast<glm::uvec3*>(v));
             rtcCommitGeometry(g);
             rtcAttachGeometryByID(shared, g, 0);
@@ -127,8 +127,8 @@ class Meter {
         rtcReleaseGeometry(g);
         for (int k = 0; k < 8; ++k)
             size_ = std::max(size_, glm::length(dvec3(place * glm::dvec4(k & 1 ? data.upper.x : data.lower.x,
-                                                                        k & 2 ? data.upper.y : data.lower.y,
-                                                                        k & 4 ? data.upper.z : data.lower.z, 1))));
+                                                                         k & 2 ? data.upper.y : data.lower.y,
+                                                                         k & 4 ? data.upper.z : data.lower.z, 1))));
         if (const auto emission = ask_.emission(in)) {
             emission_[id.value] = *emission;
             const double radiance = luminance(dvec3(emission->radiance));
@@ -139,8 +139,8 @@ class Meter {
                 const dvec3 a = corner(t.x), ab = corner(t.y) - a, ac = corner(t.z) - a;
                 const double power = radiance * glm::length(glm::cross(ab, ac)) / 2;
                 if (!(power > 0) || !std::isfinite(power)) continue;
-                shining_.push_back({a, ab, ac, radiance, (shining_.empty() ? 0 : shining_.back().sum) + power,
-                                    emission->two_sided});
+                shining_.push_back(
+                    {a, ab, ac, radiance, (shining_.empty() ? 0 : shining_.back().sum) + power, emission->two_sided});
             }
         }
     }
@@ -195,6 +195,7 @@ class Meter {
     double from_lamps(const Hit& at) const {
         double sum = 0;
         scene_.lights.each([&](scene::Id<scene::Light>, const scene::Light& l) {
+            if (l.hidden) return;
             const dvec3 axis = glm::normalize(dvec3(l.light_to_world[2]));
             dvec3 d = l.kind == RESTAGE_LIGHT_DISTANT ? -axis : dvec3(l.light_to_world[3]) - origin_ - at.position;
             const double distance = glm::length(d);
@@ -208,8 +209,7 @@ class Meter {
                 const double x = std::clamp((glm::dot(-d, axis) - total) / std::max(start - total, 1e-9), 0.0, 1.0);
                 value *= x * x * (3 - 2 * x);
             }
-            const double far =
-                l.kind == RESTAGE_LIGHT_DISTANT ? std::numeric_limits<double>::infinity() : distance;
+            const double far = l.kind == RESTAGE_LIGHT_DISTANT ? std::numeric_limits<double>::infinity() : distance;
             if (value > 0 && sees(at.position, d, far)) sum += value;
         });
         return sum;

@@ -154,6 +154,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         }
     });
     scene.lights.each([&](Id<scene::Light>, const scene::Light& item) {
+        if (item.hidden) return;
         const glm::dmat4& m = item.light_to_world;
         LightData light{};
         light.value = item.value;

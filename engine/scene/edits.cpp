@@ -240,6 +240,12 @@ Result<Edit> set_hidden(const Scene& scene, std::span<const Id<Instance>> ids, b
                        [&](Instance& i) { i.hidden = hidden; });
 }
 
+Result<Edit> set_hidden(const Scene& scene, Id<Light> id, bool hidden) {
+    const Light* light = scene.lights.find(id);
+    return modify(scene, id, std::string(hidden ? "Hide " : "Show ") + (light ? light->name : "light"),
+                  [&](Light& l) { l.hidden = hidden; });
+}
+
 namespace {
 
 template <class T>

@@ -76,6 +76,7 @@ Result<Edit> move_instances(const Scene&, std::span<const Id<Instance>>, const g
 Result<Edit> set_material(const Scene&, std::span<const Id<Instance>>, Id<Material>);
 Result<Edit> set_emission(const Scene&, Id<Instance>, std::optional<Emission>);
 Result<Edit> set_hidden(const Scene&, std::span<const Id<Instance>>, bool hidden);
+Result<Edit> set_hidden(const Scene&, Id<Light>, bool hidden);
 
 // Drops the lines that hold only while `param` ("*": while everything) is as it was imported. The builders below do it.
 void forget_edited(Origin&, std::string_view param);

@@ -130,6 +130,7 @@ struct Light { // without a surface
     float cone_angle = 30, cone_delta = 5; // spot [deg]
     Origin origin;
     RestageFalloff falloff = RESTAGE_FALLOFF_SMOOTH; // of a spot's edge
+    bool hidden = false; // switched off
     bool operator==(const Light&) const = default;
 };
 

@@ -83,7 +83,7 @@ std::optional<Light> headlamp(const Scene& s, const plugin::Registry& registry) 
 
 bool has_light(const Scene& s, const plugin::Registry& registry) {
     bool found = has_sky(s);
-    s.lights.each([&](Id<Light>, const Light& l) { found |= shines(l.value); });
+    s.lights.each([&](Id<Light>, const Light& l) { found |= !l.hidden && shines(l.value); });
     if (found) return true;
     const io::MaterialEmissions emissions(registry, s);
     s.instances.each([&](Id<Instance>, const Instance& i) { found = found || (!i.hidden && emissions.shines(i)); });
@@ -92,15 +92,16 @@ bool has_light(const Scene& s, const plugin::Registry& registry) {
 
 render::LightReading read_light(const Scene& s, const plugin::Registry& registry) {
     const io::MaterialEmissions emissions(registry, s);
-    const render::MeterQuestions ask{
-        .passes = [&](const Instance& in) { return passes(s, registry, in); },
-        .emission = [&](const Instance& in) -> std::optional<MaterialEmission> {
-            if (in.emission) return MaterialEmission{in.emission->radiance, {}, in.emission->two_sided};
-            auto emission = emissions.of(in.material);
-            if (emission && emission->texture) emission->radiance *= io::mean_of(s, emission->texture);
-            return emission;
-        },
-        .sky = mean_of_sky(s)};
+    const render::MeterQuestions ask{.passes = [&](const Instance& in) { return passes(s, registry, in); },
+                                     .emission = [&](const Instance& in) -> std::optional<MaterialEmission> {
+                                         if (in.emission)
+                                             return MaterialEmission{in.emission->radiance, {}, in.emission->two_sided};
+                                         auto emission = emissions.of(in.material);
+                                         if (emission && emission->texture)
+                                             emission->radiance *= io::mean_of(s, emission->texture);
+                                         return emission;
+                                     },
+                                     .sky = mean_of_sky(s)};
     return render::read_light(s, ask);
 }
 

@@ -96,6 +96,7 @@ void fields(V& v, scene::Light& l) {
     v("cone_delta", l.cone_delta);
     v("origin", l.origin);
     v("falloff", l.falloff);
+    v("hidden", l.hidden);
 }
 template <class V>
 void fields(V& v, scene::Environment& e) {

@@ -96,6 +96,10 @@ void bind_light(nb::module_& m) {
             if (v != "smooth" && v != "quartic") throw Failure("falloff is smooth or quartic, not \"" + v + "\"");
             l.falloff = v == "quartic" ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH;
         });
+    c.def_prop_rw(
+        "hidden", [](const LightHandle& h) { return h.get().hidden; },
+        [](const LightHandle& h, bool hidden) { h.in->edit(set_hidden(h.in->scene(), h.id, hidden)); },
+        "Switched off: it stays in the scene and lights nothing.");
     c.def("remove", [](const LightHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); }, "Removes it.");
 }
 

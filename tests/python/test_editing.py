@@ -111,6 +111,15 @@ def test_hidden_objects_and_emission(demo):
     assert part.emission is None
 
 
+def test_lights_are_switched_off(demo):
+    sun = demo.lights["Sun"]
+    assert not sun.hidden
+    sun.hidden = True
+    assert sun.hidden
+    demo.undo()
+    assert not sun.hidden
+
+
 def test_parameters_are_held_to_their_table(demo):
     paint = demo.materials["Wall paint"]
     paint["reflectance"] = (0.07, 0.17, 0.19)

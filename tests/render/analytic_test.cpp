@@ -85,6 +85,17 @@ TEST_CASE("distant light: irradiance times cosine") {
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 3 * std::cos(pi / 4));
 }
 
+TEST_CASE("a light that is switched off lights nothing") {
+    const auto tracer = GENERATE("embree", "vulkan");
+    SceneBuilder b;
+    look_down(b);
+    ground(b, 0.5f);
+    const glm::dmat4 down = glm::rotate(glm::dmat4(1), pi * 0.75, glm::dvec3(1, 0, 0));
+    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(5), .light_to_world = down, .hidden = true});
+    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(3), .light_to_world = down});
+    check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 3 * std::cos(pi / 4));
+}
+
 TEST_CASE("sphere light: form factor of a sphere") {
     const auto tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;

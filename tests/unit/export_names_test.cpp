@@ -41,6 +41,7 @@ Everything furnished(bool v4) {
         Instance{.name = "cloth here", .mesh = {2}, .material = {1}, .group = table, .object_to_world = place(1, 1)});
     made.add(Instance{.name = "lone", .mesh = {3}, .material = {2}, .group = made.add(Group{.name = "of one"})});
     apply(s, *set_hidden(s, std::array{Id<Instance>{4}, Id<Instance>{20}}, true));
+    made.add(Light{.name = "off", .kind = RESTAGE_LIGHT_SPOT, .light_to_world = place(1, 1), .hidden = true});
     made.add(Camera{.name = "from above", .camera_to_world = place(3, 2), .fov = 50, .lens_radius = 0.1f});
     made.add(Camera{.name = "default"});
     return made;
@@ -82,6 +83,10 @@ TEST_CASE("names, groups, hidden things and waiting cameras survive pbrt", "[exp
     std::size_t hidden = 0;
     again->scene.instances.each([&](auto, const Instance& i) { hidden += i.hidden; });
     CHECK(hidden == 2);
+    std::size_t lights = 0;
+    again->scene.lights.each([&](auto, const Light& l) { lights += l.hidden && l.name == "off"; });
+    CHECK(lights == 1);
+    CHECK_THAT(text, ContainsSubstring("#restage     LightSource \"spot\""));
 }
 
 TEST_CASE("the comparison of scenes sees names when it is asked to", "[export]") {

@@ -257,11 +257,10 @@ TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colo
     ModelFiles files;
     Builder b;
     b.root["meshes"][0]["primitives"][0]["material"] = 0;
-    b.root["materials"] = {{{"extensions",
-                             {{"KHR_materials_pbrSpecularGlossiness",
-                               {{"diffuseFactor", {0, 0, 0, 1}},
-                                {"specularFactor", {1, 0.77, 0.34}},
-                                {"glossinessFactor", 0.9}}}}}}};
+    b.root["materials"] = {
+        {{"extensions",
+          {{"KHR_materials_pbrSpecularGlossiness",
+            {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.77, 0.34}}, {"glossinessFactor", 0.9}}}}}}};
     const auto& metal = material_of(b.load(files)).params;
     CHECK(metal.number("metallic", 0) == 1);
     CHECK(metal.color("base_color", {})[1] == Approx(0.77));
@@ -271,7 +270,7 @@ TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colo
     const auto& coated = material_of(b.load(files)).params;
     CHECK(coated.number("metallic", 9) == 0);
     CHECK(coated.color("base_color", {})[0] == Approx(0.4)); // diffuse * (1 - max(specular))
-    CHECK(coated.color("specular_color", {})[0] == Approx(5));  // F0 of ior 1.5 is 0.04
+    CHECK(coated.color("specular_color", {})[0] == Approx(5)); // F0 of ior 1.5 is 0.04
     b.root["materials"] = {{{"extensions", {{"KHR_materials_specular", {{"specularColorFactor", {4, 1, 0.5}}}}}}}};
     const auto in = b.load(files);
     CHECK(material_of(in).params.color("specular_color", {})[0] == 4);
@@ -292,7 +291,9 @@ TEST_CASE("gltf: nodes that are not visible are hidden objects", "[gltf]") {
     ModelFiles files;
     Builder b;
     b.root["scenes"][0]["nodes"] = {0, 1};
-    b.root["nodes"].push_back({{"name", "away"}, {"children", {2}}, {"translation", {100, 0, 0}},
+    b.root["nodes"].push_back({{"name", "away"},
+                               {"children", {2}},
+                               {"translation", {100, 0, 0}},
                                {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
     b.root["nodes"].push_back({{"mesh", 0}, {"name", "other"}});
     const auto in = b.load(files);
@@ -301,6 +302,23 @@ TEST_CASE("gltf: nodes that are not visible are hidden objects", "[gltf]") {
     CHECK(in.scene.cameras[{1}].camera_to_world[3].x < 50); // it looks at what is seen
     b.root["nodes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", false}}}};
     CHECK(thing(b.load(files)).hidden);
+}
+
+TEST_CASE("gltf: a light whose node is not visible is switched off", "[gltf]") {
+    ModelFiles files;
+    Builder b;
+    b.root["scenes"][0]["nodes"] = {0, 1};
+    b.root["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "point"}, {"intensity", 3}}}}}}};
+    b.root["nodes"].push_back({{"name", "lamp"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const auto lit = b.load(files);
+    REQUIRE(lit.scene.lights.live() == 1);
+    CHECK_FALSE(lit.scene.lights[{1}].hidden);
+    CHECK_FALSE(lit.scene.environment.value);
+    b.root["nodes"][1]["extensions"]["KHR_node_visibility"] = {{"visible", false}};
+    const auto off = b.load(files);
+    REQUIRE(off.scene.lights.live() == 1);
+    CHECK(off.scene.lights[{1}].hidden);
+    CHECK(off.scene.environment.value); // the studio: nothing else shines
 }
 
 TEST_CASE("gltf: unknown extensions are refused where the file requires them, else reported", "[gltf]") {

@@ -272,6 +272,7 @@ class Monkey {
         l.light_to_world = matrix();
         l.cone_angle = 20 + x();
         l.cone_delta = x();
+        l.hidden = pick(2) == 1;
         l.origin = origin();
     }
     void change(const Scene&, Camera& c) {

@@ -47,11 +47,11 @@ typedef struct RestageMesh {
 typedef enum RestageEncoding { RESTAGE_LINEAR = 0, RESTAGE_SRGB = 1, RESTAGE_GAMMA = 2 } RestageEncoding;
 typedef struct RestageImage { /* an image file, read by the host; or pixels, when `path` is "" */
     RestageText text;
-    const char* path;   /* absolute */
-    uint32_t encoding;  /* RestageEncoding of 8-bit files; float files are linear */
-    float gamma;        /* for RESTAGE_GAMMA */
+    const char* path; /* absolute */
+    uint32_t encoding; /* RestageEncoding of 8-bit files; float files are linear */
+    float gamma; /* for RESTAGE_GAMMA */
     uint32_t width, height, channels; /* 1, 3 or 4; row 0 is the top */
-    const float* pixels;              /* linear, or NULL when `path` is given */
+    const float* pixels; /* linear, or NULL when `path` is given */
 } RestageImage;
 
 /* Texture types the engine evaluates, and their values (ids):
@@ -73,7 +73,7 @@ typedef struct RestageTexture {
 
 typedef struct RestageMaterialDesc {
     RestageText text;
-    const char* type;            /* of a material plugin */
+    const char* type; /* of a material plugin */
     /* Of its table; unset ones have the default. Besides, for any material: `bump` and `normalmap` (TEXTURE). */
     const RestageValue* values;
     uint32_t value_count;
@@ -126,6 +126,7 @@ typedef enum RestageFalloff {
     RESTAGE_FALLOFF_SMOOTH = 0, /* t^2 (3 - 2t): pbrt-v4 */
     RESTAGE_FALLOFF_QUARTIC = 1 /* t^4: pbrt-v3 */
 } RestageFalloff;
+enum { RESTAGE_LIGHT_HIDDEN = 1u }; /* switched off: it is in the scene, and lights nothing */
 typedef struct RestageLight {
     RestageText text;
     uint32_t kind;
@@ -134,6 +135,7 @@ typedef struct RestageLight {
     float cone_angle,
         cone_delta; /* spot [deg]: half angle, width of the smooth edge (pbrt: coneangle, conedeltaangle) */
     uint32_t falloff; /* RestageFalloff, of a spot */
+    uint32_t flags; /* RESTAGE_LIGHT_HIDDEN */
 } RestageLight;
 
 typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } RestageMapping;

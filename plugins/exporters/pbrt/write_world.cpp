@@ -125,11 +125,14 @@ void Exporter::lights() {
             for (const char* placed : {"from", "to"}) // are in the transform already
                 params.remove(placed);
         }
-        text_ += "\nAttributeBegin\n";
+        text_ += "\n";
+        const std::size_t start = text_.size();
+        text_ += "AttributeBegin\n";
         mark("    ", "name", {light.text.name});
         comment(k.foreign, "    ");
         transform(light.light_to_world, "    ");
         text_ += "    LightSource " + quote(kind) + " " + finished(params) + "\nAttributeEnd\n";
+        if (light.flags & RESTAGE_LIGHT_HIDDEN) only_for_us(start); // pbrt would light the scene with it
     }
 }
 

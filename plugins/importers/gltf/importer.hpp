@@ -151,7 +151,7 @@ class Importer {
     std::map<int, std::optional<Picture>> pictures_;
     std::map<std::tuple<int, int, double, bool, bool>, RestageHandle> images_;
     Bounds bounds_, hidden_bounds_;
-    std::size_t cameras_ = 0, lights_ = 0, hidden_lights_ = 0, hidden_objects_ = 0;
+    std::size_t cameras_ = 0, lights_ = 0, hidden_objects_ = 0;
     std::size_t objects_ = 0, emitters_ = 0, nodes_done_ = 0;
     double aspect_ = 16.0 / 9; // of the picture
 };

@@ -93,18 +93,14 @@ void Importer::light(int index, int light_index) {
         report_.dropped(what, "a light of the unknown type " + quote(in.type));
         return;
     }
-    if (hidden_[static_cast<std::size_t>(index)]) {
-        report_.dropped(what, "its node is not visible, and lights cannot be hidden here");
-        ++hidden_lights_;
-        return;
-    }
+    if (hidden_[static_cast<std::size_t>(index)]) light.flags |= RESTAGE_LIGHT_HIDDEN;
     if (in.range > 0) report_.dropped(what + ": range", "light reaches as far as it does");
     report_.kept(what,
                  "1 lux or candela is taken as 1 W/m^2 or W/sr, so that a surface of 1 nit (emissive factor 1) "
                  "has the value 1 in the picture");
     const Matrix placed = turned_forward(directions(world_[static_cast<std::size_t>(index)]));
     std::copy(placed.m.begin(), placed.m.end(), light.light_to_world);
-    lights_ += out_.light(out_.ctx, &light) != 0;
+    lights_ += out_.light(out_.ctx, &light) != 0 && !(light.flags & RESTAGE_LIGHT_HIDDEN); // which leave it dark
 }
 
 } // namespace restage::gltf

@@ -112,6 +112,7 @@ void Builder::light(const Directive& d) {
     }
     const std::string name = take_name({std::string(next_.label), state_.label, d.name + " light"});
     out.text = import_.text(name.c_str(), verbatim.c_str());
+    if (d.ours) out.flags |= RESTAGE_LIGHT_HIDDEN; // pbrt does not see it
     import_.out.light(import_.out.ctx, &out);
 }
 
