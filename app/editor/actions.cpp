@@ -128,6 +128,8 @@ GroupId group_of_selection(const Editor& e) {
 }
 
 void set_hidden(Editor& e, bool hidden) {
+    if (const auto light = e.selection.light())
+        return e.edit([light, hidden](const scene::Scene& s) { return scene::set_hidden(s, light, hidden); });
     const auto ids = e.selection.instances();
     e.edit([ids, hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
 }
@@ -150,8 +152,16 @@ void show_all(Editor& e) {
     e.scene().instances.each([&](InstanceId id, const scene::Instance& instance) {
         if (instance.hidden) hidden.push_back(id);
     });
-    e.edit([hidden](const scene::Scene& s) {
+    std::vector<scene::Id<scene::Light>> lights;
+    e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
+        if (light.hidden) lights.push_back(id);
+    });
+    e.edit([hidden, lights](const scene::Scene& s) {
         auto edit = scene::set_hidden(s, hidden, false);
+        for (const auto light : lights) {
+            const auto one = scene::set_hidden(s, light, false);
+            if (edit && one) edit->changes.insert(edit->changes.end(), one->changes.begin(), one->changes.end());
+        }
         if (edit) edit->label = "Show all";
         return edit;
     });
@@ -228,7 +238,7 @@ constexpr auto actions = std::to_array<Action>({
      "Add the parts that the selected objects touch, and what these touch: a whole chair, or a table and what is on it. "
      "Much larger things, like the floor, are left out",
      has_objects, select_touching},
-    {"select.hide", "Hide", ImGuiKey_H, 0, "Hide the selected objects", has_objects,
+    {"select.hide", "Hide", ImGuiKey_H, 0, "Hide the selected objects, or switch the selected light off", has_selection,
      [](Editor& e) { set_hidden(e, true); }},
     {"select.isolate", "Isolate", ImGuiMod_Shift | ImGuiKey_H, 0, "Hide all others (lamps stay)", has_objects, isolate},
     {"select.show_all", "Show all", ImGuiMod_Alt | ImGuiKey_H, 0, "Show what was hidden", has_scene, show_all},
@@ -313,9 +323,9 @@ std::string key_text(ImGuiKeyChord key) {
     std::string text = ImGui::GetKeyChordName(key);
     // Keys that have a sign are called by it.
     static constexpr std::pair<std::string_view, std::string_view> signs[] = {
-        {"LeftBracket", "["},   {"RightBracket", "]"}, {"Slash", "/"},       {"Comma", ","},
-        {"Period", "."},        {"Minus", "-"},        {"Equal", "="},       {"KeypadDecimal", "Keypad ."},
-        {"LeftArrow", "Left"},  {"RightArrow", "Right"}, {"UpArrow", "Up"},  {"DownArrow", "Down"}};
+        {"LeftBracket", "["},  {"RightBracket", "]"},   {"Slash", "/"},    {"Comma", ","},
+        {"Period", "."},       {"Minus", "-"},          {"Equal", "="},    {"KeypadDecimal", "Keypad ."},
+        {"LeftArrow", "Left"}, {"RightArrow", "Right"}, {"UpArrow", "Up"}, {"DownArrow", "Down"}};
     for (const auto& [name, sign] : signs)
         if (text.ends_with(name)) return text.replace(text.size() - name.size(), name.size(), sign);
     return text;
@@ -372,7 +382,8 @@ void menu_item(Editor& editor, std::string_view id) {
     if (!action) return;
     const bool enabled = !action->enabled || action->enabled(editor);
     const std::string key = key_text(key_of(*action, editor.view.keys));
-    if (ImGui::MenuItem((label_of(editor, *action) + "###" + action->id).c_str(), key.c_str(), action->checked && action->checked(editor), enabled))
+    if (ImGui::MenuItem((label_of(editor, *action) + "###" + action->id).c_str(), key.c_str(),
+                        action->checked && action->checked(editor), enabled))
         editor.run(id);
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
         ImGui::SetTooltip("%s", action->tooltip);

@@ -27,8 +27,8 @@ struct Asset {
 
 // By the extension; false = none of ours.
 bool kind_of_file(const std::filesystem::path& file, AssetKind& kind);
-// Whether an image may be a sky: a panorama is twice as wide as high; a square one (octahedral) is told from textures by
-// its range and by what its name or folder says. Sizes of 0 are not known yet.
+// Whether an image may be a sky: a panorama is twice as wide as high; a square one (octahedral) is told from textures
+// by its range and by what its name or folder says. Sizes of 0 are not known yet.
 bool plausible_sky(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height);
 // What the file lists, in its order; folders are searched three levels deep. Files that are not there are left out.
 Result<std::vector<Asset>> read_assets(const std::filesystem::path& config,

@@ -7,8 +7,8 @@
 
 #include <imgui.h>
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace restage::editor {
 
@@ -35,14 +35,12 @@ void add(Editor& e, const session::Copy& copied) {
             e.notices.add(LogLevel::info, "Select the objects that shall have the material");
             return;
         }
-        if (const auto done =
-                session.edit(session::paste_material(session.scene(), copied, e.selection.instances()));
+        if (const auto done = session.edit(session::paste_material(session.scene(), copied, e.selection.instances()));
             !done)
             e.notices.add(LogLevel::error, done.error().message);
         return;
     }
-    session::Pasted pasted =
-        session::paste(session.scene(), copied.scene, aside(e, scene::world_bounds(copied.scene)));
+    session::Pasted pasted = session::paste(session.scene(), copied.scene, aside(e, scene::world_bounds(copied.scene)));
     session.edit(std::move(pasted.edit));
     if (pasted.instances.empty())
         e.selection.set_light(pasted.light);
@@ -94,17 +92,18 @@ void paste(Editor& e) {
         return e.selection.set(*made);
     }
     // What names files reads them.
-    e.files().jobs.start({.title = "Pasting"},
-                         [text = std::move(text),
-                          &registry = e.registry()](BackgroundJob&) -> std::function<void(Editor&)> {
-                             auto copied = session::read_copy(text, registry);
-                             if (!copied)
-                                 return [message = copied.error().message](Editor& editor) {
-                                     editor.notices.add(LogLevel::error, message);
-                                 };
-                             return [copied = std::make_shared<const session::Copy>(std::move(*copied))](
-                                        Editor& editor) { editor.later([&editor, copied] { add(editor, *copied); }); };
-                         });
+    e.files().jobs.start(
+        {.title = "Pasting"},
+        [text = std::move(text), &registry = e.registry()](BackgroundJob&) -> std::function<void(Editor&)> {
+            auto copied = session::read_copy(text, registry);
+            if (!copied)
+                return [message = copied.error().message](Editor& editor) {
+                    editor.notices.add(LogLevel::error, message);
+                };
+            return [copied = std::make_shared<const session::Copy>(std::move(*copied))](Editor& editor) {
+                editor.later([&editor, copied] { add(editor, *copied); });
+            };
+        });
 }
 
 glm::dvec3 aside(const Editor& e, const scene::Bounds& bounds) {

@@ -116,8 +116,9 @@ void begin_drag(Editor& e, Drag& drag, bool copy) {
 }
 
 void ask_drag(Editor& e, const Drag& drag, const glm::dmat4& by, const char* verb) {
-    e.edit([d = drag, by, verb = drag.copied ? "Copy" : verb](const scene::Scene& now) { return place(now, d, by, verb); },
-           "drag");
+    e.edit(
+        [d = drag, by, verb = drag.copied ? "Copy" : verb](const scene::Scene& now) { return place(now, d, by, verb); },
+        "drag");
 }
 
 void cancel_drag(Editor& e, Drag& drag) {

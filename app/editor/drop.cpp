@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <iterator>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 
 namespace restage::editor {
 
@@ -34,8 +34,8 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
     return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
 }
 
-constexpr std::initializer_list<const char*> picture_files = {"png", "jpg", "jpeg", "tga", "bmp", "webp",
-                                                              "hdr", "exr", "pfm"};
+constexpr std::initializer_list<const char*> picture_files = {"png",  "jpg", "jpeg", "tga", "bmp",
+                                                              "webp", "hdr", "exr",  "pfm"};
 
 // The object a file let go there is for; asked of the scene, not of the picture, which may be of another moment.
 InstanceId target_at(const Editor& e, glm::dvec2 film) {
@@ -60,9 +60,8 @@ bool becomes_sky(const std::string& extension, InstanceId on) {
     return !on || is_one_of(extension, {"hdr", "exr", "pfm"});
 }
 
-Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry,
-                                 scene::Id<scene::Material> id, const fs::path& path,
-                                 const std::shared_ptr<const scene::PixelData>& pixels) {
+Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, scene::Id<scene::Material> id,
+                                 const fs::path& path, const std::shared_ptr<const scene::PixelData>& pixels) {
     const scene::Material* material = s.materials.find(id);
     if (!material) return fail("There is no material for the image to go on");
     const auto plugin = registry.find_material(material->type);
@@ -98,15 +97,16 @@ bool takes_table(const Editor& e, const std::string& extension, InstanceId on) {
 void drop_table(Editor& e, const fs::path& path, InstanceId on) {
     ask_scope(e, {on}, path.filename().string(), [path](Editor& editor, const MaterialScope& scope) {
         editor.edit([scope, file = path.string(), &registry = editor.registry()](const scene::Scene& s) {
-            return edit_in_scope(
-                s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
-                    const auto plugin = registry.find_material(now.materials[id].type);
-                    if (!plugin) return fail("the material's plugin is not there any more");
-                    const RestageParam* begin = plugin->table->params;
-                    const RestageParam* line = std::find_if(begin, begin + plugin->table->param_count,
-                                                            [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
-                    return scene::set_param(now, id, line->id, scene::Value::table(file));
-                });
+            return edit_in_scope(s, scope,
+                                 [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
+                                     const auto plugin = registry.find_material(now.materials[id].type);
+                                     if (!plugin) return fail("the material's plugin is not there any more");
+                                     const RestageParam* begin = plugin->table->params;
+                                     const RestageParam* line =
+                                         std::find_if(begin, begin + plugin->table->param_count,
+                                                      [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
+                                     return scene::set_param(now, id, line->id, scene::Value::table(file));
+                                 });
         });
     });
 }
@@ -153,8 +153,7 @@ void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     for (const fs::path& given : paths) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
-        if (is_one_of(extension, picture_files))
-            drop_image(*this, path, on);
+        if (is_one_of(extension, picture_files)) drop_image(*this, path, on);
         // Files of objects join what is there; scenes, and anything when there is nothing yet, are opened.
         else if (takes_table(*this, extension, on))
             drop_table(*this, path, on);
@@ -178,10 +177,10 @@ void preview_drop(Editor& e, const fs::path& path, ImVec2 screen) {
         e.drop_target = on;
         const scene::Material* material = material_of(e, on);
         const std::size_t users = material ? users_of(e.scene(), e.scene().instances[on].material) : 0;
-        text = !material  ? "there is no material for it"
-               : users > 1 ? fmt::format("onto \"{}\", the material of {} objects", material->name, users)
-                           : fmt::format("onto \"{}\", the material of {}", material->name,
-                                         e.scene().instances[on].name);
+        text = !material ? "there is no material for it"
+               : users > 1
+                   ? fmt::format("onto \"{}\", the material of {} objects", material->name, users)
+                   : fmt::format("onto \"{}\", the material of {}", material->name, e.scene().instances[on].name);
     } else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && e.scene().instances.live() > 0) {
         e.drop_target = on;
         text = on ? "to stand on " + e.scene().instances[on].name : "into the scene";
@@ -207,28 +206,27 @@ void ask_scope(Editor& e, const std::vector<InstanceId>& objects, const std::str
     if (users <= mine.size()) return then(e, {.alone = false, .objects = mine});
     const std::string these =
         mine.size() == 1 ? "Only " + e.scene().instances[mine[0]].name : fmt::format("Only these {}", mine.size());
-    e.show_modal("Shared material",
-                 [text = fmt::format("{} goes onto the material \"{}\", which {} objects have.", what, material->name,
-                                     users),
-                  these, users, mine, then = std::move(then)](Editor& editor) {
-                     dialog_width(420);
-                     ImGui::TextWrapped("%s", text.c_str());
-                     ImGui::Spacing();
-                     bool stay = true;
-                     const auto choice = [&](const std::string& label, const char* mark, bool alone) {
-                         if (ImGui::Button((label + "###" + mark).c_str())) {
-                             editor.later([&editor, then, alone, mine] { then(editor, {alone, mine}); });
-                             stay = false;
-                         }
-                         editor.mark(mark);
-                     };
-                     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-                     choice(these, "scope.alone", true);
-                     choice(fmt::format("All {} objects", users), "scope.all", false);
-                     if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
-                     editor.mark("scope.cancel");
-                     return stay;
-                 });
+    e.show_modal("Shared material", [text = fmt::format("{} goes onto the material \"{}\", which {} objects have.",
+                                                        what, material->name, users),
+                                     these, users, mine, then = std::move(then)](Editor& editor) {
+        dialog_width(420);
+        ImGui::TextWrapped("%s", text.c_str());
+        ImGui::Spacing();
+        bool stay = true;
+        const auto choice = [&](const std::string& label, const char* mark, bool alone) {
+            if (ImGui::Button((label + "###" + mark).c_str())) {
+                editor.later([&editor, then, alone, mine] { then(editor, {alone, mine}); });
+                stay = false;
+            }
+            editor.mark(mark);
+        };
+        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+        choice(these, "scope.alone", true);
+        choice(fmt::format("All {} objects", users), "scope.all", false);
+        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        editor.mark("scope.cancel");
+        return stay;
+    });
 }
 
 Result<scene::Edit> edit_in_scope(

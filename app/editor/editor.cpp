@@ -3,6 +3,7 @@
 
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "fonts.hpp"
 #include "layout.hpp"
 #include "panels/panels.hpp"
 #include "panels/state.hpp"
@@ -13,9 +14,11 @@
 #include "widgets.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <algorithm>
+#include <set>
 
 namespace restage::editor {
 
@@ -148,6 +151,7 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
     follow_opening();
     follow_plugins();
     panel_state->loads.poll();
+    panel_state->balls.poll();
     follow_convergence(*this);
     run_shortcuts(*this, keys);
     draw_panels();
@@ -219,6 +223,31 @@ void Editor::follow_plugins() {
         if (news.error.empty()) notices.add(LogLevel::info, news.plugin->name() + " was loaded anew");
 }
 
+namespace {
+
+// Names whose script no font here has would be boxes without a word.
+std::string unreadable_scripts(const scene::Scene& s) {
+    ImFont* font = ImGui::GetFont();
+    std::set<std::string> found;
+    const auto look = [&](const std::string& name) {
+        for (const char *at = name.data(), *end = at + name.size(); at < end;) {
+            unsigned int c = 0;
+            at += std::max(ImTextCharFromUtf8(&c, at, end), 1);
+            const Script* script = c < 0x80 ? nullptr : script_of(char32_t(c));
+            if (script && font && !found.contains(script->name) && !font->IsGlyphInFont(ImWchar(c)))
+                found.insert(script->name);
+        }
+    };
+    s.instances.each([&](auto, const scene::Instance& i) { look(i.name); });
+    s.groups.each([&](auto, const scene::Group& g) { look(g.name); });
+    s.materials.each([&](auto, const scene::Material& m) { look(m.name); });
+    s.lights.each([&](auto, const scene::Light& l) { look(l.name); });
+    s.cameras.each([&](auto, const scene::Camera& c) { look(c.name); });
+    return fmt::format("{}", fmt::join(found, ", "));
+}
+
+} // namespace
+
 void Editor::document_changed() {
     ++document_;
     original_ = session_.base().file.empty() ? scene() : session_.base().scene;
@@ -229,6 +258,10 @@ void Editor::document_changed() {
     pick_tool.reset();
     panel_state->forget_document();
     up_ = session::guess_up(camera());
+    if (const std::string scripts = unreadable_scripts(scene()); !scripts.empty())
+        notices.add(LogLevel::warning, "Names here are " + scripts +
+                                           ", for which no font was found: they are shown as boxes. Install one (Noto "
+                                           "Sans has them all) and start Restage again");
 }
 
 void Editor::ask_for_base(const std::string& message, bool some_fits) {

@@ -11,10 +11,10 @@
 #include "opening.hpp"
 #include "preferences.hpp"
 #include "selection.hpp"
-#include "view_history.hpp"
 #include "session/display.hpp"
 #include "session/live_view.hpp"
 #include "session/session.hpp"
+#include "view_history.hpp"
 #include "viewport.hpp"
 
 #include <deque>
@@ -94,13 +94,14 @@ class Editor {
     const scene::Scene& scene() const { return session_.scene(); }
     const plugin::Registry& registry() const { return session_.registry(); }
     scene::Id<scene::Camera> camera_id() const { return scene().active_camera.value; }
-    // What the picture is seen from: the scene's camera, or the view that has left it. A default one where the scene has
-    // none.
+    // What the picture is seen from: the scene's camera, or the view that has left it. A default one where the scene
+    // has none.
     const scene::Camera& camera() const;
     const scene::Camera& scene_camera() const;
     // Looks from there. Where the camera is locked only the view goes, which is no change of the document; else the
     // camera does.
-    void look_from(const glm::dmat4& camera_to_world, const std::string& gesture = {}, const char* label = "Move camera");
+    void look_from(const glm::dmat4& camera_to_world, const std::string& gesture = {},
+                   const char* label = "Move camera");
     ViewHistory views;
     double film_aspect() const;
     const glm::dvec3& up() const { return up_; }

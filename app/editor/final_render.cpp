@@ -6,6 +6,7 @@
 #include "files.hpp"
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
+#include "saving.hpp"
 #include "session/picture.hpp"
 #include "widgets.hpp"
 
@@ -36,6 +37,36 @@ double now_seconds() {
 using Done = std::function<void(Editor&)>;
 Done say(LogLevel level, std::string text) {
     return [level, text = std::move(text)](Editor& e) { e.notices.add(level, text); };
+}
+
+struct Finished {
+    session::Picture picture;
+    session::PictureOptions how;
+    std::string text; // what was done
+};
+
+// Where it cannot be written it is kept, until it is written elsewhere or given up: it may have taken hours.
+Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
+    const auto written = session::write_picture(path.string(), done->picture, done->how);
+    if (written) return say(LogLevel::info, path.string() + ": " + done->text);
+    return [done, path, reason = written.error().message](Editor& e) {
+        show_failure(e, {.title = "The final picture was not written",
+                         .reason = reason,
+                         .again = [done, path](Editor& ed) { write(done, path)(ed); },
+                         .elsewhere =
+                             [done, path](Editor& ed) {
+                                 browse(ed, {.title = "Final picture as",
+                                             .save = true,
+                                             .filters = {{"Pictures", {"exr", "png", "hdr", "pfm"}}, {"All files", {}}},
+                                             .start = path.parent_path(),
+                                             .name = path.filename().string(),
+                                             .extension = ".exr",
+                                             .done = [done](Editor& again, const fs::path& place) {
+                                                 again.files().last_picture = place;
+                                                 write(done, place)(again);
+                                             }});
+                             }});
+    };
 }
 
 Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& log, render::RendererOptions options,
@@ -69,35 +100,41 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
         batch = std::uint32_t(std::clamp(0.2 / std::max((now_seconds() - before) / batch, 1e-6), 1.0, 1024.0));
     }
     if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was given up");
-    session::Picture picture{
-        .film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
+    auto finished = std::make_shared<Finished>();
+    session::Picture& picture = finished->picture;
+    picture = {.film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
     std::string denoiser = "none";
     if (denoise) {
         job.report(traced, "denoising");
-        RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, ""));
-        denoiser = render::denoiser_label(chosen, RESTAGE_DENOISE_HIGH);
-        RESTAGE_TRY(picture.denoised,
-                    render::denoise(picture.film, chosen, RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
-                        return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
-                    }));
+        const auto clean = [&]() -> Result<void> {
+            RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, ""));
+            denoiser = render::denoiser_label(chosen, RESTAGE_DENOISE_HIGH);
+            RESTAGE_TRY(picture.denoised,
+                        render::denoise(picture.film, chosen, RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
+                            return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
+                        }));
+            return {};
+        };
+        if (const auto cleaned = clean(); !cleaned) { // what was rendered is worth keeping all the same
+            log.error("the final picture is not denoised: " + cleaned.error().message);
+            denoiser = "none";
+        }
     }
     const auto& stats = renderer->stats();
-    const session::PictureOptions how{
-        .metadata = {{"restage:version", plugin::host_version},
-                     {"restage:scene", scene_name},
-                     {"restage:device", renderer->device().info().name},
-                     {"restage:tracer", renderer->tracer_name()},
-                     {"restage:samples", std::to_string(renderer->samples())},
-                     {"restage:seed", std::to_string(options.seed)},
-                     {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
-                     {"restage:denoiser", denoiser}}};
-    RESTAGE_CHECK(session::write_picture(wish.path.string(), picture, how));
+    finished->how = {.metadata = {{"restage:version", plugin::host_version},
+                                  {"restage:scene", scene_name},
+                                  {"restage:device", renderer->device().info().name},
+                                  {"restage:tracer", renderer->tracer_name()},
+                                  {"restage:samples", std::to_string(renderer->samples())},
+                                  {"restage:seed", std::to_string(options.seed)},
+                                  {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
+                                  {"restage:denoiser", denoiser}}};
     for (const auto& [type, count] : stats.not_finite)
         log.warning(
             fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
-    return say(LogLevel::info,
-               fmt::format("{}: {}x{}, {} samples a pixel in {:.1f} s", wish.path.string(), picture.film.width,
-                           picture.film.height, renderer->samples(), now_seconds() - start));
+    finished->text = fmt::format("{}x{}, {} samples a pixel in {:.1f} s", picture.film.width, picture.film.height,
+                                 renderer->samples(), now_seconds() - start);
+    return write(finished, wish.path);
 }
 
 void start(Editor& e, const Wish& wish) {
@@ -127,7 +164,8 @@ void final_render_dialog(Editor& e) {
         form_row("Size", "Of the picture: change it in the Scene panel, under Picture");
         ImGui::Text("%u × %u pixels", film.width, film.height);
         if (editor.views.now()) {
-            form_row("From", "Where it is seen from: here, or from the scene's camera, which you have looked away from");
+            form_row("From",
+                     "Where it is seen from: here, or from the scene's camera, which you have looked away from");
             if (ImGui::RadioButton("View", wish->from_view)) wish->from_view = true;
             editor.mark("final.view");
             ImGui::SameLine();

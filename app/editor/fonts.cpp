@@ -125,7 +125,8 @@ int preference(const fs::path& file) {
     int rank = 2;
     if (says({"cjk", "fallback", "sourcehan", "unifont", "arialuni"})) rank = 0;
     if (says({"hei", "gothic", "nanum", "msyh", "pingfang", "dejavusans."})) rank = 1;
-    if (says({"bold", "italic", "oblique", "mono", "condensed", "thin", "light", "black", "serif", "mincho"})) rank += 4;
+    if (says({"bold", "italic", "oblique", "mono", "condensed", "thin", "light", "black", "serif", "mincho"}))
+        rank += 4;
     return rank;
 }
 

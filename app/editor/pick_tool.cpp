@@ -51,29 +51,29 @@ PickTool material_eyedropper(const Editor& editor) {
 }
 
 PickTool focus_picker() {
-    return {"Click what shall be sharp", [](Editor& e, InstanceId, ImVec2 screen) {
+    return {
+        "Click what shall be sharp", [](Editor& e, InstanceId, ImVec2 screen) {
                 // The distance along the camera's axis: what pbrt calls focal distance.
-                const session::ViewRay ray =
-                    session::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
-                const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
-                if (hits.empty()) {
-                    e.notices.add(LogLevel::info, "There is nothing to focus on");
-                    return;
-                }
-                const glm::dmat4& place = e.scene_camera().camera_to_world; // the view may have left it
-                const double away = glm::dot(hits[0].position - glm::dvec3(place[3]), glm::normalize(glm::dvec3(place[2])));
-                if (!(away > 0)) {
-                    e.notices.add(LogLevel::info, "That is behind the scene's camera: set the camera to this view first");
-                    return;
-                }
-                e.edit([t = float(away)](const scene::Scene& s) {
-                    const scene::Camera* now = s.cameras.find(s.active_camera.value);
-                    if (!now) return Result<scene::Edit>(fail("the scene has no camera"));
-                    scene::Camera camera = *now;
-                    camera.focal_distance = t;
-                    return scene::set_camera(s, s.active_camera.value, camera, "Focus");
-                });
-            }};
+            const session::ViewRay ray = session::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
+            const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+            if (hits.empty()) {
+                e.notices.add(LogLevel::info, "There is nothing to focus on");
+                return;
+            }
+            const glm::dmat4& place = e.scene_camera().camera_to_world; // the view may have left it
+            const double away = glm::dot(hits[0].position - glm::dvec3(place[3]), glm::normalize(glm::dvec3(place[2])));
+            if (!(away > 0)) {
+                e.notices.add(LogLevel::info, "That is behind the scene's camera: set the camera to this view first");
+                return;
+            }
+            e.edit([t = float(away)](const scene::Scene& s) {
+                const scene::Camera* now = s.cameras.find(s.active_camera.value);
+                if (!now) return Result<scene::Edit>(fail("the scene has no camera"));
+                scene::Camera camera = *now;
+                camera.focal_distance = t;
+                return scene::set_camera(s, s.active_camera.value, camera, "Focus");
+            });
+        }};
 }
 
 } // namespace restage::editor

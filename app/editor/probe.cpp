@@ -4,8 +4,8 @@
 #include "editor.hpp"
 #include "files.hpp"
 
-#include <charconv>
 #include <imgui_internal.h>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <sstream>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ViewHistory: where the scene was looked at from, to go back and forth in. Looking around changes no document: the view
-// leaves the scene's camera where it is, and comes back to it when the camera is moved itself.
+// ViewHistory: where the scene was looked at from, to go back and forth in. Looking around changes no document: the
+// view leaves the scene's camera where it is, and comes back to it when the camera is moved itself.
 #pragma once
 
 #include <cstddef>

@@ -61,6 +61,7 @@ void Viewport::draw(Editor& e) {
     const bool over = (gizmo.knob || (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered())) &&
                       ImGui::IsMouseHoveringRect(corner, end) && !cancelled_;
     if (cancelled_ && !ImGui::IsKeyDown(ImGuiKey_T) && !ImGui::IsAnyMouseDown()) cancelled_ = false;
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) on_knob_ = gizmo.knob;
     if (dragging(e) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
         cancel(e);
     else
@@ -209,7 +210,6 @@ void Viewport::pick(Editor& e, bool over, const GizmoState& gizmo) {
     }
     if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         pressed_ = true;
-        on_knob_ = gizmo.knob;
         press_ = io.MousePos;
     }
     if (!pressed_) {

@@ -46,7 +46,9 @@ void Viewport::slide(Editor& e) {
     ask_drag(e, slide_, glm::translate(glm::dmat4(1), by), "Move");
 }
 
-bool Viewport::dragging(const Editor& e) const { return slide_.active || e.gizmo_drag.active || boxing_ || sticking_ || cone_held_; }
+bool Viewport::dragging(const Editor& e) const {
+    return slide_.active || e.gizmo_drag.active || boxing_ || sticking_ || cone_held_;
+}
 
 void Viewport::cancel(Editor& e) {
     cancel_drag(e, slide_);

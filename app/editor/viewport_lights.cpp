@@ -69,7 +69,9 @@ void Viewport::draw_lights(Editor& e) {
         if (light.kind == RESTAGE_LIGHT_DISTANT) return;
         const auto c = on_screen(e, *this, glm::dvec3(light.light_to_world[3]));
         if (!c) return;
-        const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::accent : colors::warning);
+        const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::accent
+                                               : light.hidden            ? colors::dim
+                                                                         : colors::warning);
         draw->AddCircle(*c, r, color, 0, 2);
         for (int i = 0; i < 8; ++i) {
             const float a = float(i) * 0.785398f;
@@ -100,7 +102,8 @@ void Viewport::draw_cone(Editor& e, scene::Id<scene::Light> id) {
     };
     const ImU32 bright = ImGui::GetColorU32(colors::accent), dim = ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.45f});
     rim(double(light.cone_angle), bright);
-    if (light.cone_delta > 0) rim(std::max(0.0, double(light.cone_angle - light.cone_delta)), dim); // where it fades from
+    if (light.cone_delta > 0)
+        rim(std::max(0.0, double(light.cone_angle - light.cone_delta)), dim); // where it fades from
     for (const double turn : {0.0, 0.5 * pi, pi, 1.5 * pi})
         line(cone.tip, cone.rim(radius(double(light.cone_angle)), turn), dim);
 
@@ -117,7 +120,8 @@ void Viewport::draw_cone(Editor& e, scene::Id<scene::Light> id) {
     ImGui::SetCursorScreenPos({handle->x - half, handle->y - half});
     ImGui::InvisibleButton("cone", {2 * half, 2 * half});
     const bool over = ImGui::IsItemHovered() || ImGui::IsItemActive();
-    draw->AddCircleFilled(*handle, half * (over ? 0.8f : 0.6f), ImGui::GetColorU32(over ? colors::hover : colors::accent));
+    draw->AddCircleFilled(*handle, half * (over ? 0.8f : 0.6f),
+                          ImGui::GetColorU32(over ? colors::hover : colors::accent));
     e.mark("light.cone_handle");
     if (over) ImGui::SetTooltip("Cone %.1f°", double(light.cone_angle));
     if (!ImGui::IsItemActive()) {

@@ -39,8 +39,8 @@ void Viewport::navigate(Editor& e, bool over) {
             navigation_ = e.view.keys == KeyPreset::blender && !io.KeyShift ? Navigation::orbit : Navigation::pan;
         else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
             navigation_ = alt ? Navigation::dolly : Navigation::fly;
-        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt && !can_drag(e, io.MousePos)) // else it is lifted
-            navigation_ = Navigation::orbit;
+        else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt && !on_knob_)
+            navigation_ = Navigation::orbit; // wherever it begins: looking around changes nothing. Handles lift
     }
     const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ||
                       ImGui::IsMouseDown(ImGuiMouseButton_Right);

@@ -179,8 +179,9 @@ void searched_list(std::string& search, std::size_t count, const std::function<s
         if (contains_word(name(i), search)) found.push_back(i);
     if (found.empty()) ImGui::TextDisabled("Nothing is called that.");
     const float height = row_height > 0 ? row_height : ImGui::GetTextLineHeightWithSpacing();
-    if (!ImGui::BeginChild("list", {std::max(ImGui::GetContentRegionAvail().x, 220 * ImGui::GetStyle().FontScaleMain),
-                                    height * float(std::clamp<std::size_t>(found.size(), 1, row_height > 0 ? 7 : 12)) + 4})) {
+    if (!ImGui::BeginChild("list",
+                           {std::max(ImGui::GetContentRegionAvail().x, 220 * ImGui::GetStyle().FontScaleMain),
+                            height * float(std::clamp<std::size_t>(found.size(), 1, row_height > 0 ? 7 : 12)) + 4})) {
         ImGui::EndChild();
         return;
     }

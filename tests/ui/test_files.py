@@ -180,6 +180,36 @@ def test_the_live_picture_and_a_final_one(editor, tmp_path):
     assert png_size(tmp_path / "final.png") == (400, 400)
 
 
+def test_what_cannot_be_written_is_a_question_and_no_note_that_fades(editor, tmp_path):
+    change(editor)
+    editor.key("ctrl+s")
+    modal(editor, "Save as")
+    type_path(editor, "/proc/nothing.restage")
+    modal(editor, "Not saved")
+    editor.click("failure.elsewhere")
+    modal(editor, "Save as")
+    type_path(editor, tmp_path / "saved.restage")
+    editor.wait(lambda s: s["path"] == str(tmp_path / "saved.restage") and not s["modified"], "it to be saved elsewhere")
+
+    # A final picture whose folder has gone meanwhile is kept, and written again.
+    editor.settled()
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    editor.key("ctrl+r")
+    modal(editor, "Final picture")
+    editor.click("final.choose")
+    modal(editor, "Final picture as")
+    type_path(editor, gone / "final.png")
+    editor.wait(lambda s: "job.enough" in s["marks"] and s["job"] > 0, "the job to render", 60)
+    gone.rmdir()
+    editor.click("job.enough")
+    editor.wait(lambda s: s["modal"] == "The final picture was not written", "the question", 60)
+    gone.mkdir()
+    editor.click("failure.again")
+    editor.wait(lambda s: not s["modal"] and (gone / "final.png").exists(), "the picture")
+    assert png_size(gone / "final.png") == (400, 400)
+
+
 def test_dropped_files_go_where_they_belong(editor, tmp_path):
     editor.settled()
     before = editor.state()["counts"]
@@ -190,6 +220,10 @@ def test_dropped_files_go_where_they_belong(editor, tmp_path):
     texture = tmp_path / "stripes.tga"
     texture.write_bytes(struct.pack("<BBBHHBHHHHBB", 0, 0, 2, 0, 0, 0, 0, 0, 2, 2, 24, 0) + bytes([255, 0, 0] * 4))
     drop(editor, texture, ("picture", 0.5, 0.85))  # the floor
+    asked = editor.wait(lambda s: s["modal"] or s["history"]["position"] == 2, "the texture, or the question for which")
+    if asked["modal"]:  # other objects have its material as well
+        assert asked["modal"] == "Shared material"
+        editor.click("scope.all")
     state = editor.wait(lambda s: s["history"]["position"] == 2, "the texture")
     assert state["counts"]["textures"] == before["textures"] + 1 and "Texture stripes" in state["history"]["labels"][1]
     cube = tmp_path / "cube.obj"

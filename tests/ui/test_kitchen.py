@@ -185,6 +185,9 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     # A texture is dragged onto it from the list of assets, then a sky.
     editor.click("tab.Assets")
     editor.drag("asset.checks", WORKTOP)
+    shared = editor.wait(lambda s: s["modal"] or s["history"]["position"] == 6, "the texture, or the question for which")
+    if shared["modal"]:
+        editor.click("scope.all")
     state = kitchen.step(6, "the texture")
     assert state["counts"]["textures"] == opened["counts"]["textures"] + 1
     after_texture = kitchen.picture()
@@ -192,8 +195,10 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     editor.drag("asset.redblue", WORKTOP)
     state = kitchen.step(7, "the sky")
     assert state["sky"] == "redblue"
-    editor.key("Home")
-    kitchen.step(8, "all of it framed")
+    editor.key("Home")  # looks from there, which is no change
+    editor.wait(lambda s: s["views"]["apart"] and s["camera"] != opened["camera"], "all of it framed")
+    editor.key("ctrl+shift+Home")
+    kitchen.step(8, "the camera there")
     editor.click("tab.Scene")
     before_turn = kitchen.picture()
     x, y = editor.point("sky.rotation")

@@ -67,6 +67,9 @@ def test_assets_are_dragged_into_the_picture(editor):
         editor.drag("asset." + asset, where)
 
     drag("oak", FLOOR)
+    asked = editor.wait(lambda s: s["modal"] or s["history"]["position"] == 1, "the texture, or the question for which")
+    if asked["modal"]:
+        editor.click("scope.all")
     state = editor.wait(lambda s: s["history"]["position"] == 1, "the texture on the floor", 60)
     assert state["history"]["labels"] == ["Texture oak on Oak floor"], state["history"]["labels"]
     editor.settled()

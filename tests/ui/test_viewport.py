@@ -78,36 +78,117 @@ def test_a_chair_is_picked_moved_copied_and_deleted_and_all_is_undone_and_redone
         editor.wait(lambda s: s["history"]["position"] == expected, f"redo to {expected}")
 
 
-def test_a_drag_with_alt_leaves_the_original(editor):
+def test_a_drag_with_shift_leaves_the_original_and_one_with_alt_lifts(editor):
     editor.click(CHAIR)
     state = editor.wait(lambda s: s["selection"], "a selection")
-    start = state["selection"][0]["position"]
+    start = np.array(state["selection"][0]["position"])
     x, y = editor.point("gizmo.y")
-    editor.drag((x, y), (x - 50, y + 20), keys=["alt"])
+    editor.drag((x, y), (x - 50, y + 20), keys=["shift"])
     state = editor.wait(lambda s: s["history"]["size"] == 1, "one step")
     assert state["counts"]["instances"] == 121, "nothing was copied"
-    assert "4" in state["selection"][0]["name"] and state["selection"][0]["position"] != start
+    assert "4" in state["selection"][0]["name"] and not np.allclose(state["selection"][0]["position"], start)
     editor.key("ctrl+z")
     state = editor.wait(lambda s: s["history"]["position"] == 0, "undo")
     assert state["counts"]["instances"] == 119
 
+    editor.click(CHAIR)
+    editor.wait(lambda s: names(s) == ["Chair cushion", "Chair frame"], "the chair again")
+    x, y = editor.point("gizmo.center")
+    editor.drag((x, y), (x + 10, y - 60), keys=["alt"])
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "the lift as one step")
+    moved = np.array(state["selection"][0]["position"]) - start
+    assert moved[2] > 0.05 and np.allclose(moved[:2], 0, atol=1e-6) and state["counts"]["instances"] == 119, moved
+
+
+def test_alt_orbits_wherever_it_begins_and_lifts_what_slides_already(editor):
+    editor.click(CHAIR)
+    start = editor.wait(lambda s: s["selection"], "a selection")
+    rail = ("picture", 0.66, 0.735)  # of its back, beside the handles
+    editor.drag(rail, ("picture", 0.60, 0.735), keys=["alt"])
+    state = editor.wait(lambda s: s["views"]["apart"], "another view")
+    assert state["history"]["size"] == 0 and state["selection"] == start["selection"], "looking around changed the scene"
+    editor.key("bracketleft")
+    editor.wait(lambda s: not s["views"]["apart"], "the view before")
+    x, y = editor.point(rail)
+    editor.move((x, y))
+    editor.desk.xdotool("mousedown", 1)
+    for i in range(1, 9):
+        editor.desk.xdotool("mousemove", x + 5 * i, y)
+        time.sleep(0.05)
+    before = editor.wait(lambda s: s["history"]["size"] == 1 and s["selection"] != start["selection"], "it to slide")
+    assert abs(before["selection"][0]["position"][2] - start["selection"][0]["position"][2]) < 1e-6
+    editor.desk.xdotool("keydown", "alt")
+    time.sleep(0.2)
+    for i in range(1, 9):
+        editor.desk.xdotool("mousemove", x + 40, y - 8 * i)
+        time.sleep(0.05)
+    time.sleep(0.2)
+    editor.desk.xdotool("mouseup", 1, "keyup", "alt")
+    state = editor.wait(lambda s: s["selection"][0]["position"][2] > start["selection"][0]["position"][2] + 0.05, "it to be lifted")
+    assert state["history"]["size"] == 1 and not state["views"]["apart"]
+
 
 def test_orbit_pan_zoom_and_back(editor):
-    eye = np.array(editor.state()["camera"])
+    opened = editor.state()
+    eye = np.array(opened["camera"])
     editor.drag(("picture", 0.8, 0.3), ("picture", 0.7, 0.35), keys=["alt"])
-    orbited = editor.wait(lambda s: s["history"]["position"] == 1, "orbiting as one step")
+    orbited = editor.wait(lambda s: s["views"]["apart"], "orbiting")
     assert np.linalg.norm(np.array(orbited["camera"]) - eye) > 0.1
     editor.drag(("picture", 0.8, 0.3), ("picture", 0.75, 0.3), button=2)
-    panned = editor.wait(lambda s: s["history"]["position"] == 2, "panning as one step")
+    panned = editor.wait(lambda s: s["camera"] != orbited["camera"], "panning")
     editor.click(("picture", 0.5, 0.5), button=4)  # the wheel
-    editor.wait(lambda s: s["history"]["position"] == 3, "zooming as one step")
+    zoomed = editor.wait(lambda s: s["camera"] != panned["camera"], "zooming")
+    assert zoomed["history"]["size"] == 0 and not zoomed["modified"] and zoomed["scene_camera"] == opened["camera"]
+    for key, place in (("bracketleft", panned), ("bracketleft", orbited), ("bracketleft", opened), ("bracketright", orbited)):
+        editor.key(key)
+        editor.wait(lambda s: np.allclose(s["camera"], place["camera"]), f"{key}: one place on, and no part of a gesture")
+    editor.key("ctrl+shift+Home")  # the camera comes here
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "the camera moved as one step")
+    assert np.allclose(state["scene_camera"], orbited["camera"]) and not state["views"]["apart"] and state["modified"]
     editor.key("shift+Home")
-    back = editor.wait(lambda s: s["history"]["position"] == 4, "the camera of the file")
-    assert np.allclose(back["camera"], eye)
-    for _ in range(4):
-        editor.key("ctrl+z")
-    state = editor.wait(lambda s: s["history"]["position"] == 0, "undo of all")
-    assert np.allclose(state["camera"], eye) and panned["camera"] != orbited["camera"]
+    editor.wait(lambda s: np.allclose(s["camera"], eye) and s["views"]["apart"], "the camera of the file")
+    editor.key("ctrl+z")
+    state = editor.wait(lambda s: s["history"]["position"] == 0, "undo")
+    assert np.allclose(state["scene_camera"], eye) and not state["modified"]
+
+
+def test_looking_around_does_not_eat_undo(editor):
+    """An object is hidden, then somebody zooms: undo shows the object, and does not zoom back."""
+    editor.click(CHAIR)
+    editor.wait(lambda s: s["selection"], "a selection")
+    editor.key("h")
+    editor.wait(lambda s: s["counts"]["hidden"] == 2, "hiding")
+    editor.click(("picture", 0.5, 0.5), button=4)
+    zoomed = editor.wait(lambda s: s["views"]["apart"], "another view")
+    editor.key("ctrl+z")
+    state = editor.wait(lambda s: s["counts"]["hidden"] == 0, "undo of hiding")
+    assert state["camera"] == zoomed["camera"] and not state["modified"]
+
+
+def test_an_unlocked_camera_goes_along_and_each_move_is_a_step(editor):
+    eye = editor.state()["camera"]
+    editor.click("menu.view")
+    editor.click("view.lock_camera")
+    editor.drag(("picture", 0.8, 0.3), ("picture", 0.7, 0.35), keys=["alt"])
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "orbiting as one step")
+    assert state["scene_camera"] == state["camera"] != eye and not state["views"]["apart"]
+    editor.click(("picture", 0.5, 0.5), button=4)
+    editor.wait(lambda s: s["history"]["position"] == 2, "zooming as one step")
+    editor.key("ctrl+z", "ctrl+z")
+    editor.wait(lambda s: s["history"]["position"] == 0 and np.allclose(s["camera"], eye), "undo of both")
+
+
+def test_quick_keys_are_all_done_in_order(editor):
+    """Forty of undo and redo, faster than frames; of what a frame holds each counts."""
+    editor.click(CHAIR)
+    editor.wait(lambda s: s["selection"], "a selection")
+    for steps in range(5):
+        editor.key("ctrl+d")
+        editor.wait(lambda s: s["history"]["size"] == steps + 1, "a copy")
+    editor.desk.xdotool(*["key", "--delay", "0"] + ["ctrl+z"] * 5 + ["ctrl+y"] * 5 + ["ctrl+z", "ctrl+y"] * 15)
+    editor.key("Escape")  # comes after them
+    state = editor.wait(lambda s: not s["selection"], "the key after them")
+    assert state["history"]["position"] == 5, "some were lost"
 
 
 def test_a_click_on_the_same_place_picks_what_is_behind(editor):

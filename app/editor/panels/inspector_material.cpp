@@ -42,14 +42,18 @@ scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
     return plugin ? scene::ParamTable(plugin->table->params, plugin->table->param_count) : scene::ParamTable();
 }
 
-void swatch(const Editor& e, const scene::Material& m) {
-    const glm::vec3 c = swatch_color(e, m);
-    const float size = ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size, at.y + size},
-                                              ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1}), size * 0.2f);
-    ImGui::Dummy({size, size});
-    ImGui::SameLine();
+// A ball of it; its main colour until that is rendered.
+void swatch(Editor& e, MaterialId id, ImVec2 at, float size) {
+    const Texture* ball = e.panel_state->balls.ball({e.registry(), e.log(), e.options().renderer}, e.scene(), id);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const ImVec2 end(at.x + size, at.y + size);
+    if (ball) {
+        draw->AddImageRounded(ball->ref(), at, end, {0, 0}, {1, 1}, IM_COL32_WHITE, size * 0.15f);
+        e.mark("material.ball." + e.scene().materials[id].name, at, end);
+        return;
+    }
+    const glm::vec3 c = swatch_color(e, e.scene().materials[id]);
+    draw->AddRectFilled(at, end, ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1}), size * 0.15f);
 }
 
 // Assigns, copies, makes anew. `current` may be none.
@@ -63,18 +67,24 @@ void material_choice(Editor& e, MaterialId current) {
     if (ImGui::BeginCombo("##choose", material ? material->name.c_str() : "none", ImGuiComboFlags_HeightLargest)) {
         std::vector<MaterialId> ids;
         e.scene().materials.each([&](MaterialId id, const scene::Material&) { ids.push_back(id); });
+        const float high = 2.2f * ImGui::GetTextLineHeight();
         searched_list(
             e.panel_state->inspector.material_search, ids.size(),
             [&](std::size_t i) -> std::string_view { return e.scene().materials[ids[i]].name; },
             [&](std::size_t i) {
                 const scene::Material& m = e.scene().materials[ids[i]];
-                swatch(e, m);
-                if (ImGui::Selectable(m.name.c_str(), ids[i] == current)) {
+                const ImVec2 at = ImGui::GetCursorScreenPos();
+                if (ImGui::Selectable("##material", ids[i] == current, 0, {0, high})) {
                     assign(ids[i]);
                     ImGui::CloseCurrentPopup();
                 }
                 e.mark("material.choose." + m.name);
-            });
+                swatch(e, ids[i], {at.x, at.y + 1}, high - 2);
+                ImGui::GetWindowDrawList()->AddText(
+                    {at.x + high + ImGui::GetStyle().ItemSpacing.x, at.y + (high - ImGui::GetTextLineHeight()) / 2},
+                    ImGui::GetColorU32(ImGuiCol_Text), m.name.c_str());
+            },
+            high + ImGui::GetStyle().ItemSpacing.y);
         ImGui::EndCombo();
     }
     e.mark("material.choose");

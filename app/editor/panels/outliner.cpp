@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
 
@@ -61,8 +62,7 @@ bool row_label(const std::string& name, bool selected, int icons, bool dim = fal
         ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, {right, to.y}, right, name.c_str(),
                                   name.c_str() + name.size(), nullptr);
     if (dim) ImGui::PopStyleColor();
-    if (cut || !tooltip.empty())
-        tip((!cut ? tooltip : tooltip.empty() ? name : name + "\n" + tooltip).c_str());
+    if (cut || !tooltip.empty()) tip((!cut ? tooltip : tooltip.empty() ? name : name + "\n" + tooltip).c_str());
     return pressed;
 }
 
@@ -238,7 +238,7 @@ void light_row(Editor& e, OutlinerState& state, const Row& row) {
         rename_field(e, state, id);
         return;
     }
-    if (row_label(light->name, e.selection.light() == id, 0)) {
+    if (row_label(light->name, e.selection.light() == id, 1, light->hidden)) {
         e.selection.set_light(id);
         state.cursor = row;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, light->name);
@@ -247,10 +247,12 @@ void light_row(Editor& e, OutlinerState& state, const Row& row) {
     if (ImGui::BeginPopupContextItem("light")) {
         e.selection.set_light(id);
         if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, light->name);
-        for (const char* action : {"edit.duplicate", "edit.copy", "edit.delete"})
+        for (const char* action : {"edit.duplicate", "edit.copy", "edit.delete", "select.hide"})
             menu_item(e, action);
         ImGui::EndPopup();
     }
+    if (right_icons(e, std::nullopt, !light->hidden, "light." + light->name).eye)
+        e.edit([id, hidden = !light->hidden](const scene::Scene& s) { return scene::set_hidden(s, id, hidden); });
 }
 
 void camera_row(Editor& e, OutlinerState& state, const Row& row) {

@@ -14,10 +14,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <algorithm>
-#include <set>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <set>
 
 namespace restage::editor {
 
@@ -55,7 +55,8 @@ std::vector<std::string> known_skies(Editor& e) {
         if (seen && small->second.failed) continue;
         // Of a thumbnail only the shape counts; one that is not there yet gets the benefit of the doubt.
         const bool shaped = seen && small->second.size.y > 0;
-        const auto wide = std::uint32_t(shaped ? std::lround(4096 * small->second.size.x / small->second.size.y) : 8192);
+        const auto wide =
+            std::uint32_t(shaped ? std::lround(4096 * small->second.size.x / small->second.size.y) : 8192);
         if (plausible_sky(path, wide, 4096)) add(path);
     }
     std::set<std::uint32_t> on_surfaces; // images that textures show
@@ -108,9 +109,9 @@ void image_row(Editor& e, const Environment& sky) {
                 else
                     draw->AddRectFilled({at.x, at.y + 1}, {at.x + wide, at.y + high - 1},
                                         ImGui::GetColorU32(ImGuiCol_FrameBg));
-                draw->AddText({at.x + wide + ImGui::GetStyle().ItemSpacing.x,
-                               at.y + (high - ImGui::GetTextLineHeight()) / 2},
-                              ImGui::GetColorU32(ImGuiCol_Text), names[i].c_str());
+                draw->AddText(
+                    {at.x + wide + ImGui::GetStyle().ItemSpacing.x, at.y + (high - ImGui::GetTextLineHeight()) / 2},
+                    ImGui::GetColorU32(ImGuiCol_Text), names[i].c_str());
             },
             high + ImGui::GetStyle().ItemSpacing.y);
         ImGui::Separator();

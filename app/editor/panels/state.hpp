@@ -5,6 +5,7 @@
 #include "assets.hpp"
 #include "check/step.hpp"
 #include "image_loads.hpp"
+#include "material_balls.hpp"
 #include "selection.hpp"
 
 #include <glm/glm.hpp>
@@ -87,9 +88,10 @@ struct ConvergenceState {
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings that are not to come again with each frame
-    explicit PanelState(std::function<void()> wake) : loads(std::move(wake)) {}
+    explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake) {}
     // Of a scene that is no more.
     void forget_document() {
+        balls.forget();
         inspector = {};
         outliner = {};
         report = {};
@@ -99,6 +101,7 @@ struct PanelState {
     }
 
     ImageLoads loads;
+    MaterialBalls balls;
     InspectorState inspector;
     OutlinerState outliner;
     SceneState scene;

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "material_balls.hpp"
+
+#include "base/thread_priority.hpp"
+#include "render/material_types.hpp"
+#include "scene/bounds.hpp"
+#include "scene/edits.hpp"
+#include "session/display.hpp"
+#include "session/sky.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace restage::editor {
+
+namespace {
+
+constexpr std::uint32_t side = 64; // [pixel]
+constexpr std::uint32_t samples = 32; // a pixel
+constexpr std::size_t most_waiting = 64; // balls; what was scrolled past long ago is asked for again when it is seen
+
+// A unit ball around the origin. Textures go around it twice, so that their scale is seen.
+std::shared_ptr<const scene::MeshData> ball_mesh() {
+    constexpr std::uint32_t rows = 48, columns = 96;
+    auto mesh = std::make_shared<scene::MeshData>();
+    for (std::uint32_t j = 0; j <= rows; ++j)
+        for (std::uint32_t i = 0; i <= columns; ++i) {
+            const double u = double(i) / columns, v = double(j) / rows;
+            const double theta = std::numbers::pi * v, phi = 2 * std::numbers::pi * u;
+            const glm::vec3 p(std::sin(theta) * std::cos(phi), -std::cos(theta), std::sin(theta) * std::sin(phi));
+            mesh->positions.push_back(p);
+            mesh->normals.push_back(p);
+            mesh->uvs.emplace_back(2 * u, v);
+        }
+    for (std::uint32_t j = 0; j < rows; ++j)
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const std::uint32_t a = j * (columns + 1) + i, b = a + columns + 1;
+            if (j > 0) mesh->triangles.emplace_back(a, a + 1, b);
+            if (j + 1 < rows) mesh->triangles.emplace_back(a + 1, b + 1, b);
+        }
+    scene::compute_bounds(*mesh);
+    return mesh;
+}
+
+} // namespace
+
+scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id) {
+    using namespace scene;
+    Scene ball = scene; // shares its data
+    Edit rest;
+    ball.instances.each([&](Id<Instance> one, const Instance& i) {
+        rest.changes.push_back(Change<Instance>{one, i, std::nullopt});
+    });
+    ball.lights.each([&](Id<Light> one, const Light& l) { rest.changes.push_back(Change<Light>{one, l, std::nullopt}); });
+    ball.cameras.each([&](Id<Camera> one, const Camera& c) {
+        if (one != ball.active_camera.value) rest.changes.push_back(Change<Camera>{one, c, std::nullopt});
+    });
+    apply(ball, rest);
+    static const std::shared_ptr<const MeshData> mesh = ball_mesh();
+    const Id<Mesh> shape = ball.meshes.next();
+    apply(ball, insert(ball, Mesh{.name = "ball", .data = mesh}, ""));
+    apply(ball, insert(ball, Instance{.name = "ball", .mesh = shape, .material = id}, ""));
+    ball.environment.value.reset();
+    apply(ball, session::studio_sky(ball, {0, 1, 0}));
+    apply(ball, remove_unused(ball));
+    Camera camera{.name = "ball", .fov = 29};
+    camera.camera_to_world[3] = {0, 0, -4.1, 1}; // looks along +z
+    if (ball.cameras.find(ball.active_camera.value))
+        apply(ball, set_camera(ball, ball.active_camera.value, camera, "").value());
+    ball.film.value = Film{.width = side, .height = side};
+    ball.settings.value = {};
+    return ball;
+}
+
+MaterialBalls::~MaterialBalls() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    more_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void MaterialBalls::forget() {
+    balls_.clear();
+    ++document_;
+    const std::lock_guard lock(mutex_);
+    jobs_.clear();
+}
+
+const Texture* MaterialBalls::ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id) {
+    const Made now{.document = document_,
+                   .materials = scene.materials.version(),
+                   .textures = scene.textures.version(),
+                   .images = scene.images.version(),
+                   .plugins = maker.registry.version()};
+    Ball& ball = balls_[id.value];
+    if (ball.made != now && scene.cameras.find(scene.active_camera.value)) {
+        ball.made = now;
+        {
+            const std::lock_guard lock(mutex_);
+            std::erase_if(jobs_, [&](const Job& job) { return job.id == id; });
+            jobs_.push_front({.id = id, .made = now, .scene = scene});
+            while (jobs_.size() > most_waiting) {
+                balls_[jobs_.back().id.value].made = {};
+                jobs_.pop_back();
+            }
+        }
+        if (!thread_.joinable()) thread_ = std::thread([this, maker] { work(maker); });
+        more_.notify_all();
+    }
+    return ball.texture && ball.texture->ready() ? ball.texture.get() : nullptr;
+}
+
+void MaterialBalls::poll() {
+    std::deque<Finished> finished;
+    {
+        const std::lock_guard lock(mutex_);
+        finished.swap(finished_);
+    }
+    for (const Finished& one : finished) {
+        if (one.made.document != document_) continue;
+        auto& texture = balls_[one.id.value].texture;
+        if (!texture) texture = std::make_unique<Texture>();
+        texture->set(side, side, one.rgba);
+    }
+}
+
+void MaterialBalls::work(Maker maker) {
+    lower_thread_priority(10);
+    maker.options.stand_ins = false;
+    maker.options.threads = 1; // the picture needs the others
+    std::unique_ptr<render::Renderer> renderer;
+    bool said = false;
+    std::unique_lock lock(mutex_);
+    while (true) {
+        more_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
+        if (stop_) return;
+        const Job job = std::move(jobs_.front());
+        jobs_.pop_front();
+        lock.unlock();
+        std::vector<std::uint32_t> rgba;
+        const auto render = [&]() -> Result<void> {
+            if (!renderer) {
+                RESTAGE_TRY(renderer, render::Renderer::create(maker.options, render::material_lookup(maker.registry),
+                                                               maker.log));
+            }
+            RESTAGE_CHECK(renderer->sync(ball_scene(job.scene, job.id)));
+            RESTAGE_CHECK(renderer->trace(samples, [&] {
+                const std::lock_guard guard(mutex_);
+                return !stop_;
+            }));
+            session::to_display(renderer->image(), {}, rgba);
+            return {};
+        };
+        if (const auto done = render(); !done) {
+            renderer.reset(); // its device may be lost
+            if (!std::exchange(said, true)) maker.log.warning("a ball of a material was not rendered: " + done.error().message);
+        }
+        lock.lock();
+        if (stop_) return;
+        if (rgba.size() != std::size_t(side) * side) continue;
+        finished_.push_back({.id = job.id, .made = job.made, .rgba = std::move(rgba)});
+        if (wake_) wake_();
+    }
+}
+
+} // namespace restage::editor

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// MaterialBalls: a path-traced ball of each material that a list shows, in a neutral studio, made by a renderer of its
+// own on a thread of lower priority when it is first asked for.
+#pragma once
+
+#include "base/log.hpp"
+#include "plugin/registry.hpp"
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+#include "texture.hpp"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace restage::editor {
+
+class MaterialBalls {
+  public:
+    explicit MaterialBalls(std::function<void()> wake) : wake_(std::move(wake)) {}
+    ~MaterialBalls();
+    MaterialBalls(const MaterialBalls&) = delete;
+    MaterialBalls& operator=(const MaterialBalls&) = delete;
+
+    // What renders, and says what went wrong. Both outlive this.
+    struct Maker {
+        const plugin::Registry& registry;
+        Log& log;
+        render::RendererOptions options;
+    };
+    // [main] The ball as it was last rendered, null until there is one; one that is older than the scene's materials
+    // and textures is asked for again. Latest asked, first rendered.
+    const Texture* ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id);
+    void poll(); // [main] once a frame
+    void forget(); // [main] of another document
+
+  private:
+    struct Made { // what a ball shows
+        std::uint64_t document = 0;
+        scene::Version materials = 0, textures = 0, images = 0;
+        std::uint64_t plugins = 0;
+        bool operator==(const Made&) const = default;
+    };
+    struct Ball {
+        Made made; // what was asked for last
+        std::unique_ptr<Texture> texture;
+    };
+    struct Job {
+        scene::Id<scene::Material> id;
+        Made made;
+        scene::Scene scene;
+    };
+    struct Finished {
+        scene::Id<scene::Material> id;
+        Made made;
+        std::vector<std::uint32_t> rgba;
+    };
+    void work(Maker maker);
+
+    std::function<void()> wake_;
+    std::map<std::uint32_t, Ball> balls_; // by Id<Material>::value
+    std::uint64_t document_ = 0;
+    std::mutex mutex_;
+    std::condition_variable more_;
+    std::deque<Job> jobs_;
+    std::deque<Finished> finished_;
+    bool stop_ = false;
+    std::thread thread_;
+};
+
+// A ball of that material in a neutral studio, and nothing else of the scene. [any]
+scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id);
+
+} // namespace restage::editor
