@@ -227,24 +227,27 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     return {};
 }
 
+Result<void> denoise_picture(Context& context, const RenderOptions& o, Picture& picture) {
+    if (o.denoise.empty() && o.denoiser.empty()) return {};
+    const auto quality = o.denoise == "fast"       ? RESTAGE_DENOISE_FAST
+                         : o.denoise == "balanced" ? RESTAGE_DENOISE_BALANCED
+                                                   : RESTAGE_DENOISE_HIGH;
+    RESTAGE_TRY(const auto chosen, render::choose_denoiser(context.registry(), o.denoiser));
+    ProgressBar bar(context.quiet);
+    RESTAGE_TRY(picture.denoised, render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {
+                    bar.show(done, "denoising");
+                    return true;
+                }));
+    picture.denoiser = render::denoiser_label(chosen, quality);
+    return {};
+}
+
 Result<Picture> take_picture(Context& context, const RenderOptions& o, const scene::Scene& scene,
                              const render::Renderer& renderer) {
     Picture picture;
     picture.film = renderer.image();
     picture.exposure = scene.film.value.exposure;
-    if (!o.denoise.empty() || !o.denoiser.empty()) {
-        const auto quality = o.denoise == "fast"       ? RESTAGE_DENOISE_FAST
-                             : o.denoise == "balanced" ? RESTAGE_DENOISE_BALANCED
-                                                       : RESTAGE_DENOISE_HIGH;
-        RESTAGE_TRY(const auto chosen, render::choose_denoiser(context.registry(), o.denoiser));
-        ProgressBar bar(context.quiet);
-        RESTAGE_TRY(picture.denoised,
-                    render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {
-                        bar.show(done, "denoising");
-                        return true;
-                    }));
-        picture.denoiser = render::denoiser_label(chosen, quality);
-    }
+    RESTAGE_CHECK(denoise_picture(context, o, picture));
     return picture;
 }
 

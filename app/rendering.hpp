@@ -59,7 +59,9 @@ Result<void> render_to_target(Context& context, const RenderOptions& options, co
                               render::Renderer& renderer, const std::string& label = "");
 
 using session::Picture;
-// Reads the film; denoises when asked to (a missing denoiser is an error that says so).
+// When asked to (a missing denoiser is an error that says so).
+Result<void> denoise_picture(Context& context, const RenderOptions& options, Picture& picture);
+// Reads the film, and that.
 Result<Picture> take_picture(Context& context, const RenderOptions& options, const scene::Scene& scene,
                              const render::Renderer& renderer);
 

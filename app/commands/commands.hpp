@@ -14,6 +14,7 @@ namespace restage::app {
 void add_edit(CLI::App& program, Context& context);
 void add_demo(CLI::App& program, Context& context);
 void add_render(CLI::App& program, Context& context);
+void add_merge(CLI::App& program, Context& context);
 void add_info(CLI::App& program, Context& context);
 void add_convert(CLI::App& program, Context& context);
 void add_compare(CLI::App& program, Context& context);
@@ -28,7 +29,7 @@ Result<int> compare_scenes(Context& context, const std::string& a, const std::st
 
 // In the order `restage --help` shows them.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
-    add_edit,    add_demo,    add_render, add_info,       add_convert,
+    add_edit,    add_demo,    add_render, add_merge,      add_info,         add_convert,
     add_compare, add_plugins, add_check,  add_new_plugin, add_import_child,
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage convert IN OUT: a scene, or a picture, from one format to another.
 #include "commands.hpp"
-#include "io/strict.hpp"
 #include "io/image_file.hpp"
+#include "io/strict.hpp"
 #include "rendering.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,8 @@ struct Options {
 };
 
 bool is_picture(const std::string& path) {
-    static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr", ".tga", ".bmp"};
+    static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm",
+                                                 ".hdr", ".tga", ".bmp", ".webp"};
     const std::string extension = std::filesystem::path(path).extension().string();
     return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
@@ -72,7 +73,8 @@ void add_convert(CLI::App& program, Context& context) {
                         "Option of the exporter, for example --set version=v3 (may be repeated)");
     command->add_flag("--strict", o->strict,
                       "Write nothing when something is approximated or dropped, in reading or in writing");
-    command->add_option("--exposure", o->exposure, "Of a picture: stops that are added")->check(CLI::Range(-64.f, 64.f));
+    command->add_option("--exposure", o->exposure, "Of a picture: stops that are added")
+        ->check(CLI::Range(-64.f, 64.f));
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

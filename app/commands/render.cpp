@@ -2,15 +2,22 @@
 // restage render SCENE -o out.exr: a scene file becomes a picture.
 #include "base/file.hpp"
 #include "commands.hpp"
+#include "frames.hpp"
 #include "progress.hpp"
 #include "rendering.hpp"
 #include "scene/validate.hpp"
+#include "session/assign.hpp"
+#include "session/merge_pictures.hpp"
+#include "standard_streams.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 namespace restage::app {
 namespace {
@@ -18,6 +25,11 @@ namespace {
 struct Options : RenderOptions {
     std::string scene, statistics;
     std::vector<std::string> outputs;
+    std::string format = "pbrt";          // of a scene on stdin
+    std::string frames;                   // "1-24"; "" = the one scene
+    std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
+    std::uint32_t first_sample = 0;
+    std::string resume;                // a picture that goes on
     std::vector<float> crop;           // x0 x1 y0 y1, shares of the film
     std::vector<std::uint32_t> region; // x y width height [pixel]
     PictureOptions picture;
@@ -36,8 +48,8 @@ Result<void> apply_crop(const Options& o, scene::Scene& scene) {
         const std::uint32_t x = o.region[0], y = o.region[1], width = o.region[2], height = o.region[3];
         if (width == 0 || height == 0 || x >= film.width || width > film.width - x || y >= film.height ||
             height > film.height - y)
-            return fail(fmt::format("--region: {} {} {} {} is empty or not inside of the {}x{} pixels of the film", x, y,
-                                    width, height, film.width, film.height));
+            return fail(fmt::format("--region: {} {} {} {} is empty or not inside of the {}x{} pixels of the film", x,
+                                    y, width, height, film.width, film.height));
         // ceil(share * size) is the pixel: half a pixel below it is safe from rounding.
         const auto share = [](std::uint32_t pixel, std::uint32_t size) {
             return pixel == 0 ? 0.f : pixel == size ? 1.f : (float(pixel) - 0.5f) / float(size);
@@ -49,8 +61,8 @@ Result<void> apply_crop(const Options& o, scene::Scene& scene) {
     return {};
 }
 
-nlohmann::ordered_json statistics(const Options& o, const render::Renderer& renderer, const Picture& picture,
-                                  const std::string& device) {
+nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, const Picture& picture,
+                                  double relative_error) {
     const auto& stats = renderer.stats();
     nlohmann::ordered_json dropped = nlohmann::ordered_json::object();
     for (const auto& [type, count] : stats.not_finite)
@@ -58,7 +70,7 @@ nlohmann::ordered_json statistics(const Options& o, const render::Renderer& rend
     nlohmann::ordered_json json = {{"scene", o.scene},
                                    {"width", picture.film.width},
                                    {"height", picture.film.height},
-                                   {"samples", renderer.samples()},
+                                   {"samples", picture.film.samples},
                                    {"seed", o.renderer.seed},
                                    {"relative_error", nullptr}, // not known with one sample a pixel
                                    {"seconds", stats.seconds},
@@ -70,63 +82,182 @@ nlohmann::ordered_json statistics(const Options& o, const render::Renderer& rend
                                    {"dropped", stats.dropped},
                                    {"denoiser", picture.denoiser},
                                    {"tracer", renderer.tracer_name()},
-                                   {"device", device}};
-    if (renderer.samples() > 1) json["relative_error"] = renderer.relative_error();
+                                   {"device", renderer.device().info().name}};
+    if (picture.film.samples > 1) json["relative_error"] = relative_error;
     return json;
 }
 
-Result<int> run(Context& context, Options& o) {
-    for (const std::string& output : o.outputs)
-        RESTAGE_CHECK(check_picture_path(output));
-    if (auto known = session::check_aovs(o.picture.aovs); !known) return fail("--aov", known.error());
-    if (!o.denoise.empty() || !o.denoiser.empty())
-        RESTAGE_CHECK(render::choose_denoiser(context.registry(), o.denoiser)); // before hours are spent
-    RESTAGE_TRY(auto imported, open_scene(context, o.scene, o.strict));
+// The options' changes, through a session as the editor makes them.
+Result<void> apply_assignments(Context& context, const Options& o, scene::Scene& scene) {
+    if (o.assignments.empty()) return {};
+    session::Session session(context.registry());
+    session.adopt(scene);
+    for (const std::string& assignment : o.assignments)
+        if (auto done = session::assign(session, assignment); !done) return fail("--set", done.error());
+    scene = session.scene();
+    return {};
+}
+
+// Where the new samples begin and how many there are, when some are in a picture already.
+Result<void> go_on(Options& o, const session::StoredPicture& before, const scene::Scene& scene) {
+    const std::uint32_t target = o.spp ? o.spp : scene.settings.value.samples ? scene.settings.value.samples : 64;
+    for (const session::SampleRange& range : before.ranges)
+        if (range.seed == o.renderer.seed) o.first_sample = std::max(o.first_sample, range.first + range.count);
+    if (o.seconds > 0) return {};
+    if (before.film.samples >= target)
+        return fail(fmt::format("--resume {}: has {} samples a pixel already; ask for more than that with --spp",
+                                o.resume, before.film.samples));
+    o.spp = target - before.film.samples;
+    return {};
+}
+
+using Metadata = std::map<std::string, std::string>;
+Metadata metadata_of(const Options& o, render::Renderer& renderer, const scene::Scene& scene) {
+    const session::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.samples()}};
+    std::string changes = fmt::format("{}", fmt::join(o.assignments, "; "));
+    if (!o.camera.empty()) changes += " --camera " + o.camera;
+    if (o.studio) changes += " --studio";
+    return {{"restage:version", RESTAGE_VERSION},
+            {"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
+            {"restage:changes", changes},
+            {"restage:device", renderer.device().info().name},
+            {"restage:tracer", renderer.tracer_name()},
+            {"restage:samples", std::to_string(renderer.samples())},
+            {"restage:seed", std::to_string(o.renderer.seed)},
+            {"restage:ranges", session::to_text(range)},
+            {"restage:strategy", o.strategy},
+            {"restage:max_depth", std::to_string(scene.settings.value.max_depth)}}; // no times: equal renders are equal
+}
+
+// Adds the picture's samples to those of `before`.
+Result<void> add_to(const session::StoredPicture& before, Picture& picture, Metadata& metadata, std::uint32_t first,
+                    std::uint32_t seed) {
+    session::StoredPicture now{.film = std::move(picture.film),
+                               .layers = {"stderr", "albedo", "normal", "depth", "id"},
+                               .metadata = metadata,
+                               .ranges = {}};
+    now.ranges = {{seed, first, now.film.samples}};
+    const float e = std::exchange(picture.exposure, 1.f); // files have it in their numbers
+    for (std::size_t i = 0; i < now.film.color.size(); ++i) {
+        now.film.color[i] *= e;
+        now.film.std_error[i] *= e;
+        now.film.luminance_variance[i] *= e * e;
+    }
+    const session::StoredPicture both[] = {before, std::move(now)};
+    RESTAGE_TRY(auto merged, session::merge_pictures(both));
+    picture.film = std::move(merged.film);
+    metadata = std::move(merged.metadata);
+    return {};
+}
+
+Result<void> write(const std::vector<std::string>& paths, const Picture& picture, const PictureOptions& options) {
+    for (const std::string& path : paths) {
+        RESTAGE_TRY(const Output output, Output::create(path));
+        RESTAGE_CHECK(write_picture(output.path(), picture, options));
+        RESTAGE_CHECK(output.finish());
+    }
+    return {};
+}
+
+using RendererPointer = std::unique_ptr<render::Renderer>;
+
+Result<int> render_frame(Context& context, Options o, RendererPointer& renderer) {
+    std::optional<TemporaryFile> piped;
+    if (o.scene == "-") {
+        RESTAGE_TRY(auto file, scene_from_stdin(o.format));
+        piped.emplace(std::move(file));
+    }
+    RESTAGE_TRY(auto imported, open_scene(context, piped ? piped->path().string() : o.scene, o.strict));
     scene::Scene& scene = imported.scene;
     if (!scene.active_camera.value) // importers make one up; a project may have none yet
         return fail(o.scene + ": " + scene::no_camera + "; add one to the scene it began with");
+    RESTAGE_CHECK(apply_assignments(context, o, scene));
     RESTAGE_CHECK(apply_options(context, o, scene));
     RESTAGE_CHECK(apply_crop(o, scene));
-    o.renderer.strategy = o.strategy == "light"  ? render::Strategy::light_only
-                          : o.strategy == "bsdf" ? render::Strategy::bsdf_only
-                                                 : render::Strategy::mis;
-    o.renderer.fault = device_fault();
-    RESTAGE_TRY(const auto renderer,
-                render::Renderer::create(o.renderer, render::material_lookup(context.registry()), context.log));
+    std::optional<session::StoredPicture> before;
+    if (!o.resume.empty()) {
+        RESTAGE_TRY(before, session::read_picture(o.resume));
+        RESTAGE_CHECK(go_on(o, *before, scene));
+    }
+    if (!renderer) {
+        RESTAGE_TRY(renderer,
+                    render::Renderer::create(o.renderer, render::material_lookup(context.registry()), context.log));
+    }
+    renderer->forget_scene();
+    renderer->reset_stats();
+    renderer->restart(o.renderer.seed, o.first_sample);
     RESTAGE_CHECK(render_to_target(context, o, scene, *renderer));
-    RESTAGE_TRY(const auto picture, take_picture(context, o, scene, *renderer));
+    if (before && renderer->samples() == 0) return interrupt_exit_code(); // what there was is still there
+    o.picture.metadata = metadata_of(o, *renderer, scene);
+    Picture picture{.film = renderer->image(), .denoised = {}, .exposure = scene.film.value.exposure};
+    if (before) RESTAGE_CHECK(add_to(*before, picture, o.picture.metadata, o.first_sample, o.renderer.seed));
+    RESTAGE_CHECK(denoise_picture(context, o, picture));
+    o.picture.metadata["restage:denoiser"] = picture.denoiser;
+    RESTAGE_CHECK(write(o.outputs, picture, o.picture));
 
     const auto& stats = renderer->stats();
-    const double rays = double(stats.rays + stats.shadow_rays);
-    o.picture.metadata = {{"restage:version", RESTAGE_VERSION},
-                          {"restage:scene", std::filesystem::path(o.scene).filename().string()},
-                          {"restage:device", renderer->device().info().name},
-                          {"restage:tracer", renderer->tracer_name()},
-                          {"restage:samples", std::to_string(renderer->samples())},
-                          {"restage:seed", std::to_string(o.renderer.seed)},
-                          {"restage:strategy", o.strategy},
-                          {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
-                          {"restage:denoiser", picture.denoiser}}; // no times: equal renders are equal files
-    for (const std::string& output : o.outputs)
-        RESTAGE_CHECK(write_picture(output, picture, o.picture));
-    const std::string device = renderer->device().info().name;
+    const double relative_error = before ? session::relative_error(picture.film) : renderer->relative_error();
     if (!o.statistics.empty()) {
-        const std::string text = statistics(o, *renderer, picture, device).dump(2) + "\n";
+        const std::string text = statistics(o, *renderer, picture, relative_error).dump(2) + "\n";
         if (o.statistics == "-")
             std::fputs(text.c_str(), stdout);
         else
             RESTAGE_CHECK(write_file_atomic(o.statistics, text));
     }
-    const std::string error = renderer->samples() > 1 ? fmt::format("relative error {:.4f}", renderer->relative_error())
-                                                      : "error not known with one sample";
+    const std::string error = picture.film.samples > 1 ? fmt::format("relative error {:.4f}", relative_error)
+                                                       : "error not known with one sample";
     context.log.info(fmt::format("{}: {}x{}, {} spp in {:.2f} s, {}, {:.2f} Mray/s, {} on {}",
                                  fmt::join(o.outputs, ", "), picture.film.width, picture.film.height,
-                                 renderer->samples(), stats.seconds, error, rays / std::max(stats.seconds, 1e-9) * 1e-6,
-                                 renderer->tracer_name(), device));
+                                 picture.film.samples, stats.seconds, error,
+                                 double(stats.rays + stats.shadow_rays) / std::max(stats.seconds, 1e-9) * 1e-6,
+                                 renderer->tracer_name(), renderer->device().info().name));
     context.log.debug(fmt::format("rays {}, shadow rays {}, shading {:.2f} s, tracing {:.2f} s, shaders {} KiB",
                                   stats.rays, stats.shadow_rays, stats.seconds_shading, stats.seconds_tracing,
                                   stats.shader_bytes / 1024));
     return interrupted() ? interrupt_exit_code() : int(exit_ok); // the picture is written
+}
+
+// What is wrong with the options, before hours are spent.
+Result<void> check(Context& context, const Options& o) {
+    std::ptrdiff_t to_stdout = o.statistics == "-";
+    for (const std::string& text : o.outputs) {
+        RESTAGE_TRY(const Output output, Output::create(text));
+        RESTAGE_CHECK(check_picture_path(output.path()));
+        to_stdout += output.to_stdout();
+    }
+    if (to_stdout > 1) return fail("-o, --statistics: only one of them can go to stdout");
+    if (auto known = session::check_aovs(o.picture.aovs); !known) return fail("--aov", known.error());
+    if (!o.denoise.empty() || !o.denoiser.empty())
+        RESTAGE_CHECK(render::choose_denoiser(context.registry(), o.denoiser));
+    if (o.frames.empty()) return {};
+    if (o.scene.find('#') == std::string::npos)
+        return fail("--frames: the scene's name says with # where the number stands, for example shot.####.pbrt");
+    for (const std::string& text : o.outputs)
+        if (text.find('#') == std::string::npos && text != "-" && !text.ends_with(":-"))
+            return fail("--frames: -o " + text + " would be written over by each frame; # stands for the number");
+    return {};
+}
+
+Result<int> run(Context& context, Options& o) {
+    RESTAGE_CHECK(check(context, o));
+    o.renderer.strategy = o.strategy == "light"  ? render::Strategy::light_only
+                          : o.strategy == "bsdf" ? render::Strategy::bsdf_only
+                                                 : render::Strategy::mis;
+    o.renderer.fault = device_fault();
+    RendererPointer renderer;
+    if (o.frames.empty()) return render_frame(context, o, renderer);
+    RESTAGE_TRY(const auto frames, parse_frames(o.frames));
+    int code = exit_ok;
+    for (const std::uint32_t frame : frames) {
+        Options one = o;
+        for (std::string* path : {&one.scene, &one.resume, &one.statistics})
+            *path = frame_path(*path, frame);
+        for (std::string& path : one.outputs)
+            path = frame_path(path, frame);
+        RESTAGE_TRY(code, render_frame(context, std::move(one), renderer));
+        if (interrupted()) break;
+    }
+    return code;
 }
 
 } // namespace
@@ -134,13 +265,34 @@ Result<int> run(Context& context, Options& o) {
 void add_render(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command = program.add_subcommand("render", "Path-trace a scene into a picture");
-    command->add_option("SCENE", o->scene, "Scene file")->required();
+    command->add_option("SCENE", o->scene, "Scene file; - = stdin")->required();
     command
         ->add_option("-o,--output", o->outputs,
                      "Picture: .exr (linear; standard error, guides and settings inside), .png or .jpg (8-bit sRGB), "
-                     ".pfm or .hdr; may be repeated")
+                     ".pfm or .hdr; - = stdout as .exr, png:- as .png; may be repeated")
         ->required()
         ->allow_extra_args(false);
+    command->add_option("--format", o->format, "Extension of a scene that comes on stdin")->capture_default_str();
+    command
+        ->add_option("--frames", o->frames,
+                     "Render these scenes one after another: 7, 1-24, 1-24x2 or 1-3,9 stand where SCENE and -o have "
+                     "####")
+        ->type_name("FRAMES");
+    command
+        ->add_option("--set", o->assignments,
+                     "Change the scene: \"Wall paint.reflectance=0.1,0.2,0.3\", Chair.material=oak, Lamp.value=40, "
+                     "film.exposure=2, sky.rotation=90 ... (may be repeated)")
+        ->type_name("NAME.FIELD=VALUE")
+        ->allow_extra_args(false);
+    auto* resume = command
+                       ->add_option("--resume", o->resume,
+                                    "Go on where this .exr ended: --spp counts its samples as well, --time does not")
+                       ->check(CLI::ExistingFile);
+    command
+        ->add_option("--first-sample", o->first_sample,
+                     "Number of the first sample: parts of one seed that are rendered apart are together, by "
+                     "`restage merge`, what one render of them all gives")
+        ->capture_default_str();
     auto* crop = command->add_option("--crop", o->crop, "Render this part of the film only: shares from 0 to 1")
                      ->expected(4)
                      ->type_name("X0 X1 Y0 Y1");
@@ -152,9 +304,11 @@ void add_render(CLI::App& program, Context& context) {
         ->type_name("FILE");
     command->add_flag("--strict", o->strict, strict_help);
     add_render_options(*command, *o);
+    resume->excludes(command->get_option("--error"));
     command->add_option("--aov", o->picture.aovs, "Layers of an .exr: stderr,albedo,normal,depth,id, or all, or none")
         ->capture_default_str();
-    command->add_option("--exposure", o->picture.exposure_stops, "Exposure of a .png or .jpg [stops]")->capture_default_str();
+    command->add_option("--exposure", o->picture.exposure_stops, "Exposure of a .png or .jpg [stops]")
+        ->capture_default_str();
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

@@ -33,6 +33,9 @@ bool is_png(std::string_view bytes);
 Result<DecodedImage> decode_png(std::string_view bytes, bool header_only);
 bool is_jpeg(std::string_view bytes);
 Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only);
+// 1 or 3 channels of 8 bits; up to 65500 pixels a side.
+Result<std::string> encode_jpeg(std::uint32_t width, std::uint32_t height, int channels, int quality,
+                                const std::vector<std::uint8_t>& values);
 bool is_webp(std::string_view bytes);
 Result<DecodedImage> decode_webp(std::string_view bytes, bool header_only);
 // BMP, TGA: those without a sure sign at their beginning.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstdio> // jpeglib.h needs FILE
+#include <cstdlib>
 
 #include <jerror.h>
 #include <jpeglib.h>
@@ -73,9 +74,7 @@ struct Decoder {
         jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
                      static_cast<unsigned long>(bytes.size()));
         jpeg_read_header(&jpeg, TRUE);
-        jpeg.out_color_space = jpeg.num_components == 1   ? JCS_GRAYSCALE
-                               : jpeg.num_components == 4 ? JCS_CMYK
-                                                          : JCS_RGB;
+        jpeg.out_color_space = jpeg.num_components == 1 ? JCS_GRAYSCALE : jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
         return true;
     }
     // Memory is asked for as rows come: a file that ends early gets little.
@@ -107,8 +106,7 @@ std::vector<std::uint8_t> cmyk_to_rgb(const std::vector<std::uint8_t>& cmyk, boo
     const auto light = [&](std::uint8_t ink) { return inverted ? ink : 255u - ink; };
     for (std::size_t i = 0; i < cmyk.size() / 4; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            rgb[3 * i + c] =
-                static_cast<std::uint8_t>((light(cmyk[4 * i + c]) * light(cmyk[4 * i + 3]) + 127) / 255);
+            rgb[3 * i + c] = static_cast<std::uint8_t>((light(cmyk[4 * i + c]) * light(cmyk[4 * i + 3]) + 127) / 255);
     return rgb;
 }
 
@@ -133,6 +131,59 @@ Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
         image.warning = fmt::format("JPEG: {}; the picture is shown as far as it goes", decoder.errors.message);
     image.values = cmyk ? cmyk_to_rgb(values, jpeg.saw_Adobe_marker != 0) : std::move(values);
     return image;
+}
+
+namespace {
+
+struct Encoder {
+    Errors errors;
+    jpeg_compress_struct jpeg{};
+    unsigned char* bytes = nullptr; // libjpeg's, from malloc
+    unsigned long size = 0;
+
+    Encoder() {
+        jpeg.err = jpeg_std_error(&errors.manager);
+        errors.manager.error_exit = give_up;
+        errors.manager.emit_message = note;
+        errors.manager.output_message = silent;
+    }
+    Encoder(const Encoder&) = delete;
+    ~Encoder() {
+        jpeg_destroy_compress(&jpeg);
+        std::free(bytes);
+    }
+    // No objects with destructors in here: see give_up.
+    bool write(std::uint32_t width, std::uint32_t height, int channels, int quality, const std::uint8_t* values) {
+        if (setjmp(errors.back)) return false;
+        jpeg_create_compress(&jpeg);
+        jpeg_mem_dest(&jpeg, &bytes, &size);
+        jpeg.image_width = width;
+        jpeg.image_height = height;
+        jpeg.input_components = channels;
+        jpeg.in_color_space = channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
+        jpeg_set_defaults(&jpeg);
+        jpeg_set_quality(&jpeg, quality, TRUE);
+        for (int c = 0; c < jpeg.num_components; ++c) // colour as sharp as brightness
+            jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
+        jpeg_start_compress(&jpeg, TRUE);
+        while (jpeg.next_scanline < height) {
+            const std::size_t row = std::size_t{jpeg.next_scanline} * width * static_cast<std::size_t>(channels);
+            JSAMPROW from = const_cast<std::uint8_t*>(values + row); // read only
+            jpeg_write_scanlines(&jpeg, &from, 1);
+        }
+        jpeg_finish_compress(&jpeg);
+        return true;
+    }
+};
+
+} // namespace
+
+Result<std::string> encode_jpeg(std::uint32_t width, std::uint32_t height, int channels, int quality,
+                                const std::vector<std::uint8_t>& values) {
+    Encoder encoder;
+    if (!encoder.write(width, height, channels, quality, values.data()))
+        return fail(fmt::format("JPEG: {}", encoder.errors.message));
+    return std::string(reinterpret_cast<const char*>(encoder.bytes), encoder.size);
 }
 
 } // namespace restage::io

@@ -145,12 +145,16 @@ std::vector<std::uint8_t> encode_srgb(const scene::PixelData& image, float expos
 
 Result<> write_jpg(const std::string& path, const scene::PixelData& image, float exposure) {
     RESTAGE_CHECK(check_channels(path, image));
-    const std::vector<std::uint8_t> encoded = encode_srgb(image, exposure);
-    std::string bytes;
-    if (!stbi_write_jpg_to_func(append, &bytes, static_cast<int>(image.width), static_cast<int>(image.height),
-                                static_cast<int>(image.channels), encoded.data(), 95))
-        return fail(path + ": the JPEG could not be encoded (out of memory?)");
-    return write_file_atomic(path, bytes);
+    std::vector<std::uint8_t> encoded = encode_srgb(image, exposure);
+    if (image.channels == 4) { // without alpha
+        for (std::size_t i = 0; i < encoded.size() / 4; ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                encoded[3 * i + c] = encoded[4 * i + c];
+        encoded.resize(encoded.size() / 4 * 3);
+    }
+    auto bytes = encode_jpeg(image.width, image.height, image.channels == 1 ? 1 : 3, 95, encoded);
+    if (!bytes) return fail(path, bytes.error());
+    return write_file_atomic(path, *bytes);
 }
 
 Result<> write_png(const std::string& path, const scene::PixelData& image, float exposure) {

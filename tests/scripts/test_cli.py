@@ -37,7 +37,7 @@ def test_what_is_not_understood_is_a_usage_error(args):
 
 @pytest.mark.parametrize("args, says", [
     (["render", "nowhere.pbrt", "-o", "x.png"], "nowhere.pbrt"),
-    (["render", CORNELL, "-o", "x.jpeg2000"], ".exr, .png, .pfm or .hdr"),
+    (["render", CORNELL, "-o", "x.jpeg2000"], ".exr, .png, .jpg, .pfm or .hdr"),
     (["render", CORNELL, "-o", "no/such/folder/x.png"], "there is no folder"),
     (["render", CORNELL, "-o", "x.png", "--size", "12"], "WxH"),
     (["render", CORNELL, "-o", "x.png", "--device", "no such device"], "no such device"),
@@ -244,3 +244,111 @@ def test_a_picture_becomes_another_format_and_compare_has_a_verdict(tmp_path):
     assert done.returncode == 1 and "the z-test fails" in done.stderr and not json.loads(done.stdout)["passes"]
     assert restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--min-blocks", 0).returncode == 0
     assert restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--min-blocks", 0.99).returncode == 1
+
+
+def test_set_changes_the_scene_that_is_rendered(tmp_path):
+    common = ["render", CORNELL, "--size", "24x24", "--spp", 4, "-o", tmp_path / "x.exr", "--quiet"]
+    means = []
+    for extra in ([], ["--set", "film.exposure=2"], ["--set", "white.reflectance=0.05,0.05,0.05", "--set", "settings.max_depth=2"]):
+        done = restage(*common, *extra)
+        assert done.returncode == 0, done.stderr
+        means.append(exr_file.read(tmp_path / "x.exr")["G"].mean())
+    exposure = json.loads(restage("info", CORNELL, "--json").stdout).get("film", {}).get("exposure", 1)
+    assert means[1] == pytest.approx(means[0] * 2 / exposure, rel=1e-5) and means[2] < 0.8 * means[0]
+    done = restage(*common, "--set", "white.gloss=1")
+    assert done.returncode == 1 and '--set: "white.gloss": material "white" has type, reflectance' in done.stderr
+
+
+def test_a_render_goes_on_and_parts_are_merged(tmp_path):
+    common = ["render", CORNELL, "--size", "32x24", "--seed", 5]
+    for name, extra in (("whole", ["--spp", 6]), ("first", ["--spp", 2]), ("rest", ["--spp", 4, "--first-sample", 2])):
+        done = restage(*common, "-o", tmp_path / f"{name}.exr", *extra)
+        assert done.returncode == 0, done.stderr
+    done = restage(*common, "-o", tmp_path / "resumed.exr", "--resume", tmp_path / "first.exr", "--spp", 6)
+    assert done.returncode == 0 and "6 spp" in done.stderr, done.stderr
+    done = restage("merge", tmp_path / "first.exr", tmp_path / "rest.exr", "-o", tmp_path / "merged.exr")
+    assert done.returncode == 0, done.stderr
+    whole = exr_file.read(tmp_path / "whole.exr")
+    for name in ("resumed", "merged"):
+        picture = exr_file.read(tmp_path / f"{name}.exr")
+        for layer in ("R", "G", "B", "stderr.Y", "albedo.R", "depth.Z"):
+            assert np.allclose(picture[layer], whole[layer], rtol=1e-4, atol=1e-5), (name, layer)
+        assert np.array_equal(picture["id.instance"], whole["id.instance"])
+    done = restage("merge", tmp_path / "first.exr", tmp_path / "whole.exr", "-o", tmp_path / "no.exr")
+    assert done.returncode == 1 and "hold the same samples, of seed 5" in done.stderr and not (tmp_path / "no.exr").exists()
+    done = restage(*common, "-o", tmp_path / "no.exr", "--resume", tmp_path / "whole.exr", "--spp", 6)
+    assert done.returncode == 1 and "has 6 samples a pixel already" in done.stderr and not (tmp_path / "no.exr").exists()
+
+
+def test_scenes_from_stdin_and_pictures_to_stdout(tmp_path):
+    """Also with paths of the scene's own, which are relative to the current folder."""
+    (tmp_path / "part.pbrt").write_text('Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]\nShape "sphere"\n')
+    scene = ('LookAt 0 0 5 0 0 0 0 1 0\nCamera "perspective"\nFilm "rgb" "integer xresolution" 16 "integer yresolution" 12\n'
+             'WorldBegin\nLightSource "infinite"\nInclude "part.pbrt"\n')
+    for output, magic in (("-", b"\x76\x2f\x31\x01"), ("png:-", b"\x89PNG")):
+        done = subprocess.run([RESTAGE, "render", "-", "-o", output, "--spp", "1"], input=scene.encode(), capture_output=True,
+                              timeout=300, cwd=tmp_path)
+        assert done.returncode == 0 and done.stdout.startswith(magic), done.stderr
+    (tmp_path / "out.exr").write_bytes(subprocess.run([RESTAGE, "render", "-", "-o", "-", "--spp", "1"], input=scene.encode(),
+                                                      capture_output=True, timeout=300, cwd=tmp_path).stdout)
+    assert (exr_file.read(tmp_path / "out.exr")["id.instance"] > 0).any()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out.exr", "part.pbrt"]
+    done = restage("render", "-", "-o", "x.exr", input="", cwd=tmp_path)
+    assert done.returncode == 1 and "stdin: is empty" in done.stderr
+    done = restage("render", CORNELL, "-o", "-", "--statistics", "-")
+    assert done.returncode == 1 and "only one of them can go to stdout" in done.stderr
+
+
+def test_frames_are_one_scene_file_each(tmp_path):
+    for frame, grey in ((8, 0.2), (9, 0.4), (10, 0.6)):
+        (tmp_path / f"shot.{frame:03}.pbrt").write_text(
+            'LookAt 0 0 5 0 0 0 0 1 0\nCamera "perspective"\nFilm "rgb" "integer xresolution" 8 "integer yresolution" 8\n'
+            f'WorldBegin\nLightSource "infinite" "rgb L" [ {grey} {grey} {grey} ]\nShape "sphere" "float radius" 0.1\n')
+    done = restage("render", "shot.###.pbrt", "--frames", "8-10x2,9", "-o", "out-##.exr", "--spp", 1, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for frame, grey in (("08", 0.2), ("09", 0.4), ("10", 0.6)):
+        assert exr_file.read(tmp_path / f"out-{frame}.exr")["R"][0, 0] == pytest.approx(grey, rel=1e-3)
+    for frames, output, says in (("8-", "o-#.exr", "frames are numbers and ranges"), ("8-10", "o.exr", "written over by each frame"),
+                                 ("10-8", "o-#.exr", "frames are numbers and ranges")):
+        done = restage("render", "shot.###.pbrt", "--frames", frames, "-o", output, cwd=tmp_path)
+        assert done.returncode == 1 and says in done.stderr
+
+
+DARK = """LookAt 0 0 -5  0 0 0  0 1 0  Camera "perspective" "float fov" 60  Film "rgb" "integer xresolution" 32 "integer yresolution" 16
+#restage AttributeBegin
+#restage     Identity
+#restage     # name: "away"
+#restage     LookAt 0 0 -5  0 0 -9  0 1 0
+#restage     Camera "perspective" "float fov" 60
+#restage AttributeEnd
+WorldBegin
+Material "diffuse" Shape "sphere"
+"""
+
+
+def test_a_scene_without_light_says_so_and_can_be_lit(tmp_path):
+    (tmp_path / "dark.pbrt").write_text(DARK)
+    out = tmp_path / "dark.pfm"
+    done = restage("render", tmp_path / "dark.pbrt", "-o", out, "--spp", 1)
+    assert done.returncode == 0 and "nothing shines in this scene" in done.stderr and "--studio" in done.stderr
+    black = np.frombuffer(out.read_bytes()[-32 * 16 * 12:], "<f4")
+    assert black.max() == 0
+    done = restage("render", tmp_path / "dark.pbrt", "-o", out, "--spp", 1, "--studio")
+    assert done.returncode == 0 and "nothing shines" not in done.stderr
+    assert np.frombuffer(out.read_bytes()[-32 * 16 * 12:], "<f4").reshape(16, 32, 3)[8, 16].mean() > 0.1
+    assert "--studio" in restage("info", tmp_path / "dark.pbrt").stdout
+
+
+def test_a_camera_is_chosen_by_name_or_number(tmp_path):
+    (tmp_path / "two.pbrt").write_text(DARK)
+    listed = restage("info", tmp_path / "two.pbrt").stdout
+    assert '(active), 2 "away"' in listed, listed
+    pictures = []
+    for camera in ("1", "2", "away"):
+        out = tmp_path / f"{camera}.pfm"
+        done = restage("render", tmp_path / "two.pbrt", "-o", out, "--spp", 1, "--aov", "none", "--studio", "--camera", camera)
+        assert done.returncode == 0, done.stderr
+        pictures.append(out.read_bytes())
+    assert pictures[1] == pictures[2] != pictures[0]
+    done = restage("render", tmp_path / "two.pbrt", "-o", tmp_path / "x.pfm", "--spp", 1, "--camera", "front")
+    assert done.returncode == 1 and '2 "away"' in done.stderr and "front" in done.stderr

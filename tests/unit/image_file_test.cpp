@@ -183,6 +183,25 @@ TEST_CASE("image_file: PNG holds all 256 levels, and exposure is a power of two"
     CHECK(exposed->values[3] == Approx(0.5f).margin(0.003)); // alpha is not exposed
 }
 
+TEST_CASE("image_file: a JPG that is written comes back within its loss, colour as sharp as brightness") {
+    const TemporaryFolder folder;
+    scene::PixelData image{.width = 33, .height = 17, .channels = 4}; // red and green columns, half transparent
+    for (std::size_t i = 0; i < 33 * 17; ++i)
+        image.values.insert(image.values.end(), {i % 33 % 2 ? 0.5f : 0.05f, i % 33 % 2 ? 0.05f : 0.5f, 0.2f, 0.5f});
+    REQUIRE(io::write_jpg(folder / "a.jpg", image));
+    const auto back = io::read_image(folder / "a.jpg", RESTAGE_SRGB);
+    REQUIRE(back);
+    REQUIRE(back->channels == 3);
+    for (std::size_t i = 0; i < 33 * 17; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK(back->values[3 * i + c] == Approx(image.values[4 * i + c]).margin(0.06));
+    const scene::PixelData wide{.width = 65536, .height = 1, .channels = 1, .values = std::vector<float>(65536, 0.5f)};
+    const auto refused = io::write_jpg(folder / "wide.jpg", wide);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.find("65500") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "wide.jpg"));
+}
+
 TEST_CASE("image_file: PFM, both byte orders, both channel counts, bottom row first") {
     const TemporaryFolder folder;
     const scene::PixelData image{

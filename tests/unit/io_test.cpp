@@ -96,7 +96,7 @@ TEST_CASE("the host decodes pictures for importers, and errors name them", "[io]
     Pushed p;
     const auto path = restage::test::source_dir() / "tests/data/images/grey16.png";
     RestageDecodedImage image{};
-    REQUIRE(p.out.decode_image(p.out.ctx, nullptr, 0, path, &image) == 1);
+    REQUIRE(p.out.decode_image(p.out.ctx, nullptr, 0, path.string().c_str(), &image) == 1);
     CHECK(image.width == 16);
     CHECK(image.height == 8);
     CHECK(image.channels == 1);

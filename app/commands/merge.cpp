@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// restage merge A.exr B.exr ... -o OUT: parts of one render, made apart, become one picture.
+#include "commands.hpp"
+#include "rendering.hpp"
+#include "session/merge_pictures.hpp"
+#include "standard_streams.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+
+namespace restage::app {
+namespace {
+
+struct Options {
+    std::vector<std::string> parts;
+    std::string output;
+    RenderOptions denoising;
+    PictureOptions picture;
+};
+
+Result<int> run(Context& context, Options& o) {
+    RESTAGE_TRY(const Output output, Output::create(o.output));
+    RESTAGE_CHECK(check_picture_path(output.path()));
+    std::vector<session::StoredPicture> parts;
+    for (const std::string& path : o.parts) {
+        RESTAGE_TRY(parts.emplace_back(), session::read_picture(path));
+    }
+    auto merged = session::merge_pictures(parts);
+    if (!merged) return fail(fmt::format("{}", fmt::join(o.parts, ", ")), merged.error());
+    Picture picture{.film = std::move(merged->film), .denoised = {}};
+    RESTAGE_CHECK(denoise_picture(context, o.denoising, picture));
+    o.picture.metadata = std::move(merged->metadata);
+    o.picture.metadata["restage:denoiser"] = picture.denoiser;
+    o.picture.aovs = merged->layers.empty() ? "none" : fmt::format("{}", fmt::join(merged->layers, ","));
+    RESTAGE_CHECK(write_picture(output.path(), picture, o.picture));
+    RESTAGE_CHECK(output.finish());
+    context.log.info(fmt::format("{}: {} spp, relative error {:.4f}", o.output, picture.film.samples,
+                                 session::relative_error(picture.film)));
+    return int(exit_ok);
+}
+
+} // namespace
+
+void add_merge(CLI::App& program, Context& context) {
+    auto o = std::make_shared<Options>();
+    auto* command =
+        program.add_subcommand("merge", "Put parts of one render together: other seeds, or other samples of one");
+    command->add_option("PART", o->parts, "Pictures that `restage render` wrote as .exr")->required();
+    command->add_option("-o,--output", o->output, "Picture to write, as `restage render` does; - = stdout")->required();
+    command->add_option("--denoise", o->denoising.denoise, "Denoise it; quality fast, balanced or high (default high)")
+        ->expected(0, 1)
+        ->default_str("high")
+        ->check(CLI::IsMember({"fast", "balanced", "high"}));
+    command->add_option("--denoiser", o->denoising.denoiser, "By this denoiser: its type or the id of its plugin");
+    command->add_option("--exposure", o->picture.exposure_stops, "Exposure of a .png or .jpg [stops]");
+    command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
+}
+
+} // namespace restage::app

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "standard_streams.hpp"
+
+#include "base/file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <random>
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
+
+namespace restage::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path new_name(const fs::path& folder, const std::string& extension) {
+    std::random_device random;
+    return folder / (".restage-" + std::to_string(random()) + std::to_string(random()) + "." + extension);
+}
+
+void in_binary([[maybe_unused]] std::FILE* stream) {
+#ifdef _WIN32
+    _setmode(_fileno(stream), _O_BINARY);
+#endif
+}
+
+} // namespace
+
+TemporaryFile::~TemporaryFile() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove(path_, ignored);
+}
+
+Result<TemporaryFile> scene_from_stdin(const std::string& extension) {
+    in_binary(stdin);
+    std::string bytes;
+    char piece[1 << 16];
+    while (const std::size_t n = std::fread(piece, 1, sizeof piece, stdin)) {
+        bytes.append(piece, n);
+        if (bytes.size() > most_file_bytes) return fail("stdin: has more than the 16 GiB that are read");
+    }
+    if (std::ferror(stdin)) return fail(std::string("stdin: cannot be read: ") + std::strerror(errno));
+    if (bytes.empty()) return fail("stdin: is empty; pipe a scene into it");
+    const fs::path path = new_name(".", extension);
+    if (auto written = write_file_atomic(path, bytes); !written)
+        return fail(
+            "stdin: the scene has to lie in the current folder for a moment, as its own paths are relative to "
+            "it: " +
+            written.error().message);
+    return TemporaryFile(path);
+}
+
+Result<Output> Output::create(const std::string& text) {
+    if (text != "-" && !text.ends_with(":-")) return Output(text);
+    const std::string format = text == "-" ? "exr" : text.substr(0, text.size() - 2);
+    std::error_code error;
+    const fs::path folder = fs::temp_directory_path(error);
+    if (error) return fail("-o " + text + ": there is no temporary folder: " + error.message());
+    return Output(TemporaryFile(new_name(folder, format)));
+}
+
+Result<> Output::finish() const {
+    if (!to_stdout()) return {};
+    RESTAGE_TRY(const std::string bytes, read_file(file_.path()));
+    in_binary(stdout);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        return fail(std::string("stdout: cannot be written to: ") + std::strerror(errno));
+    return {};
+}
+
+} // namespace restage::app
