@@ -26,8 +26,9 @@ class Lab {
         const nb::gil_scoped_release release;
         const auto cache = cache_dir().value_or(std::filesystem::path()); // without: the device says so
         device_ = take(gpu::Device::create({.cache_dir = cache}, host_->log()));
-        compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{
-            .include_dirs = {Host::home() / "share/restage/shaders"}, .cache_dir = cache.empty() ? cache : cache / "spirv"});
+        compiler_ = std::make_unique<gpu::ShaderCompiler>(
+            gpu::ShaderCompilerOptions{.include_dirs = {Host::home() / "share/restage/shaders"},
+                                       .cache_dir = cache.empty() ? cache : cache / "spirv"});
         lab_.emplace(
             take(check::BsdfLab::create(*device_, *compiler_, {entry->table, entry->plugin->folder, entry->source})));
     }

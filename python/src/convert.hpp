@@ -55,3 +55,11 @@ Box to_numpy(const glm::dvec3& lower, const glm::dvec3& upper);
 glm::dmat4 to_matrix(nb::handle);
 
 } // namespace restage::python
+
+// Three numbers are taken from numpy arrays as well, and type checkers are told so.
+namespace nanobind::detail {
+template <>
+struct type_caster<restage::python::Three> : array_caster<restage::python::Three, double, 3> {
+    static constexpr auto Name = io_name("numpy.typing.ArrayLike", "list[float]");
+};
+} // namespace nanobind::detail

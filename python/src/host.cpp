@@ -59,9 +59,10 @@ const std::shared_ptr<Host>& Host::get() {
 
 void Host::begin_threads() {
     if (is_forked)
-        throw Failure("this process is a fork() of one that had rendered or denoised, and a fork has none of its "
-                      "threads; start workers as new processes (multiprocessing.get_context(\"spawn\") or "
-                      "\"forkserver\"), or fork before the first render");
+        throw Failure(
+            "this process is a fork() of one that had rendered or denoised, and a fork has none of its "
+            "threads; start workers as new processes (multiprocessing.get_context(\"spawn\") or "
+            "\"forkserver\"), or fork before the first render");
 #if defined(__unix__) || defined(__APPLE__)
     static const int registered = pthread_atfork(nullptr, nullptr, [] { is_forked = threads_began.load(); });
     (void)registered;

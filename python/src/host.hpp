@@ -30,7 +30,7 @@ class Host {
     // fork() has none of them, and whoever waits for one waits for ever: so these say first that they begin, and in a
     // child of a process where one had begun they are refused. What a session holds is not freed there either.
     static void begin_threads(); // throws Failure in such a child
-    static bool forked();        // is this such a child?
+    static bool forked(); // is this such a child?
 
     Log& log() { return log_; }
     plugin::Registry& registry() { return registry_; }

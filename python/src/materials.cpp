@@ -139,7 +139,7 @@ void bind_material(nb::module_& m) {
     c.def("__getitem__", &get_param, "id"_a, "The value, or the default where nothing is set.")
         .def("__setitem__", &set_param, "id"_a, "value"_a.none(),
              nb::sig("def __setitem__(self, id: str, value: float | int | bool | str | os.PathLike | "
-                     "collections.abc.Sequence[float] | Texture | Material | None) -> None"))
+                     "numpy.typing.ArrayLike | Texture | Material | None) -> None"))
         .def(
             "__delitem__",
             [](const MaterialHandle& h, const std::string& id) {
@@ -234,7 +234,7 @@ void bind_texture(nb::module_& m) {
                 h.in->edit(set_param(h.in->scene(), h.id, id, to_value(h.in.get(), type, given, who)));
             },
             "id"_a, "value"_a,
-            nb::sig("def __setitem__(self, id: str, value: float | bool | str | collections.abc.Sequence[float] | "
+            nb::sig("def __setitem__(self, id: str, value: float | bool | str | numpy.typing.ArrayLike | "
                     "Texture) -> None"))
         .def(
             "keys",

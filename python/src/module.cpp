@@ -14,7 +14,7 @@ NB_MODULE(_core, m) {
 
     bind_plugins(m);
     bind_materials(m);
-    bind_things(m);
+    auto object = bind_things(m);
     bind_lights(m);
     bind_collections(m);
     bind_picture(m);
@@ -24,6 +24,7 @@ NB_MODULE(_core, m) {
         "that\n"
         "undo takes back), render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
     bind_session(m, session);
+    bind_geometry(session, object);
     bind_render(m, session);
     bind_bsdf(m);
 }

@@ -4,10 +4,11 @@
 
 #include "pulse.hpp"
 
+#include "base/file.hpp"
 #include "render/denoise.hpp"
+#include "session/merge_pictures.hpp"
 #include "session/picture.hpp"
 
-#include <fmt/format.h>
 #include <nanobind/stl/map.h>
 #include <cmath>
 #include <cstring>
@@ -39,15 +40,6 @@ A view(nb::handle self, std::vector<V>& data) {
 template <class A, auto Member>
 void array(nb::class_<Picture>& c, const char* name, const char* doc) {
     c.def_prop_ro(name, [](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*Member); }, doc);
-}
-
-double relative_error(const Picture& p) { // as Film::relative_error
-    double sum = 0;
-    for (std::size_t i = 0; i < p.film.color.size(); ++i) {
-        const double l = glm::dot(glm::dvec3(p.film.color[i]), glm::dvec3(0.2126, 0.7152, 0.0722)) + 0.01;
-        sum += p.film.luminance_variance[i] / (l * l);
-    }
-    return p.film.samples > 1 ? std::sqrt(sum / double(p.film.color.size())) : 1e30;
 }
 
 nb::object mask(const Owner& p, nb::handle thing) {
@@ -102,26 +94,27 @@ void save(const Picture& p, const std::filesystem::path& path, const std::string
     take(session::write_picture(path.string(), out, options));
 }
 
+// What notebooks show: as save() writes .png.
+nb::bytes png_of(const Picture& p) {
+    const nb::object folder = nb::module_::import_("tempfile").attr("TemporaryDirectory")();
+    const auto path = std::filesystem::path(nb::cast<std::string>(folder.attr("name"))) / "picture.png";
+    save(p, path, "none", 0);
+    const std::string bytes = take(read_file(path));
+    folder.attr("cleanup")();
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+// numpy.asarray(picture): a copy of what one looks at.
+nb::object as_array(nb::handle self, nb::handle type, nb::handle copy) {
+    auto& p = *nb::cast<Owner>(self);
+    if (!copy.is_none() && !nb::cast<bool>(copy))
+        throw nb::value_error("a Picture gives a copy; its arrays `color` and `denoised` look into its memory");
+    const nb::object array = nb::cast(view<Rgb>(self, p.denoised.empty() ? p.film.color : p.denoised));
+    return nb::module_::import_("numpy").attr("array")(array, "dtype"_a = type);
+}
+
 // --- parts rendered apart
 // -----------------------------------------------------------------------------------------------
-
-// Sums and sums of squares are what adds up: the film's mean and error of the mean give them back.
-template <class V, class D> // float or vec3, and the same in doubles
-struct Moments {
-    D sum{0}, square{0};
-    double n = 0;
-    void add(const V& mean, const D& variance_of_mean, double count) {
-        const D m(mean);
-        sum += count * m;
-        square += count * (variance_of_mean * (count - 1) + m * m);
-        n += count;
-    }
-    D mean() const { return sum / n; }
-    D variance_of_mean() const {
-        const D m = mean();
-        return n > 1 ? glm::max((square / n - m * m) / (n - 1), D(0)) : D(0);
-    }
-};
 
 Owner merge(const std::vector<Owner>& parts) {
     if (parts.empty()) throw Failure("merge: there are no pictures");
@@ -130,45 +123,17 @@ Owner merge(const std::vector<Owner>& parts) {
     out->denoised.clear();
     out->denoiser = "none";
     out->not_finite.clear();
-    out->film.samples = 0;
     out->seconds = 0;
+    std::vector<session::PicturePart> films;
     for (const Owner& p : parts) {
-        if (p->film.width != first.film.width || p->film.height != first.film.height)
-            throw Failure("merge: the pictures have different sizes");
-        if (p->film.samples == 0) throw Failure("merge: a picture has no samples");
-        out->film.samples += p->film.samples;
+        films.push_back({.film = &p->film, .first_sample = p->first_sample});
         out->seconds += p->seconds;
         out->finished = out->finished && p->finished;
         if (p->first_sample < out->first_sample) out->first_sample = p->first_sample;
         for (const auto& [type, count] : p->not_finite)
             out->not_finite[type] += count;
     }
-    const auto earliest = *std::min_element(
-        parts.begin(), parts.end(), [](const Owner& a, const Owner& b) { return a->first_sample < b->first_sample; });
-    out->film.instance_id = earliest->film.instance_id; // of the first sample
-    out->film.material_id = earliest->film.material_id;
-    for (std::size_t i = 0; i < out->film.color.size(); ++i) {
-        Moments<glm::vec3, glm::dvec3> color;
-        Moments<float, double> luminance;
-        glm::dvec3 albedo(0), normal(0);
-        double depth = 0;
-        for (const Owner& p : parts) {
-            const double n = p->film.samples;
-            const glm::dvec3 error = p->film.std_error[i];
-            const double l = glm::dot(glm::dvec3(p->film.color[i]), glm::dvec3(0.2126, 0.7152, 0.0722));
-            color.add(p->film.color[i], error * error, n);
-            luminance.add(float(l), p->film.luminance_variance[i], n);
-            albedo += n * glm::dvec3(p->film.albedo[i]);
-            normal += n * glm::dvec3(p->film.normal[i]);
-            depth += n * p->film.depth[i];
-        }
-        out->film.color[i] = color.mean();
-        out->film.std_error[i] = glm::sqrt(color.variance_of_mean());
-        out->film.luminance_variance[i] = float(luminance.variance_of_mean());
-        out->film.albedo[i] = albedo / color.n;
-        out->film.normal[i] = normal / color.n;
-        out->film.depth[i] = float(depth / color.n);
-    }
+    out->film = take(session::merge_films(films));
     return out;
 }
 
@@ -276,8 +241,9 @@ void bind_picture(nb::module_& m) {
             "Width and height [pixel].")
         .def_prop_ro(
             "samples", [](const Picture& p) { return p.film.samples; }, "Samples a pixel (the least of any).")
-        .def_prop_ro("relative_error", &relative_error,
-                     "Root mean square of standard error over luminance, what render(error=...) stops at.")
+        .def_prop_ro(
+            "relative_error", [](const Picture& p) { return session::relative_error(p.film); },
+            "Root mean square of standard error over luminance, what render(error=...) stops at.")
         .def_ro("seconds", &Picture::seconds, "Time it took to trace [s].")
         .def_ro("seed", &Picture::seed, "Seed of its random numbers.")
         .def_ro("first_sample", &Picture::first_sample, "Number of its first sample in a pixel; 0 unless asked for.")
@@ -297,14 +263,22 @@ void bind_picture(nb::module_& m) {
                 return p;
             },
             "quality"_a = "high", "threads"_a = 0, "denoiser"_a = "",
-            "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. denoiser: its type or the id "
+            "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. denoiser: its type or the "
+            "id "
             "of\nits plugin; \"\" = the one that came with Restage. Returns the picture.")
         .def_ro("denoiser", &Picture::denoiser, "Who made `denoised`: \"oidn high\"; none.")
         .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f,
-             "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where there "
+             "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where "
+             "there "
              "is one.\n"
-             "aovs: of an .exr, comma-separated stderr, albedo, normal, depth, id; all; none. exposure: of a .png or .jpg "
+             "aovs: of an .exr, comma-separated stderr, albedo, normal, depth, id; all; none. exposure: of a .png or "
+             ".jpg "
              "[stops].")
+        .def("_repr_png_", &png_of, "For notebooks: what save() writes as .png.")
+        .def("__array__", &as_array, "dtype"_a = nb::none(), "copy"_a = nb::none(),
+             "float32 (H, W, 3), a copy: the denoised picture where there is one, else `color`.",
+             nb::sig("def __array__(self, dtype: numpy.typing.DTypeLike = None, copy: bool | None = None) -> "
+                     "numpy.typing.NDArray[typing.Any]"))
         .def("__getstate__", &get_state)
         .def("__setstate__", &set_state)
         .def("__repr__", [](const Picture& p) {

@@ -195,7 +195,8 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         nb::sig("def render(self, size: tuple[int, int] | None = None, samples: int | None = None, "
                 "seconds: float | None = None, error: float | None = None, seed: int = 0, denoise: bool | str = False, "
                 "progress: collections.abc.Callable[[Progress], bool | None] | None = None, threads: int = 0, "
-                "max_depth: int | None = None, first_sample: int = 0, tracer: str = '', device: str = '', denoiser: str = '') -> Picture"));
+                "max_depth: int | None = None, first_sample: int = 0, tracer: str = '', device: str = '', denoiser: "
+                "str = '') -> Picture"));
 }
 
 } // namespace restage::python

@@ -244,6 +244,17 @@ void bind_film(nb::class_<Workspace>& c) {
          },
          "Width and height of the film [pixel].")
         .def_prop_rw(
+            "crop",
+            [](Workspace& w) {
+                const glm::vec4& crop = w.scene().film.value.crop;
+                return std::make_tuple(exact(crop.x), exact(crop.y), exact(crop.z), exact(crop.w));
+            },
+            [film](Workspace& w, const std::array<double, 4>& crop) {
+                film(w, [&](Film& f) { f.crop = glm::vec4(crop[0], crop[1], crop[2], crop[3]); });
+            },
+            "The part of the film that is rendered, x0 x1 y0 y1 as shares from the upper left corner: (0, 1, 0, 1) = "
+            "all.")
+        .def_prop_rw(
             "exposure", [](Workspace& w) { return exact(w.scene().film.value.exposure); },
             [film](Workspace& w, double x) { film(w, [&](Film& f) { f.exposure = float(x); }); },
             "Linear factor on the picture; 1 = none.")
@@ -300,7 +311,7 @@ void bind_contents(nb::class_<Workspace>& c) {
              "image nor\n"
              "color, what is there is changed.",
              nb::sig("def set_sky(self, image: str | os.PathLike | numpy.typing.ArrayLike | None = None, "
-                     "color: collections.abc.Sequence[float] | None = None, strength: float = 1.0, "
+                     "color: numpy.typing.ArrayLike | None = None, strength: float = 1.0, "
                      "rotation: float | None = None, hidden_from_camera: bool | None = None) -> None"))
         .def(
             "remove_sky", [](Workspace& w) { w.edit(set_environment(w.scene(), std::nullopt, "Remove sky")); },

@@ -181,7 +181,7 @@ void bind_verbs(nb::class_<C>& c) {
 
 } // namespace
 
-void bind_things(nb::module_& m) {
+nb::class_<ObjectHandle> bind_things(nb::module_& m) {
     nb::class_<ObjectHandle> object(m, "Object",
                                     "One object: a mesh with a material at a place. Changing a property is "
                                     "an edit, which Session.undo takes back.");
@@ -255,6 +255,7 @@ void bind_things(nb::module_& m) {
         .def("__repr__", [](const Selection& s) {
             return "<restage.Selection of " + std::to_string(s.in->closed() ? 0 : objects_of(s).size()) + " objects>";
         });
+    return object;
 }
 
 } // namespace restage::python

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Geometry as arrays, new cameras and groups, the crop, and pictures as numpy and notebooks see them."""
+import numpy as np
+import pytest
+
+import restage
+
+
+@pytest.fixture
+def session():
+    with restage.new() as made:
+        yield made
+
+
+def test_a_mesh_goes_in_and_comes_out_as_arrays(session):
+    positions = np.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [2, 3, 1]], float)
+    triangles = [[0, 1, 2], [1, 3, 2]]
+    uvs = positions[:, :2]
+    paint = session.add_material("Paint", "diffuse")
+    thing = session.add_mesh(positions, triangles, name="Sheet", material=paint, uvs=uvs, transform=np.diag([2, 2, 2, 1]))
+    assert thing.name == "Sheet" and thing.material == paint and thing.triangle_count == 2 and thing.normals is None
+    assert np.array_equal(thing.vertices, positions) and np.array_equal(thing.triangles, triangles)
+    assert np.array_equal(thing.uvs, uvs) and thing.vertices.dtype == np.float32
+    assert np.allclose(thing.bounds, [[0, 0, 0], [4, 6, 2]])
+    with pytest.raises(ValueError):
+        thing.vertices[0, 0] = 1
+    kept = thing.vertices
+    session.undo()
+    assert not thing.exists and np.array_equal(kept, positions)  # the array keeps what it shows
+    own = session.add_mesh(positions, triangles, normals=np.tile([0, 0, 1], (4, 1)))
+    assert own.material.type == "diffuse" and own.normals.shape == (4, 3)
+    session.undo()
+    assert "Mesh" not in [m.name for m in session.materials]
+
+
+@pytest.mark.parametrize("positions, triangles, more, says", [
+    ([[0, 0, 0]], [[0, 0, 1]], {}, "refers to vertex 1 of 1"),
+    ([[0, 0, 0]], [[0, 0, -1]], {}, "refers to vertex -1"),
+    ([[0, 0, 0]], [[0, 0, 2**32]], {}, "refers to vertex 4294967296"),
+    ([[0, 0, float("nan")]], [[0, 0, 0]], {}, "not a finite number"),
+    ([[0, 0]], [[0, 0, 0]], {}, "positions are an array"),
+    ([0, 0, 0], [[0, 0, 0]], {}, "positions are an array"),
+    (np.zeros((0, 3)), np.zeros((0, 3)), {}, "no triangles"),
+    ([[0, 0, 0]], [[0, 0, 0]], {"normals": [[0, 0, 1], [0, 0, 1]]}, "2 normals for 1 vertices"),
+    ([[0, 0, 0]], [[0, 0, 0]], {"uvs": [[0, 0, 1]]}, "uvs are an array"),
+])
+def test_what_is_no_mesh_is_refused(session, positions, triangles, more, says):
+    before = session.history
+    with pytest.raises(restage.Error, match=says):
+        session.add_mesh(positions, triangles, **more)
+    assert session.history == before
+
+
+def test_new_cameras_and_groups(session):
+    camera = session.add_camera((3, 2, 3), (0, 0, 0), fov=30, name="Corner")
+    assert camera.position == (3, 2, 3) and camera.fov == 30 and session.history[-1] == "Add Corner"
+    view = np.asarray(camera.transform)[:3, 2]
+    assert np.allclose(view, -np.array([3, 2, 3]) / np.sqrt(22)) and session.camera != camera
+    with pytest.raises(restage.Error, match="where it looks from"):
+        session.add_camera((1, 1, 1), (1, 1, 1), name="Nowhere")
+    assert "Nowhere" not in [c.name for c in session.cameras]
+    session.undo()
+    assert not camera.exists
+
+    triangle = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    a, b, c = (session.add_mesh(*triangle, name=name) for name in "abc")
+    pair = session.add_group([a, b], "Pair")
+    assert {o.name for o in pair.objects} == {"a", "b"} and pair.parent is None and a.group == pair
+    trio = session.add_group([pair, c], "Trio")
+    assert pair.parent == trio and a.group == pair and c.group == trio and len(trio.objects) == 3
+    inner = session.add_group(a, "Inner")  # part of a group: within it
+    assert inner.parent == pair and a.group == inner
+    with pytest.raises(restage.Error, match="one object or more"):
+        session.add_group([])
+
+
+def test_a_crop_is_a_part_and_pictures_are_arrays(cornell):
+    cornell.size = (32, 24)
+    whole = cornell.render(samples=1)
+    cornell.crop = (0.25, 0.75, 0.5, 1)
+    assert cornell.crop == (0.25, 0.75, 0.5, 1)
+    part = cornell.render(samples=1)
+    assert part.size == (16, 12) and np.array_equal(part.depth, whole.depth[12:, 8:24])
+    for bad in ((0.5, 0.5, 0, 1), (0, 2, 0, 1), (0, float("nan"), 0, 1)):
+        with pytest.raises(restage.Error, match="crop"):
+            cornell.crop = bad
+    array = np.asarray(part)
+    assert array.shape == (12, 16, 3) and np.array_equal(array, part.color)
+    array[:] = 0
+    assert part.color.max() > 0  # a copy
+    assert np.asarray(part, dtype=np.float64).dtype == np.float64
+    assert part._repr_png_().startswith(b"\x89PNG")
