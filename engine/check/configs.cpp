@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -182,6 +183,7 @@ std::vector<ParamSet> config_grid(const RestageMaterial1& table, Engine& e, std:
 std::string describe(const ParamSet& set) {
     if (set.entries().empty()) return "the defaults";
     std::ostringstream out;
+    out.imbue(std::locale::classic()); // a host's may write decimal commas
     out.precision(9);
     for (const auto& [id, v] : set.entries()) {
         out << (&id == &set.entries().front().id ? "" : " ") << id << '=';
@@ -197,6 +199,7 @@ std::string describe(const ParamSet& set) {
 
 std::string describe(const Vec3& v) {
     std::ostringstream out;
+    out.imbue(std::locale::classic()); // a host's may write decimal commas
     out.precision(9);
     out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
     return out.str();
@@ -204,6 +207,7 @@ std::string describe(const Vec3& v) {
 
 std::string describe(const BsdfJob& job, const BsdfAnswer& a) {
     std::ostringstream out;
+    out.imbue(std::locale::classic()); // a host's may write decimal commas
     out.precision(9);
     out << "wo " << describe(job.wo) << " wi " << describe(job.wi) << " u " << describe(job.u) << " seed " << job.seed
         << " -> eval " << describe(a.eval) << " pdf " << a.pdf << " sample: wi " << describe(a.wi) << " weight "

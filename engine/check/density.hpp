@@ -33,7 +33,8 @@ struct DensityResult {
     std::size_t evaluations = 0;
     double eval_side[2] = {}, carried_side[2] = {}; // luminance: reflected, transmitted; by eval and by samples
 
-    // How far integrals are from what samples say, over what `sigmas` standard errors and the integral's own error allow.
+    // How far integrals are from what samples say, over what `sigmas` standard errors and the integral's own error
+    // allow.
     double integral_off(double sigmas) const; // of pdf: what is neither delta nor absorbed
     double reach_off(double sigmas) const;    // of eval: what samples carry; of the worst channel
 };

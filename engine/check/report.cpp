@@ -212,7 +212,8 @@ std::string markdown(std::span<const PluginReport> reports) {
         out += "\n## Other plugins\n\n| plugin | kind |" + names + "\n|---|---|" + line + "\n" + others;
     }
     out += "\n## Steps\n\n";
-    for (const auto* list : {&plugin_steps(), &material_steps(), &importer_steps(), &exporter_steps(), &denoiser_steps()})
+    for (const auto* list :
+         {&plugin_steps(), &material_steps(), &importer_steps(), &exporter_steps(), &denoiser_steps()})
         for (const Step& s : *list)
             out += fmt::format("- **{}**: {}\n", s.name, s.tests);
     return out + "\n## Figures\n" + details;

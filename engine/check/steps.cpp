@@ -53,7 +53,8 @@ const std::vector<Step>& material_steps() {
         {"limit", "a vanishing roughness looks like none", check_limit,
          "the smooth and the rough branch differ in a factor (Fresnel, eta^2, the choice of the lobe)"},
         {"inspector", "its part of the inspector draws, whatever the user does", check_inspector,
-         "an id that the table no longer has, an array that is shorter than its count, or a value out of range", "draw()"},
+         "an id that the table no longer has, an array that is shorter than its count, or a value out of range",
+         "draw()"},
         {"tables", "any file for its table parameters is read, or refused with a sentence", check_tables,
          "counts and offsets of a file that are believed", "read()"},
     };
@@ -86,15 +87,17 @@ const std::vector<Step>& importer_steps() {
 const std::vector<Step>& exporter_steps() {
     static const std::vector<Step> steps = {
         {"write", "something of everything, each option, twice the same bytes, a stop, a place that cannot be written",
-         check_write, "getters that return 0 (removed things, no environment) and optional pointers that are used "
-                      "unseen; or hash tables whose order gets into the file",
+         check_write,
+         "getters that return 0 (removed things, no environment) and optional pointers that are used "
+         "unseen; or hash tables whose order gets into the file",
          "save()"},
     };
     return steps;
 }
 
 const Step* find_step(const std::string& name) {
-    for (const auto* list : {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(), &exporter_steps()})
+    for (const auto* list :
+         {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(), &exporter_steps()})
         for (const Step& step : *list)
             if (name == step.name) return &step;
     return nullptr;

@@ -20,8 +20,12 @@ struct Picture {
     std::uint32_t width, height;
     std::vector<float> color, albedo, normal, out;
     Picture(std::uint32_t w, std::uint32_t h, float level)
-        : width(w), height(h), color(std::size_t{w} * h * 3, level), albedo(color.size(), 0.5f),
-          normal(color.size(), 0.f), out(color.size() + canary, canary_value) {
+        : width(w),
+          height(h),
+          color(std::size_t{w} * h * 3, level),
+          albedo(color.size(), 0.5f),
+          normal(color.size(), 0.f),
+          out(color.size() + canary, canary_value) {
         for (std::size_t i = 2; i < normal.size(); i += 3)
             normal[i] = 1;
     }
@@ -126,7 +130,8 @@ Result<StepResult> check_denoise_sizes(Subject& s) {
             const Change c = change(p.out.data(), p.color.size(), 0.5f);
             worst = std::max(worst, c.rms);
             if (c.rms > 0.2)
-                return StepResult::failed(fmt::format("{}: a constant picture changes by {:.2g} % RMS", what, 100 * c.rms));
+                return StepResult::failed(
+                    fmt::format("{}: a constant picture changes by {:.2g} % RMS", what, 100 * c.rms));
         }
     // In place, each quality.
     for (const auto quality : {RESTAGE_DENOISE_FAST, RESTAGE_DENOISE_BALANCED, RESTAGE_DENOISE_HIGH}) {
@@ -143,8 +148,12 @@ Result<StepResult> check_denoise_robust(Subject& s) {
     if (const std::string why = unavailable(s); !why.empty()) return StepResult::skip(why);
     Lab lab{s};
     Engine e = s.random("robust");
-    constexpr float bad_values[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                                    -std::numeric_limits<float>::infinity(), -1.f, 1e30f, 1e-40f};
+    constexpr float bad_values[] = {std::numeric_limits<float>::quiet_NaN(),
+                                    std::numeric_limits<float>::infinity(),
+                                    -std::numeric_limits<float>::infinity(),
+                                    -1.f,
+                                    1e30f,
+                                    1e-40f};
     for (const float x : bad_values)
         for (const bool all : {false, true}) {
             Picture p(48, 40, 0.5f);
@@ -173,7 +182,8 @@ Result<StepResult> check_denoise_robust(Subject& s) {
         v = -std::log(1 - unit(e));
     std::vector<float> first;
     for (int k = 0; k < 2; ++k) {
-        if (const std::string bad = lab.run(p.job(both, RESTAGE_DENOISE_HIGH), p, "120x75 pixels of noise"); !bad.empty())
+        if (const std::string bad = lab.run(p.job(both, RESTAGE_DENOISE_HIGH), p, "120x75 pixels of noise");
+            !bad.empty())
             return StepResult::failed(bad);
         if (k == 0)
             first = p.out;

@@ -102,11 +102,12 @@ Result<StepResult> check_reach(Subject& s) {
         if (off <= worst) continue;
         worst = off;
         const auto both = [](const double* side) { return side[0] + side[1]; };
-        text = fmt::format("samples carry {:.4f} of the light (reflected {:.4f}, transmitted {:.4f}), eval over the "
-                           "whole sphere {:.4f} (reflected {:.4f}, transmitted {:.4f}; +- {:.1g}): BSDF and light "
-                           "sampling give different pictures\n  {}",
-                           both(r.carried_side), r.carried_side[0], r.carried_side[1], both(r.eval_side),
-                           r.eval_side[0], r.eval_side[1], r.eval_error, name_case(s.density_cases()[i]));
+        text = fmt::format(
+            "samples carry {:.4f} of the light (reflected {:.4f}, transmitted {:.4f}), eval over the "
+            "whole sphere {:.4f} (reflected {:.4f}, transmitted {:.4f}; +- {:.1g}): BSDF and light "
+            "sampling give different pictures\n  {}",
+            both(r.carried_side), r.carried_side[0], r.carried_side[1], both(r.eval_side), r.eval_side[0],
+            r.eval_side[1], r.eval_error, name_case(s.density_cases()[i]));
     }
     std::vector<Figure> figures = {{"configurations", double(all->size())},
                                    {"largest difference", largest},

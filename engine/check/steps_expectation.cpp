@@ -74,10 +74,10 @@ struct Integral {
 struct Comparison {
     double chi = 0, terms = 0, worst = 0;
     Integral pdf;
-    double spread = 0;     // mean of the relative variance of one eval, luminance
+    double spread = 0; // mean of the relative variance of one eval, luminance
     double mis_off = 0, mis_sigma = 0;
     double bad_samples = 0;
-    std::string text;      // of the worst bin
+    std::string text; // of the worst bin
     double chi_sigma() const { return terms > 0 ? (chi - terms) / std::sqrt(2 * terms) : 0; }
     double mis() const { return std::abs(mis_off) / (mis_sigma + 1e-9); }
 };
@@ -220,8 +220,8 @@ Result<StepResult> check_expectation(Subject& s) {
             // Stratified sums of a peak that is finer than their cells lie; a function's integral can be certain.
             RESTAGE_TRY(const auto pdf, certain_pdf(*lab, cases[i]));
             if (pdf.first - pdf.second > most_pdf)
-                return StepResult::failed(fmt::format("pdf integrates to {:.3f} +- {:.2g}: it is no density{}",
-                                                      pdf.first, pdf.second, at));
+                return StepResult::failed(
+                    fmt::format("pdf integrates to {:.3f} +- {:.2g}: it is no density{}", pdf.first, pdf.second, at));
         }
         if (c.mis() > limit_mis)
             return StepResult::failed(

@@ -139,7 +139,8 @@ Result<StepResult> check_read(Subject& s) {
     }
     const std::size_t open_after = open_files();
     if (open_after > open_before + 2)
-        return StepResult::failed(fmt::format("{} of {} files were left open", open_after - open_before, loading.loads));
+        return StepResult::failed(
+            fmt::format("{} of {} files were left open", open_after - open_before, loading.loads));
     std::vector<Figure> figures = {{"own files", double(good.size())},
                                    {"broken files and noise", double(loading.loads)},
                                    {"taken", double(loading.accepted)}};
@@ -170,17 +171,19 @@ Result<StepResult> check_read_stop(Subject& s) {
             s.doing(fmt::format("load() of its {}, stopped at call {} of progress()", name, k));
             const auto loaded = io::import_scene(file.string(), s.registry(), options);
             s.alive();
-            if (loaded) return StepResult::failed(fmt::format("{}: stopped at call {} of progress(), load() goes on "
-                                                              "and returns a scene", name, k));
+            if (loaded)
+                return StepResult::failed(
+                    fmt::format("{}: stopped at call {} of progress(), load() goes on "
+                                "and returns a scene",
+                                name, k));
             if (calls > k + patience)
-                return StepResult::failed(fmt::format("{}: after progress() said stop, it was asked {} times more", name,
-                                                      calls - k));
+                return StepResult::failed(
+                    fmt::format("{}: after progress() said stop, it was asked {} times more", name, calls - k));
         }
     }
-    return StepResult::passed({{"files", double(good.size())},
-                               {"calls of progress()", double(calls_in_all)},
-                               {"stopped", double(stops)}},
-                              calls_in_all == 0 ? "it never asks progress(): nobody can stop it" : "");
+    return StepResult::passed(
+        {{"files", double(good.size())}, {"calls of progress()", double(calls_in_all)}, {"stopped", double(stops)}},
+        calls_in_all == 0 ? "it never asks progress(): nobody can stop it" : "");
 }
 
 } // namespace restage::check

@@ -8,8 +8,8 @@
 #include "plugin/table_reader.hpp"
 #include "render/material_types.hpp"
 
-#include <restage/inspector.h>
 #include <fmt/format.h>
+#include <restage/inspector.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -70,7 +70,9 @@ void ui_slider(void* ctx, const char* id, const char* label, float min, float ma
     of(ctx).line(id, "slider"), of(ctx).label(label, "slider");
     if (!(min <= max)) of(ctx).note(fmt::format("slider() goes from {} to {}", min, max));
 }
-void ui_color(void* ctx, const char* id, const char* label) { of(ctx).line(id, "color"), of(ctx).label(label, "color"); }
+void ui_color(void* ctx, const char* id, const char* label) {
+    of(ctx).line(id, "color"), of(ctx).label(label, "color");
+}
 void ui_texture(void* ctx, const char* id, const char* label) {
     of(ctx).line(id, "texture"), of(ctx).label(label, "texture");
 }
@@ -98,10 +100,11 @@ void ui_end_group(void* ctx) {
     if (of(ctx).groups.empty()) return of(ctx).note("end_group() without a group that is open");
     of(ctx).groups.pop_back();
 }
-void ui_plot(void* ctx, const char* label, const float* values, std::uint32_t count, std::uint32_t channels, float, float,
-             float, float) {
+void ui_plot(void* ctx, const char* label, const float* values, std::uint32_t count, std::uint32_t channels, float,
+             float, float, float) {
     of(ctx).label(label, "plot");
-    if (channels != 1 && channels != 3) of(ctx).note(fmt::format("plot() of {} channels; 1 and 3 are possible", channels));
+    if (channels != 1 && channels != 3)
+        of(ctx).note(fmt::format("plot() of {} channels; 1 and 3 are possible", channels));
     of(ctx).numbers(values, std::size_t{count} * channels, "plot");
 }
 void ui_curve(void* ctx, const char* label, const char* const* ids, std::uint32_t count) {
@@ -191,11 +194,10 @@ Result<StepResult> check_inspector(Subject& s) {
         ui.widgets = ui.sets = 0;
         if (ui.problem.empty() && !ui.groups.empty()) ui.note("draw() returns with a group that is open: end_group()");
         if (!ui.problem.empty())
-            return StepResult::failed(fmt::format("{}\n  in draw() number {} with {}", ui.problem, i + 1,
-                                                  describe(ui.values)));
+            return StepResult::failed(
+                fmt::format("{}\n  in draw() number {} with {}", ui.problem, i + 1, describe(ui.values)));
     }
-    return StepResult::passed(
-        {{"draws", double(draws)}, {"widgets", double(shown)}, {"values set", double(sets)}});
+    return StepResult::passed({{"draws", double(draws)}, {"widgets", double(shown)}, {"values set", double(sets)}});
 }
 
 Result<StepResult> check_tables(Subject& s) {
@@ -223,16 +225,16 @@ Result<StepResult> check_tables(Subject& s) {
             // Each has a name of its own: what was read is remembered.
             const fs::path file = folder.path / fmt::format("{} {}.{}", p->id, k, reader->extensions()[0]);
             RESTAGE_CHECK(write_file_atomic(file, bytes));
-            s.doing(fmt::format("read() of {} for \"{}\", {} bytes", broken ? "a broken version of the default" : "noise",
-                                p->id, bytes.size()));
+            s.doing(fmt::format("read() of {} for \"{}\", {} bytes",
+                                broken ? "a broken version of the default" : "noise", p->id, bytes.size()));
             const auto read = reader->read(p->id, file.string());
             std::error_code ignored;
             fs::remove(file, ignored);
             s.alive();
             ++files, taken += read.has_value();
             if (!read && read.error().message.ends_with("refused it and did not say why"))
-                return StepResult::failed(fmt::format("read() of {} bytes returns 0, and error() was not called",
-                                                      bytes.size()));
+                return StepResult::failed(
+                    fmt::format("read() of {} bytes returns 0, and error() was not called", bytes.size()));
         }
     }
     return StepResult::passed(

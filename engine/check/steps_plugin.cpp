@@ -2,11 +2,13 @@
 // Steps that every plugin takes, whatever it provides: manifest, loading with its tables, reloading.
 #include "check/steps.hpp"
 
+#include "base/file.hpp"
 #include "plugin/manifest.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <chrono>
-#include <fstream>
+#include <sstream>
 
 namespace restage::check {
 
@@ -47,12 +49,12 @@ struct Resources {
 
 Resources resources() { // all 0 where there is no /proc: then nothing is compared
     Resources r;
-    std::ifstream statm("/proc/self/statm");
+    std::istringstream statm(read_file("/proc/self/statm").value_or(""));
+    statm.imbue(std::locale::classic());
     std::size_t total = 0, pages = 0;
     if (statm >> total >> pages) r.resident = pages * 4096;
-    std::ifstream maps("/proc/self/maps");
-    for (std::string line; std::getline(maps, line);)
-        ++r.mappings;
+    const std::string maps = read_file("/proc/self/maps").value_or("");
+    r.mappings = static_cast<std::size_t>(std::count(maps.begin(), maps.end(), '\n'));
     std::error_code code;
     for (fs::directory_iterator it("/proc/self/fd", code), end; !code && it != end; it.increment(code))
         ++r.files;

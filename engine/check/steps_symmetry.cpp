@@ -110,10 +110,11 @@ Result<StepResult> check_mean_isotropy(Subject& s) {
             if (z <= worst) continue;
             worst = z;
             const BsdfJob &a = jobs[i * 2 * streams], &b = jobs[i * 2 * streams + 1];
-            text = fmt::format("eval is {:.5g} +- {:.2g}, and {:.5g} +- {:.2g} when both directions are turned about the "
-                               "normal, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
-                               here.mean(), here.sigma(), there.mean(), there.sigma(), where(configs[i], a.wo),
-                               describe(a.wi), describe(b.wo), describe(b.wi));
+            text = fmt::format(
+                "eval is {:.5g} +- {:.2g}, and {:.5g} +- {:.2g} when both directions are turned about the "
+                "normal, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
+                here.mean(), here.sigma(), there.mean(), there.sigma(), where(configs[i], a.wo), describe(a.wi),
+                describe(b.wo), describe(b.wi));
         }
         if (worst <= limit) break;
         if (repeats == s.size(1024, 256)) return StepResult::failed(text, {{"worst", worst, "sigma"}});
@@ -147,7 +148,8 @@ Result<StepResult> check_isotropy(Subject& s) {
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const BsdfAnswer& a = sampled[i];
         // Half of them where lobes are.
-        if (i % 2 && a.flags != 0 && !(a.flags & delta) && std::isfinite(a.wi[0] + a.wi[1] + a.wi[2])) jobs[i].wi = a.wi;
+        if (i % 2 && a.flags != 0 && !(a.flags & delta) && std::isfinite(a.wi[0] + a.wi[1] + a.wi[2]))
+            jobs[i].wi = a.wi;
         const double angle = uniform(e, 0.3f, 6.f);
         turned_jobs[i].wo = turned(jobs[i].wo, angle), turned_jobs[i].wi = turned(jobs[i].wi, angle);
     }
@@ -176,11 +178,12 @@ Result<StepResult> check_isotropy(Subject& s) {
         const std::size_t i = suspects[k];
         if (off[k] <= 2 * std::max(around[k].value, around[k].pdf)) continue;
         if (bad++ > 0) continue;
-        text = fmt::format("eval is {:.6g} and pdf {:.6g}; when both directions are turned about the normal, {:.6g} and "
-                           "{:.6g}, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
-                           luminance(here[i].eval), here[i].pdf, luminance(there[i].eval), there[i].pdf,
-                           where(configs[jobs[i].config], jobs[i].wo), describe(jobs[i].wi),
-                           describe(turned_jobs[i].wo), describe(turned_jobs[i].wi));
+        text = fmt::format(
+            "eval is {:.6g} and pdf {:.6g}; when both directions are turned about the normal, {:.6g} and "
+            "{:.6g}, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
+            luminance(here[i].eval), here[i].pdf, luminance(there[i].eval), there[i].pdf,
+            where(configs[jobs[i].config], jobs[i].wo), describe(jobs[i].wi), describe(turned_jobs[i].wo),
+            describe(turned_jobs[i].wi));
     }
     std::vector<Figure> figures = {{"pairs", double(jobs.size())},
                                    {"beyond 1e-3 by rounding of directions alone", double(suspects.size() - bad)}};

@@ -173,9 +173,9 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
             } else {
                 auto answer = step.run(subject);
                 // That this machine cannot run GLSL is no fault of the plugin's.
-                result = answer                          ? std::move(*answer)
+                result = answer                        ? std::move(*answer)
                          : subject.no_device().empty() ? StepResult::failed(answer.error().message)
-                                                         : StepResult::skip("not checked: " + subject.no_device());
+                                                       : StepResult::skip("not checked: " + subject.no_device());
             }
             result.step = name, result.of = of;
             if (result.verdict == Verdict::fail && result.cause.empty()) result.cause = step.cause;

@@ -40,16 +40,18 @@ StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, c
         case ProcessEnd::silence_limit:
         case ProcessEnd::time_limit:
             result.text =
-                !calls.empty() ? fmt::format("no answer from the plugin within {:g} s", limit)
-                               : fmt::format("no answer from the GPU within {:g} s: an endless loop in its GLSL?", limit);
+                !calls.empty()
+                    ? fmt::format("no answer from the plugin within {:g} s", limit)
+                    : fmt::format("no answer from the GPU within {:g} s: an endless loop in its GLSL?", limit);
             result.cause = !calls.empty() ? calls + " does not return"
                                           : "a loop whose end depends on a number that can be NaN, or never gets there";
             break;
         case ProcessEnd::signalled:
             result.text = fmt::format("the plugin crashed: {}", outcome.what);
             result.cause = calls.empty() ? "GLSL that the driver cannot compile, or memory of the plugin's that is gone"
-                                         : "a bug in " + calls + ", or a table that lies about its size, its count or its "
-                                                                 "pointers";
+                                         : "a bug in " + calls +
+                                               ", or a table that lies about its size, its count or its "
+                                               "pointers";
             break;
         case ProcessEnd::cancelled:
             result.text = "cancelled";

@@ -34,8 +34,9 @@ std::string noise(Engine& e, std::size_t kind, std::string_view head) {
                 bytes += i % 40 == 39 ? '\n' : static_cast<char>(' ' + e() % 95);
                 break;
             default: // numbers, with what numbers may go wrong by
-                constexpr std::string_view words[] = {"0",   "1",   "-1",  "1e38", "4294967295", "-2147483648",
-                                                      "nan", "inf", "0.5", "\n",   "1e-45",      "99999999999999999999"};
+                constexpr std::string_view words[] = {"0",          "1",           "-1",    "1e38",
+                                                      "4294967295", "-2147483648", "nan",   "inf",
+                                                      "0.5",        "\n",          "1e-45", "99999999999999999999"};
                 bytes += std::string(words[e() % std::size(words)]) + " ";
                 break;
         }

@@ -47,8 +47,7 @@ class Found {
     }
 
     void transform(const std::string& who, const glm::dmat4& m) {
-        if (!is_finite(m))
-            return error("transform", who + ": the transform holds a value that is not a finite number");
+        if (!is_finite(m)) return error("transform", who + ": the transform holds a value that is not a finite number");
         if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
             return error("transform", who + ": the transform is projective; only affine ones can be rendered");
         for (int c = 0; c < 4; ++c)
@@ -196,8 +195,8 @@ std::vector<ValueProblem> value_problems(const Camera& c) {
     Found out;
     out.transform(called(c), c.camera_to_world);
     if (c.projection == RESTAGE_PERSPECTIVE && !(c.fov > 0 && c.fov < 180))
-        out.error("camera", fmt::format("{}: a field of view of {:g} degrees; it must be between 0 and 180", called(c),
-                                        c.fov));
+        out.error("camera",
+                  fmt::format("{}: a field of view of {:g} degrees; it must be between 0 and 180", called(c), c.fov));
     if (!(c.lens_radius >= 0 && c.lens_radius <= largest_length))
         out.error("camera", fmt::format("{}: a lens radius of {:g}; it must be 0 (a pinhole) or more, and a number",
                                         called(c), c.lens_radius));

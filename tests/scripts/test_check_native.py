@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 
+import exr_file
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -97,3 +98,20 @@ def test_without_a_vulkan_driver_it_is_not_the_plugin_that_fails(tmp_path):
     assert done.returncode == 1 and report["verdict"] == "fail" and report["unable"]
     assert [s["verdict"] for s in report["steps"] if s["step"] == "sound"] == ["skipped"]
     assert "this machine cannot run it" in done.stderr
+
+
+def test_a_denoiser_of_somebody_else_is_used_when_it_is_named_and_the_file_says_so(tmp_path):
+    """Before: whichever came first on the path stood in for the program's own, and the file said "oidn high"."""
+    folder_of(tmp_path / "plugin", "denoiser_sound")
+    cornell = ROOT / "scenes/cornell/cornell.pbrt"
+    for name, extra, label in (("own", ["--denoise"], "oidn high"), ("type", ["--denoiser", "copy"], "copy high"),
+                               ("id", ["--denoise", "fast", "--denoiser", "org.example.broken"], "copy fast")):
+        done = subprocess.run([RESTAGE, "--plugin-path", tmp_path, "render", cornell, "-o", tmp_path / f"{name}.exr", "--size", "24x24",
+                               "--spp", "2", *extra], capture_output=True, text=True, timeout=300)
+        assert done.returncode == 0, done.stderr
+        data = (tmp_path / f"{name}.exr").read_bytes()
+        assert exr_file.header(data)[0]["restage:denoiser"].decode() == label
+    picture = exr_file.read(tmp_path / "type.exr")
+    assert (picture["R"] == picture["noisy.R"]).all()  # it copies
+    picture = exr_file.read(tmp_path / "own.exr")
+    assert (picture["R"] != picture["noisy.R"]).any()
