@@ -51,13 +51,15 @@ struct QueryContext {
 };
 
 // What would hit_filter say of this hit of a ray in world space?
-bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance, glm::vec2 uv) {
+bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance,
+                   const GpuScene::QuadricHit& hit) {
     const auto flags = scene.instances()[instance].flags;
-    if ((flags & INSTANCE_HAS_ALPHA) && !scene.alpha_passes(instance, 0, uv, &query.origin.x, &query.direction.x))
+    if ((flags & INSTANCE_HAS_ALPHA) &&
+        !scene.alpha_passes(instance, hit.leaves, hit.uv, &query.origin.x, &query.direction.x))
         return false;
     if ((flags & INSTANCE_PASSES) && query.shadow) return false;
     return !(flags & INSTANCE_HAS_GAPS) ||
-           (scene.resolve_material(instance, 0, uv) == MATERIAL_NOTHING) == query.borders;
+           (scene.resolve_material(instance, 0, hit.uv) == MATERIAL_NOTHING) == query.borders;
 }
 
 // Where the ray meets the quadric of the instance that Embree is in.
@@ -67,7 +69,7 @@ std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, 
     GpuScene::QuadricHit hits[2];
     const int n = scene.meet_quadric(instance, query.origin, query.direction, range, hits);
     for (int i = 0; i < n; ++i) // the far one where the near one lets rays pass
-        if (passes_filter(scene, query, instance, hits[i].uv)) return hits[i];
+        if (passes_filter(scene, query, instance, hits[i])) return hits[i];
     return std::nullopt;
 }
 

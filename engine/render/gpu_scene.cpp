@@ -235,6 +235,7 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges& changes) 
 
 glm::vec4 GpuScene::uv_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
                           glm::vec2 b) const {
+    if (!(instance.flags & INSTANCE_HAS_UVS) && !instance.uvs2) return {b, b};
     const auto t = mesh.triangles[prim];
     const auto mix = [&](const std::vector<glm::vec2>& uvs) {
         return (1 - b.x - b.y) * uvs[t.x] + b.x * uvs[t.y] + b.y * uvs[t.z];

@@ -78,6 +78,7 @@ class GpuScene {
     struct QuadricHit {
         float t = 0;
         glm::vec2 uv{0};
+        std::uint32_t leaves = 0; // 1: on its way out; for choices of alpha the two are surfaces of their own
     };
     int meet_quadric(std::uint32_t instance, const glm::vec3& origin, const glm::vec3& direction, glm::vec2 range,
                      QuadricHit (&hits)[2]) const;

@@ -22,8 +22,11 @@ int GpuScene::meet_quadric(std::uint32_t id, const glm::vec3& origin, const glm:
     const int candidates = scene::meet(q, o, d, t);
     int n = 0;
     for (int i = 0; i < candidates; ++i)
-        if (float(t[i]) > range.x && float(t[i]) <= range.y)
-            hits[n++] = {float(t[i]), glm::clamp(glm::vec2(q.uv(o + t[i] * d)), 0.f, 1.f)};
+        if (float(t[i]) > range.x && float(t[i]) <= range.y) {
+            const glm::dvec3 p = o + t[i] * d;
+            const bool leaves = q.kind != Quadric::Kind::disk && glm::dot(d, q.normal(p)) > 0;
+            hits[n++] = {float(t[i]), glm::clamp(glm::vec2(q.uv(p)), 0.f, 1.f), leaves ? 1u : 0u};
+        }
     return n;
 }
 

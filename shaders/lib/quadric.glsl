@@ -75,10 +75,10 @@ bool quadric_roots(QuadricData q, vec3 o, vec3 d, out vec2 t) {
     }
     if (q.kind == QUADRIC_CYLINDER) o.z = d.z = 0.0;
     float a = dot(d, d), b = dot(o, d);
-    if (!(a > 0.0)) return false;
+    if (!positive(a)) return false;
     vec3 v = o - (b / a) * d;
     float l = length(v), disc = (q.radius + l) * (q.radius - l);
-    if (!(disc >= 0.0)) return false;
+    if (is_nan(disc) || disc < 0.0) return false;
     float lo = length(o), c = (lo + q.radius) * (lo - q.radius);
     float k = b < 0.0 ? -b + sqrt(a * disc) : -b - sqrt(a * disc);
     t = k == 0.0 ? vec2(0.0) : vec2(k / a, c / k);
@@ -134,6 +134,7 @@ float quadric_density(InstanceData inst, QuadricData q, vec3 from, vec3 at, floa
     vec3 o = to_object(inst, from), p = quadric_refine(q, to_object(inst, at));
     float det = abs(determinant(linear_part(inst))), way = distance(from, at);
     if (quadric_by_cone(q, o)) {
+        if (dot(o, p) < (1.0 - 1e-5) * sqr(q.radius)) return 0.0; // the side away from there, seen through holes
         float stretch = way / distance(o, p);
         return stretch * stretch * stretch / (det * TWO_PI * cone_height(sqr(q.radius) / dot(o, o)));
     }

@@ -325,7 +325,7 @@ TEST_CASE("camera: what is projected to the film is seen there") {
         b.set_camera({1, 2, 3}, {-2, 5, 1}, {0, 0, 1}, 50);
         scene::Camera camera = b.scene.cameras[b.scene.active_camera.value];
         camera.projection = projection;
-        for (const glm::dvec2 film : {glm::dvec2(0.3, 0.6), {0.81, 0.13}, {0.5, 0.5}, {0.02, 0.97}}) {
+        for (const glm::dvec2& film : {glm::dvec2(0.3, 0.6), {0.81, 0.13}, {0.5, 0.5}, {0.02, 0.97}}) {
             const auto ray = session::view_ray(camera, film, 1.5);
             const auto p = session::project(camera, ray.origin + 7.0 * ray.direction, 1.5);
             INFO("projection " << int(projection));

@@ -93,7 +93,7 @@ TEST_CASE("quadrics: what a mesh stands for is read from its line") {
     REQUIRE(tube);
     CHECK(std::abs(tube->area() - 2 * pi * 4) < 1e-9);
     for (const auto& q : {*ball, *cap, *ring, *tube})
-        for (const glm::dvec2 uv : {glm::dvec2(0.3, 0.6), {0.9, 0.2}})
+        for (const glm::dvec2& uv : {glm::dvec2(0.3, 0.6), {0.9, 0.2}})
             CHECK(glm::length(q.uv(q.at(uv)) - uv) < 1e-12);
     for (const char* line : {"", "cone \"float radius\" 1", "sphere \"float radius\" 0",
                              "sphere \"float radius\" [ 1 2 ]", "disk \"float radius\" 1 \"float innerradius\" 1",
@@ -164,6 +164,32 @@ TEST_CASE("quadrics: every strategy sees the same lamp, triangles too, however i
         same(traced(render::Strategy::light_only, 2, false), 0, "by light sampling");
         same(traced(render::Strategy::bsdf_only, 3, false), 0, "by BSDF sampling");
         same(traced(render::Strategy::mis, 4, true), 0.003, "of triangles");
+    }
+}
+
+TEST_CASE("quadrics: alpha is a choice of its own where a ray enters and where it leaves") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const auto renderer = make_renderer(tracer);
+    {
+        SceneBuilder b; // looks through the middle of a black ball at a sky of 1
+        b.set_film(16, 16);
+        b.set_camera({0, -5, 0}, {0, 0, 0}, {0, 0, 1}, 5);
+        b.environment(glm::vec3(1));
+        b.scene.settings.value.max_depth = 1;
+        const auto ball = b.instance(shape(b, "sphere \"float radius\" 1"), b.diffuse(0, 0, 0));
+        edit_instance(b, ball, [](scene::Instance& i) { i.alpha = 0.4f; });
+        INFO(tracer);
+        check_radiance(render_image(*renderer, b.scene, 256), 0.6 * 0.6, 0.02);
+    }
+    // A lamp: half of the rays end at the near side, a quarter at the far one, which only BSDF sampling finds.
+    for (const auto strategy : {render::Strategy::mis, render::Strategy::bsdf_only}) {
+        Spot b(0.5);
+        b.lamp("sphere \"float radius\" 2", at({0, 0, 3}));
+        edit_instance(b, scene::Id<scene::Instance>{2}, [](scene::Instance& i) { i.alpha = 0.5f; });
+        render::RendererOptions options;
+        options.strategy = strategy;
+        INFO(tracer << ", strategy " << int(strategy));
+        check_radiance(render_image(*make_renderer(tracer, options), b.scene, 1024), 0.75 * 5 * 4 / 9, 0.01);
     }
 }
 

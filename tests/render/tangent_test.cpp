@@ -4,6 +4,7 @@
 #include "render/checks.hpp"
 
 #include <array>
+#include <catch2/generators/catch_generators.hpp>
 
 using namespace restage;
 using namespace restage::tests;
@@ -41,10 +42,10 @@ scene::Id<scene::Material> mapped(SceneBuilder& b) {
 
 void light(SceneBuilder& b, glm::dvec3 towards) {
     const glm::dvec3 z = -towards, x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z)), y = glm::cross(z, x);
-    b.light({.kind = RESTAGE_LIGHT_DISTANT,
-             .value = glm::vec3(irradiance),
-             .light_to_world =
-                 glm::dmat4(glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(0, 0, 0, 1))});
+    b.light(
+        {.kind = RESTAGE_LIGHT_DISTANT,
+         .value = glm::vec3(irradiance),
+         .light_to_world = glm::dmat4(glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(0, 0, 0, 1))});
 }
 
 double radiance(const std::string& tracer, const Quad& quad, bool tangents, const glm::dmat4& place, glm::dvec3 lamp) {
