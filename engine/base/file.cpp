@@ -34,7 +34,7 @@ std::FILE* open_file(const fs::path& path, const char* mode) {
     const std::wstring wide_mode(mode, mode + std::strlen(mode));
     return _wfopen(path.c_str(), wide_mode.c_str());
 #else
-    return std::fopen(path.c_str(), mode);
+    return std::fopen(path.c_str(), (std::string(mode) + "e").c_str()); // closed in children (glibc, musl, BSD)
 #endif
 }
 

@@ -31,7 +31,8 @@ Result<fs::path> make_temporary_folder(const std::string& name) {
         }
         tried += (tried.empty() ? "" : ", ") + place.string();
     }
-    return fail("no temporary folder can be made; tried were " + tried + ": set TMPDIR to a folder that can be written");
+    return fail("no temporary folder can be made; tried were " + tried +
+                ": set TMPDIR to a folder that can be written");
 }
 
 } // namespace restage

@@ -153,8 +153,8 @@ DeviceInfo Instance::describe(VkPhysicalDevice physical, std::uint32_t index) co
         return info;
     }
 
-    VkPhysicalDeviceFloatControlsProperties floats{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES, .pNext = &subgroup};
+    VkPhysicalDeviceFloatControlsProperties floats{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES,
+                                                   .pNext = &subgroup};
     VkPhysicalDeviceMaintenance4Properties maintenance4{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, .pNext = &floats};
     properties.pNext = &maintenance4;

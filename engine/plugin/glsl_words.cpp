@@ -24,7 +24,8 @@ constexpr std::string_view words[] = {
     "accelerationStructureEXT", "rayQueryEXT", "ignoreIntersectionEXT", "terminateRayEXT", "rayPayloadNV",
     "rayPayloadInNV", "hitAttributeNV", "callableDataNV", "callableDataInNV", "shaderRecordNV",
     "accelerationStructureNV", "nonuniformEXT", "devicecoherent", "queuefamilycoherent", "workgroupcoherent",
-    "subgroupcoherent", "shadercallcoherent", "nonprivate", "demote", "terminateInvocation",
+    "subgroupcoherent", "shadercallcoherent", "pervertexEXT", "pervertexNV", "nonprivate", "demote",
+    "terminateInvocation",
     // of the headers around a material, and the one method that everything has
     "address", "length"};
 
@@ -62,12 +63,12 @@ bool is_scalar(std::string_view name) { // int64_t
 }
 
 bool is_opaque(std::string_view name) { // usampler2DArray, image3D, textureCube
-    take(name, {"i64", "u64", "f16", "i", "u"});
+    if (!any_of(name.substr(0, 5), {"image"})) take(name, {"i64", "u64", "f16", "i", "u"});
     if (any_of(name, {"sampler", "samplerShadow", "subpassInput", "subpassInputMS"})) return true;
     if (!take(name, {"sampler", "image", "texture"})) return false;
     if (name.ends_with("Shadow")) name.remove_suffix(6);
-    return any_of(name, {"1D", "2D", "3D", "Cube", "1DArray", "2DArray", "CubeArray", "2DMS", "2DMSArray", "2DRect",
-                         "Buffer"});
+    return any_of(
+        name, {"1D", "2D", "3D", "Cube", "1DArray", "2DArray", "CubeArray", "2DMS", "2DMSArray", "2DRect", "Buffer"});
 }
 
 } // namespace

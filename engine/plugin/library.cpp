@@ -118,8 +118,9 @@ Result<> check_elf(const std::filesystem::path& path) {
     return {};
 }
 
-// A path of an open file that nobody has had before: dlopen() gives the library that is open already for a name it knows,
-// and the number of a descriptor comes again. A counter is spelled in "/." and "//", which mean nothing to a path.
+// A path of an open file that nobody has had before: dlopen() gives the library that is open already for a name it
+// knows, and the number of a descriptor comes again. A counter is spelled in "/." and "//", which mean nothing to a
+// path.
 std::string new_name_of(int file) {
     static std::atomic<std::uint32_t> counter{0};
     std::string name = "/proc/self/fd";

@@ -90,11 +90,14 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
     std::error_code code;
     if (!fs::exists(library, code)) {
         if (!fs::exists(folder / "CMakeLists.txt", code))
-            return fail(library.string() + ": the library is missing: the plugin is not built, or not all of it was copied");
+            return fail(library.string() +
+                        ": the library is missing: the plugin is not built, or not all of it was copied");
         // Sources: what restage_add_plugin() makes of them lies elsewhere.
-        return fail(library.string() + ": the library is missing: this folder holds the plugin's sources. Build it there, "
-                    "'cmake -B build -DCMAKE_PREFIX_PATH=<where Restage is installed> && cmake --build build', and use " +
-                    (folder / "build/lib/restage/plugins").string());
+        return fail(
+            library.string() +
+            ": the library is missing: this folder holds the plugin's sources. Build it there, "
+            "'cmake -B build -DCMAKE_PREFIX_PATH=<where Restage is installed> && cmake --build build', and use " +
+            (folder / "build/lib/restage/plugins").string());
     }
     // A material's library may be built anew while it is in use; what is open is then a copy of the one before.
     RESTAGE_TRY(library_, manifest.kind == Kind::material ? Library::open_copy(library) : Library::open(library));

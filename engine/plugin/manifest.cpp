@@ -74,8 +74,7 @@ Result<> check_keys(const json& object, const std::string& text, const std::stri
         }
         const bool alike = typing_errors(key, nearest) <= std::max<std::size_t>(1, nearest.size() / 3);
         return fail(file + ":" + line_and_column(text, place_of_key(text, key)) + ": the key \"" + key +
-                    "\" is unknown; " +
-                    (alike ? "is \"" + std::string(nearest) + "\" meant?" : "known are " + all) +
+                    "\" is unknown; " + (alike ? "is \"" + std::string(nearest) + "\" meant?" : "known are " + all) +
                     " (keys of your own begin with \"x-\")");
     }
     return {};

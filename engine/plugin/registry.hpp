@@ -156,7 +156,7 @@ class Registry {
     std::vector<std::unique_ptr<Plugin>> plugins_;
     std::atomic<std::uint64_t> version_{0};
     std::vector<std::shared_ptr<Loaded>> replaced_; // closed on the main thread, when nobody uses them any more
-    mutable std::mutex catalogue_mutex_;            // of the pointer; nobody waits for more than its copy
+    mutable std::mutex catalogue_mutex_; // of the pointer; nobody waits for more than its copy
     std::shared_ptr<const Catalogue> catalogue_;
 };
 

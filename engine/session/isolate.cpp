@@ -10,12 +10,12 @@
 #include "session/project.hpp"
 #include "session/session.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -139,9 +139,10 @@ Result<> import_child(const std::string& path, const std::string& out, const plu
     options.progress(0.95f, "images");
     RESTAGE_TRY(const std::string pictures, hand_over_pictures(imported, out));
     RESTAGE_CHECK(write_file_atomic(pictures_folder(out) / "list", pictures));
-    const std::map<std::string, std::string> note{
-        {"importer", imported.importer}, {"format", imported.scene.format}, {"report", report_text(imported.report)},
-        {"unexposed", imported.unexposed ? "yes" : "no"}};
+    const std::map<std::string, std::string> note{{"importer", imported.importer},
+                                                  {"format", imported.scene.format},
+                                                  {"report", report_text(imported.report)},
+                                                  {"unexposed", imported.unexposed ? "yes" : "no"}};
     const Base nothing;
     const DataSources none;
     return write_file_atomic(

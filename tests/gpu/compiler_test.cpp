@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL to SPIR-V: includes, where errors point, and the disk cache.
+#include "gpu/float_controls.hpp"
 #include "gpu/includes.hpp"
 #include "test_device.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
 
+#include <algorithm>
 #include <fstream>
+#include <spirv-tools/libspirv.hpp>
 #include <thread>
 
 using namespace restage;
@@ -212,6 +215,26 @@ TEST_CASE("many threads compile at once into one cache", "[compiler]") {
         CHECK(words[t] == words[t % 2]);
     }
     CHECK(words[0] != words[1]);
+}
+
+TEST_CASE("a shader asks its device to keep NaN, once, and is a sound module then", "[compiler]") {
+    const ShaderCompiler compiler({});
+    const auto spirv = compiler.compile({.name = "k", .text = head + "void main() {}\n"});
+    REQUIRE(spirv);
+    const auto kept = keep_nan(spirv->words);
+    // OpCapability SignedZeroInfNanPreserve, OpExecutionMode <entry> SignedZeroInfNanPreserve 32
+    REQUIRE(kept.size() == spirv->words.size() + 6);
+    CHECK(kept[5] == (2u << 16 | 17));
+    CHECK(kept[6] == 4466);
+    const std::uint32_t mode[] = {4461, 32};
+    const auto at = std::search(kept.begin(), kept.end(), std::begin(mode), std::end(mode));
+    REQUIRE(at != kept.end());
+    CHECK(*(at - 2) == (4u << 16 | 16));
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
+    CHECK(tools.Validate(kept));
+    CHECK(keep_nan(kept) == kept);
+    const std::vector<std::uint32_t> broken(kept.begin(), kept.begin() + 9);
+    CHECK(keep_nan(broken) == broken);
 }
 
 TEST_CASE("every ray-tracing stage compiles", "[compiler]") {

@@ -122,6 +122,31 @@ TEST_CASE("a version that does not compile changes nothing, and the error names 
     CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.9f)));
 }
 
+TEST_CASE("a table of a hundred parameters: a texture is read in the line that has it, and in no other", "[reload]") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    Paint paint;
+    std::string params = "[";
+    for (int i = 0; i < 100; ++i)
+        params += (i ? ", " : "") + std::string(R"({"id": "c)") + std::to_string(i) +
+                  R"(", "type": "color", "flags": ["texturable"], "default": [0.25, 0.25, 0.25]})";
+    params += "]";
+    // 6 and 70, 36 and 100 - 64: the same bit of a mask of 64.
+    paint.write("vec3(m.c6.x, m.c70.y, m.c99.z)", params.c_str());
+    REQUIRE(paint.registry.reload_changed().size() == 1);
+    Wall wall;
+    const auto texture = wall.scene.textures.next();
+    wall.scene.textures.set(
+        texture, scene::Texture{.name = "t", .type = "imagemap", .image = wall.image(1, 1, 3, {0.75f, 0.75f, 0.75f})},
+        ++wall.scene.clock);
+    auto m = wall.scene.materials[wall.paint];
+    auto value = scene::Value::color(0, 0, 0);
+    value.texture = texture;
+    m.params.set("c70", value);
+    wall.scene.materials.set(wall.paint, m, ++wall.scene.clock);
+    const auto renderer = paint.renderer(tracer, false);
+    CHECK(near(color_of(*renderer, wall.scene), {0.25f, 0.75f, 0.25f}));
+}
+
 TEST_CASE("while an editor renders, the version before goes on until the new one is compiled", "[reload]") {
     Paint paint;
     Wall wall;

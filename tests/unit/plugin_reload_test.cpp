@@ -3,8 +3,11 @@
 #include "plugin/quarantine.hpp"
 #include "plugin_folder.hpp"
 
+#include <atomic>
 #include <catch2/matchers/catch_matchers_string.hpp>
+#include <cstdlib>
 #include <fstream>
+#include <thread>
 
 namespace fs = std::filesystem;
 using namespace restage;
@@ -197,6 +200,91 @@ TEST_CASE("a library is loaded anew a hundred times, and nothing of it stays", "
         CHECK(said("org.example.velvet: velvet leaves") == 100);
     }
     CHECK(open_copies() == none);
+}
+
+TEST_CASE("who reads the lists while plugins are loaded anew sees whole ones", "[plugin]") {
+    const fs::path built = test::build_dir() / "lib/restage/plugins";
+    Folder folder;
+    for (const char* name : {"importer-pbrt", "exporter-pbrt", "material-diffuse", "material-conductor"})
+        fs::copy(built / name, folder.path / name, fs::copy_options::recursive);
+    Registry registry(folder.log);
+    folder.scan(registry);
+    REQUIRE(registry.importers().size() == 1);
+    REQUIRE(registry.materials().size() == 2);
+    std::atomic<bool> stop{false};
+    std::atomic<int> torn{0}, looks{0};
+    const auto look = [&] {
+        while (!stop) {
+            const auto all = registry.catalogue();
+            torn += all->importers.size() != 1 || all->exporters.size() != 1 || all->materials.size() != 2;
+            torn += registry.importers().size() != 1 || registry.exporters().size() != 1;
+            const auto importer = registry.find_importer("pbrt");
+            // The library is there as long as its entry, whatever is loaded meanwhile.
+            torn += !importer || importer->table->probe("x.pbrt", "LookAt", 6) <= 0 || importer->plugin->name().empty();
+            torn +=
+                !registry.find_exporter("pbrt") || !registry.find_material("diffuse") || registry.find_denoiser("x");
+            ++looks;
+        }
+    };
+    std::thread a(look), b(look);
+    for (int i = 0; i < 20 || looks < 20; ++i)
+        for (const Entry* entry : registry.entries())
+            if (!registry.reload(*entry)) ++torn;
+    stop = true;
+    a.join(), b.join();
+    CHECK(torn == 0);
+}
+
+TEST_CASE("an importer that somebody holds stays open when it is loaded anew", "[plugin]") {
+    Folder folder;
+    fs::copy(test::build_dir() / "lib/restage/plugins/importer-pbrt", folder.path / "importer-pbrt",
+             fs::copy_options::recursive);
+    Registry registry(folder.log);
+    folder.scan(registry);
+    const auto held = registry.find_importer("pbrt");
+    REQUIRE(held);
+    const fs::path library = folder.path / "importer-pbrt" / registry.entries()[0]->manifest.library;
+    const std::string bytes = read_file(library).value();
+    fs::remove(library); // another file, as a build writes it
+    REQUIRE(write_file_atomic(library, bytes));
+    REQUIRE(registry.reload(*registry.entries()[0]));
+    CHECK(registry.find_importer("pbrt")->table != held->table);
+    CHECK(held->table->probe("x.pbrt", "LookAt", 6) > 0);
+}
+
+namespace {
+
+// Runs f with a temporary folder that is a file, so that nothing can be made in it.
+template <class F>
+void without_temporary_folder(const Folder& folder, F&& f) {
+    const char* before = std::getenv("TMPDIR");
+    const std::string kept = before ? before : "";
+    REQUIRE(write_file_atomic(folder.path / "no-folder", ""));
+    setenv("TMPDIR", (folder.path / "no-folder").c_str(), 1);
+    f();
+    before ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
+}
+
+} // namespace
+
+TEST_CASE("without a temporary folder materials load, and load anew", "[plugin]") {
+    Folder folder;
+    const fs::path where = folder.add("plugins/velvet", manifest(), "good");
+    without_temporary_folder(folder, [&] {
+        Registry registry(folder.log);
+        registry.scan(std::vector<SearchPath>{{folder.path / "plugins", true}});
+        REQUIRE(registry.find_material("velvet"));
+        const fs::path library = where / (std::string("velvet") + Library::extension());
+        for (int i = 0; i < 5; ++i) {
+            const std::string bytes = read_file(library).value();
+            std::ofstream(library, std::ios::binary) << bytes; // in place, while it is in use
+            REQUIRE(registry.reload(*registry.entries()[0]));
+        }
+        const auto said = [&](const char* line) { return std::count(folder.lines.begin(), folder.lines.end(), line); };
+        CHECK(said("org.example.velvet: velvet is here") == 6); // each time a library of its own, not the one before
+        CHECK(said("org.example.velvet: velvet leaves") == 5);
+        CHECK(folder.lines.size() == 12); // nothing else is said: nothing is lost
+    });
 }
 
 TEST_CASE("a plugin that crashed stays off until it changes or is let out", "[plugin]") {

@@ -112,6 +112,73 @@ TEST_CASE("a file that is no library for this machine is refused, not opened", "
     CHECK_THAT(refused(good.substr(0, good.size() / 3)), ContainsSubstring("is truncated"));
 }
 
+TEST_CASE("a misspelt key of a manifest is named with its place and the nearest known one", "[plugin]") {
+    Folder folder;
+    const auto with = [&](const std::string& keys) {
+        return R"({"id": "org.example.velvet", "kind": "material",
+  "version": "1.0.0", "licence": "MIT", "abi": 1, "library": "velvet")" +
+               keys + "}";
+    };
+    CHECK_THAT(folder.refusal_of(with(R"(,
+  "file": ["velvet.glsl"])"),
+                                 "good"),
+               ContainsSubstring("plugin.json:3:3: the key \"file\" is unknown; is \"files\" meant?"));
+    CHECK_THAT(
+        folder.refusal_of(with(R"(, "x-files": {"exceptoins": [1, "\"exceptoins\""]}, "exceptoins": [])"), "good"),
+        ContainsSubstring("plugin.json:2:122: the key \"exceptoins\" is unknown; is \"exceptions\" meant?"));
+    CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
+               ContainsSubstring("the key \"homepage\" is unknown; known are id, version"));
+    CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
+               ContainsSubstring("keys of your own begin with \"x-\""));
+    fs::remove_all(folder.path);
+    folder.add("p", with(R"(, "x-homepage": "example.org", "exceptions": [])"), "good");
+    Registry registry(folder.log);
+    folder.scan(registry);
+    CHECK(registry.find_material("velvet"));
+}
+
+TEST_CASE("a plugin that is not built says so, and how to build it", "[plugin]") {
+    Folder folder;
+    CHECK_THAT(folder.refusal_of(manifest(), nullptr),
+               ContainsSubstring("the library is missing: the plugin is not built"));
+    fs::remove_all(folder.path);
+    const fs::path where = folder.add("p", manifest(), nullptr);
+    REQUIRE(write_file_atomic(where / "CMakeLists.txt", ""));
+    const std::string reason = folder.refusal();
+    CHECK_THAT(reason, ContainsSubstring("this folder holds the plugin's sources"));
+    CHECK_THAT(reason, ContainsSubstring("cmake -B build"));
+    CHECK_THAT(reason, ContainsSubstring((where / "build/lib/restage/plugins").string()));
+}
+
+TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
+    // Of each family something, each tried with glslang as the member of a struct in a composed shader.
+    for (const char* word : {"sampler",        "samplerShadow",   "usampler2DArray", "sampler2DRectShadow",
+                             "image2D",        "iimage2DMSArray", "image3D",         "texture2D",
+                             "utextureBuffer", "subpassInput",    "usubpassInputMS", "samplerCubeArrayShadow",
+                             "vec3",           "bvec2",           "f16vec4",         "i64vec2",
+                             "hvec3",          "mat4x3",          "dmat2",           "uint64_t",
+                             "float16_t",      "atomic_uint",     "rayPayloadEXT",   "accelerationStructureEXT",
+                             "nonprivate",     "pervertexEXT",    "precise",         "half",
+                             "long",           "address",         "length"}) {
+        INFO(word);
+        CHECK_FALSE(is_glsl_identifier(word));
+        const RestageParam param{.id = word,
+                                 .label = "x",
+                                 .type = RESTAGE_BOOL,
+                                 .flags = 0,
+                                 .min = 0,
+                                 .max = 1,
+                                 .def = {},
+                                 .unit = "",
+                                 .choices = nullptr,
+                                 .tooltip = ""};
+        CHECK_THAT(check_params(&param, 1), ContainsSubstring(std::string("\"") + word + "\" is a word of GLSL"));
+    }
+    for (const char* name : {"tint", "textures", "texture_scale", "vector", "matte", "int_size", "imagery", "samples",
+                             "vec", "mat5", "ivec5", "texture", "mix", "clamp", "color"})
+        CHECK(is_glsl_identifier(name));
+}
+
 TEST_CASE("GLSL that is missing refuses the material", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("p", manifest(), "good");

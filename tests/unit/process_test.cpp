@@ -5,6 +5,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -40,6 +41,22 @@ TEST_CASE("process: arguments go through unchanged, variables are set, input is 
     Process process{.argv = {"/bin/sh", "-c", "printf '%s|' \"$@\" \"$COLOUR\"; cat", "sh", "a b", "$HOME", "*"}};
     process.environment = {{"COLOUR", "teal"}};
     CHECK(run(process).out == "a b|$HOME|*|teal|");
+}
+
+TEST_CASE("process: a child has its three streams and no other descriptor, however many are started at once",
+          "[process]") {
+    if (!std::filesystem::exists("/proc/self/fd")) SKIP("needs /proc");
+    // Pipes of the other threads are open at any moment; ls itself has the folder open.
+    std::vector<std::thread> threads;
+    std::atomic<int> wrong{0};
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&] {
+            for (int i = 0; i < 8; ++i)
+                if (run_process(shell("exec ls /proc/self/fd"))->out != "0\n1\n2\n3\n") ++wrong;
+        });
+    for (auto& thread : threads)
+        thread.join();
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("process: lines arrive whole, the last without its newline", "[process]") {

@@ -69,7 +69,11 @@ fs::path Output::stage(const std::string& relative) {
 
 void Output::write(const std::string& relative, std::string_view bytes) {
     const fs::path temporary = stage(relative);
+#if defined(_WIN32)
     std::FILE* file = std::fopen(temporary.string().c_str(), "wb");
+#else
+    std::FILE* file = std::fopen(temporary.string().c_str(), "wbe"); // e: closed in children
+#endif
     const auto failed = [&]() -> ExportError {
         return ExportError((folder_ / relative).string(), std::string("cannot be written: ") + std::strerror(errno));
     };

@@ -35,7 +35,8 @@ long long power_of_ten(std::string_view text) {
     if (std::from_chars(exponent.data(), exponent.data() + exponent.size(), power).ec == std::errc::result_out_of_range)
         power = exponent.starts_with('-') ? -most : most;
     power = std::clamp(power, -most, most);
-    const std::size_t digit = mantissa.find_first_of("123456789"), point = std::min(mantissa.find('.'), mantissa.size());
+    const std::size_t digit = mantissa.find_first_of("123456789"),
+                      point = std::min(mantissa.find('.'), mantissa.size());
     return power + static_cast<long long>(point) - static_cast<long long>(std::min(digit, mantissa.size()));
 }
 
