@@ -249,14 +249,14 @@ def test_a_picture_becomes_another_format_and_compare_has_a_verdict(tmp_path):
 def test_set_changes_the_scene_that_is_rendered(tmp_path):
     common = ["render", CORNELL, "--size", "24x24", "--spp", 4, "-o", tmp_path / "x.exr", "--quiet"]
     means = []
-    for extra in ([], ["--set", "film.exposure=2"], ["--set", "white.reflectance=0.05,0.05,0.05", "--set", "settings.max_depth=2"]):
+    for extra in ([], ["--set", "film.exposure=2"], ["--set", "White.reflectance=0.05,0.05,0.05", "--set", "settings.max_depth=2"]):
         done = restage(*common, *extra)
         assert done.returncode == 0, done.stderr
         means.append(exr_file.read(tmp_path / "x.exr")["G"].mean())
     exposure = json.loads(restage("info", CORNELL, "--json").stdout).get("film", {}).get("exposure", 1)
     assert means[1] == pytest.approx(means[0] * 2 / exposure, rel=1e-5) and means[2] < 0.8 * means[0]
-    done = restage(*common, "--set", "white.gloss=1")
-    assert done.returncode == 1 and '--set: "white.gloss": material "white" has type, reflectance' in done.stderr
+    done = restage(*common, "--set", "White.gloss=1")
+    assert done.returncode == 1 and '--set: "White.gloss": material "White" has type, reflectance' in done.stderr
 
 
 def test_a_render_goes_on_and_parts_are_merged(tmp_path):
