@@ -2,6 +2,7 @@
 #include "session/support.hpp"
 
 #include "scene/bounds.hpp"
+#include "scene/quadric_hit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,9 +43,33 @@ class Raster {
         step_ = glm::max((upper - lower) / double(cells), glm::dvec2(1e-12));
     }
 
-    // visit(cell, height) for every cell of the mesh's triangles.
+    // visit(cell, height) for every cell of the mesh: of its triangles, or of the quadric that they stand for.
     template <class F>
-    void each(const scene::MeshData& mesh, const glm::dmat4& m, F&& visit) const {
+    void each(const scene::Mesh& mesh, const glm::dmat4& m, F&& visit) const {
+        const auto quadric = scene::quadric_of(mesh);
+        if (quadric && glm::determinant(m) != 0)
+            exact(*quadric, m, visit);
+        else
+            triangles(*mesh.data, m, visit);
+    }
+
+  private:
+    // Along a vertical line through the middle of each cell.
+    template <class F>
+    void exact(const scene::Quadric& quadric, const glm::dmat4& m, F&& visit) const {
+        const glm::dmat4 back = glm::inverse(m);
+        const glm::dvec3 d(back * glm::dvec4(0, 0, 1, 0));
+        for (int cell = 0; cell < cells * cells; ++cell) {
+            const glm::dvec2 c = lower_ + (glm::dvec2(cell % cells, cell / cells) + 0.5) * step_;
+            double t[2];
+            const int n = scene::meet(quadric, glm::dvec3(back * glm::dvec4(c, 0, 1)), d, t);
+            for (int i = 0; i < n; ++i)
+                visit(cell, t[i]);
+        }
+    }
+
+    template <class F>
+    void triangles(const scene::MeshData& mesh, const glm::dmat4& m, F&& visit) const {
         for (const glm::uvec3& t : mesh.triangles) {
             glm::dvec3 p[3];
             for (int i = 0; i < 3; ++i)
@@ -57,7 +82,6 @@ class Raster {
         }
     }
 
-  private:
     template <class F>
     void triangle(const glm::dvec3 (&p)[3], F&& visit) const {
         const glm::dvec2 lo = glm::min(glm::min(glm::dvec2(p[0]), glm::dvec2(p[1])), glm::dvec2(p[2]));
@@ -100,7 +124,7 @@ std::optional<double> fall_distance(const scene::Scene& s, std::span<const Insta
     for (const InstanceId id : ids)
         if (const scene::Instance* instance = s.instances.find(id))
             if (const scene::Mesh* mesh = s.meshes.find(instance->mesh); mesh && mesh->data)
-                raster.each(*mesh->data, frame.of(*instance), [&](int cell, double z) {
+                raster.each(*mesh, frame.of(*instance), [&](int cell, double z) {
                     under[std::size_t(cell)] = std::min(under[std::size_t(cell)], z);
                     top[std::size_t(cell)] = std::max(top[std::size_t(cell)], z);
                 });
@@ -116,7 +140,7 @@ std::optional<double> fall_distance(const scene::Scene& s, std::span<const Insta
         const Bounds box = bounds_of(s, frame, instance);
         if (!overlap(box, all) || box.lower.z > all.upper.z) return;
         if (all.lower.z - box.upper.z > least) return; // something nearer is known
-        raster.each(*s.meshes[instance.mesh].data, frame.of(instance), [&](int cell, double z) {
+        raster.each(s.meshes[instance.mesh], frame.of(instance), [&](int cell, double z) {
             const auto i = std::size_t(cell);
             if (under[i] < infinity && z <= reach[i]) least = std::min(least, under[i] - z);
         });

@@ -47,6 +47,27 @@ struct Boxes {
 
 } // namespace
 
+TEST_CASE("things stand on spheres as they are rendered, not on the grids that stand for them", "[support]") {
+    Boxes b;
+    const auto ball = [&](const char* name, double radius, glm::dvec3 centre) {
+        auto data = std::make_shared<MeshData>(); // a coarse grid, as importers give: here an octahedron
+        const float r = float(radius);
+        data->positions = {{r, 0, 0}, {0, r, 0}, {0, 0, r}, {-r, 0, 0}, {0, -r, 0}, {0, 0, -r}};
+        data->triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+        compute_bounds(*data);
+        const auto mesh = b.add(Mesh{
+            .name = name, .data = std::move(data), .primitive = "sphere \"float radius\" " + std::to_string(radius)});
+        return b.add(Instance{.name = name, .mesh = mesh, .object_to_world = glm::translate(glm::dmat4(1), centre)});
+    };
+    ball("ground", 1000, {0, 0, -1000});
+    const double x = 300, top = std::sqrt(1000.0 * 1000 - x * x) - 1000; // the octahedron is 254 lower there
+    const double apart = std::sqrt(1000.2 * 1000.2 - x * x) - 1000;
+    const Ids small{ball("small", 0.2, {x, 0, apart + 3})};
+    CHECK(*session::fall_distance(b.scene, small, {0, 0, 1}) == Approx(3).margin(1e-3));
+    const Ids box{b.box("box", {x - 0.1, -0.1, top + 2}, {x + 0.1, 0.1, top + 2.2})};
+    CHECK(*session::fall_distance(b.scene, box, {0, 0, 1}) == Approx(2).margin(0.04)); // of its lower corner
+}
+
 TEST_CASE("things fall until they stand on something", "[support]") {
     for (const glm::dmat4& turned :
          {glm::dmat4(1), glm::rotate(glm::dmat4(1), glm::radians(-90.0), glm::dvec3(1, 0, 0)),
