@@ -448,4 +448,11 @@ TEST_CASE("pbrt lamps: alpha means what the version means by it", "[pbrt]") {
     CHECK(flags(lamp(v3, "\"float alpha\" 0.5", card)) == (mask | unseen));
     CHECK(flags(lamp(v3, "\"texture alpha\" \"zero\"", card)) == (mask | unseen));
     CHECK(lamp(v3, "\"float alpha\" 0", ball).alpha == 1); // v3 has it for triangles only
+    const auto said = [&](const std::string& alpha) {
+        return loaded(v4 + " WorldBegin AreaLightSource \"diffuse\" Shape \"sphere\" " + alpha)
+            .reports("AreaLightSource on a Shape with alpha");
+    };
+    CHECK(said("\"float alpha\" 0.5"));
+    CHECK_FALSE(said("\"float alpha\" 0"));
+    CHECK_FALSE(said(""));
 }
