@@ -161,7 +161,6 @@ void Viewport::draw_progress(Editor& e) {
 void Viewport::draw_darkness(Editor& e) {
     if (e.opening().running() || e.scene().instances.live() == 0 || has_light(e)) return;
     const float scale = ImGui::GetStyle().FontScaleMain, width = std::min(340 * scale, size.x - 24 * scale);
-    const ImVec2 back = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({corner.x + (size.x - width) / 2, corner.y + size.y * 0.4f});
     ImGui::BeginChild("darkness", {width, 0}, ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
     ImGui::TextWrapped("Nothing shines in this scene, so its picture is black.");
@@ -169,7 +168,6 @@ void Viewport::draw_darkness(Editor& e) {
     tip("Soft grey light from all around; in a closed room a lamp at the camera as well");
     e.mark("viewport.studio");
     ImGui::EndChild();
-    ImGui::SetCursorScreenPos(back);
 }
 
 void Viewport::draw_hint(Editor& e) {
