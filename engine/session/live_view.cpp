@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double coarse_budget = 0.05;   // for the first picture after a change [s]
+constexpr double coarse_pixels = 3000;   // at least: denoised, smaller pictures of a sample a pixel are dark blots
 constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
 constexpr double compile_patience = 0.15; // a document's first picture gives way to a newer request after so long [s]
 constexpr double clay_pixels = 200e3;     // some 30 ms on two cores
@@ -193,6 +194,7 @@ struct LiveView::Impl {
         const double pixels = double(size.x) * size.y;
         const double rate = work.rate > 0 ? work.rate : 1e5; // not known yet: be careful
         for (const std::uint32_t d : dividers) {
+            if (d > 1 && pixels / (d * d) < coarse_pixels) break;
             work.divider = d;
             if (pixels / (d * d) <= rate * coarse_budget) break;
         }

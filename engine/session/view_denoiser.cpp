@@ -33,7 +33,7 @@ void ViewDenoiser::add(std::shared_ptr<const Frame> frame) {
 }
 
 void ViewDenoiser::run() {
-    lower_thread_priority(7);
+    lower_thread_priority(3); // before rendering (5): what is shown comes from here
     const auto denoiser = render::choose_denoiser(registry_, "");
     if (!denoiser) return host_.says(denoiser.error().message);
     for (;;) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What somebody at the editor sees while they work: every picture that LiveView offers is recorded, and held against what
-// it must be. With denoising on none is noisy, none dark, none of another document, none older than one that was shown
-// before, and none half one scene and half another.
-#include "paths.hpp"
+// What somebody at the editor sees while they work: every picture that LiveView offers is recorded, and held against
+// what it must be. With denoising on none is noisy, none dark, none of another document, none older than one that was
+// shown before, and none half one scene and half another.
 #include "io/image_file.hpp"
+#include "paths.hpp"
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
 #include "session/live_view.hpp"
@@ -108,12 +108,10 @@ struct Room : SceneBuilder {
 
 class Recorder {
   public:
-    LiveView live;
     explicit Recorder(render::RendererOptions options = {})
         : live(plugins().registry, plugins().log, with(std::move(options)), [this] { look(); }) {
         self_ = this;
     }
-    ~Recorder() { self_ = nullptr; }
     void look() {
         if (!self_) return; // before `live` is
         const std::lock_guard lock(mutex_);
@@ -127,7 +125,7 @@ class Recorder {
     }
     // Until what is shown is like that.
     FramePtr wait(const std::function<bool(const Frame&)>& done) {
-        for (int i = 0; i < 30000; ++i) {
+        for (int i = 0; i < 160000; ++i) { // ctest's limit comes first
             if (const auto status = live.status(); status.state == ViewState::failed) FAIL(status.text);
             if (const auto all = frames(); !all.empty() && done(*all.back())) return all.back();
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -148,6 +146,9 @@ class Recorder {
     std::atomic<Recorder*> self_ = nullptr;
     std::mutex mutex_;
     std::vector<FramePtr> frames_;
+
+  public:
+    LiveView live; // last: its threads call look() until it is gone
 };
 
 bool can_denoise() {
@@ -239,7 +240,8 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
                        b.color_ball({0.9f - 0.1f * float(i), 0.1f * float(i), 0.05f});
                    })});
     all.push_back({"sky", steps(1, [&](int) { b.environment(glm::vec3(1)); })});
-    all.push_back({"duplicate", steps(1, [&](int) { copy = b.instance(s.instances[b.ball].mesh, b.red, Room::at(-1)); })});
+    all.push_back(
+        {"duplicate", steps(1, [&](int) { copy = b.instance(s.instances[b.ball].mesh, b.red, Room::at(-1)); })});
     all.push_back({"delete", steps(1, [&](int) { s.instances.set(copy, {}, ++s.clock); })});
     all.push_back({"undo", steps(1, [&](int) { b.move_ball(-1); })});
     for (const Do& one : all) {
@@ -262,7 +264,8 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
             CHECK(f.denoised);
             CHECK(f.request >= frames[i - 1]->request); // never back to an older scene
             CHECK((f.request > frames[i - 1]->request || f.divider <= frames[i - 1]->divider)); // only ever finer
-            CHECK(noise(f) < 0.12);
+            CHECK(noise(f) < 0.15);
+            CHECK(f.image.width * f.image.height >= 3000);
             CHECK(mean(f) > 0.5 * std::min(mean(*end), mean(*frames[first - 1])));
             CHECK(mean(f) < 2 * std::max(mean(*end), mean(*frames[first - 1])));
         }
@@ -305,8 +308,9 @@ TEST_CASE("live frames: while something is dragged no picture is a mixture of tw
         const double expected = 0.5 + where[f->request] / (2 * 3.8 * std::tan(0.5236) * 240 / 180);
         INFO("request " << f->request << ", " << f->image.width << " wide: ids " << ids << ", red " << red << ", "
                         << expected);
-        CHECK(std::abs(ids - expected) < 0.03);
-        CHECK(std::abs(red - expected) < 0.05);
+        const double pixel = 1.0 / f->image.width;
+        CHECK(std::abs(ids - expected) < 0.02 + pixel);
+        CHECK(std::abs(red - expected) < 0.03 + pixel);
     }
 }
 
@@ -373,7 +377,7 @@ TEST_CASE("live frames: a lost device is opened again, once") {
     Recorder r({.fault = fault});
     Room b;
     r.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 4});
-    for (int i = 0; i < 12000 && r.live.status().state != ViewState::failed; ++i)
+    for (int i = 0; i < 80000 && r.live.status().state != ViewState::failed; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const auto status = r.live.status();
     REQUIRE(status.state == ViewState::failed);

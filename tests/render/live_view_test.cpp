@@ -32,7 +32,7 @@ struct View {
         : live(plugins().registry, plugins().log,
                {.tracer = "embree", .shader_dir = restage::test::source_dir() / "shaders"}, [] {}) {}
     bool wait(const std::function<bool(const ViewStatus&)>& done) {
-        for (int i = 0; i < 6000; ++i) {
+        for (int i = 0; i < 80000; ++i) { // ctest's limit comes first
             const ViewStatus status = live.status();
             if (status.state == ViewState::failed) FAIL(status.text);
             if (done(status)) return true;
@@ -217,7 +217,7 @@ TEST_CASE("live view: another tracer shows the same scene") {
     CHECK(std::abs(mean(*view.live.frame()) - 1) < 0.02);
     view.live.configure({.tracer = "none"});
     bool failed = false;
-    for (int i = 0; i < 500 && !failed; ++i) {
+    for (int i = 0; i < 80000 && !failed; ++i) {
         failed = view.live.status().state == ViewState::failed;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
