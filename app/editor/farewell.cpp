@@ -56,8 +56,8 @@ struct Farewell::Impl {
     struct sigaction before[std::size(signals)]{};
 #endif
 
-    // Xlib ends the process when this returns. Its lock is held by the thread that failed: another one that talks to the
-    // display stands still, which is why the lock of a main thread that does is not waited for for ever.
+    // Xlib ends the process when this returns. Its lock is held by the thread that failed: another one that talks to
+    // the display stands still, which is why the lock of a main thread that does is not waited for for ever.
     static std::atomic<Impl*> current;
     [[noreturn]] static void display_gone() {
         Impl* self = current;
@@ -128,7 +128,8 @@ Farewell::~Farewell() {
     pipe_end = -1;
     if (impl_->reader.joinable()) {
         const char end = 0;
-        while (::write(impl_->pipe[1], &end, 1) < 0 && errno == EINTR) {}
+        while (::write(impl_->pipe[1], &end, 1) < 0 && errno == EINTR) {
+        }
         impl_->reader.join();
     }
     for (const int end : impl_->pipe)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Farewell: the program is ended from outside (SIGTERM, SIGHUP, SIGINT; a display that is gone), and has something to do
-// before. Signals are heard by a handler that only writes a byte into a pipe; a thread reads it and wakes the main loop.
-// A second signal ends the program as if it had never been heard. One at a time in a process.
+// Farewell: the program is ended from outside (SIGTERM, SIGHUP, SIGINT; a display that is gone), and has something to
+// do before. Signals are heard by a handler that only writes a byte into a pipe; a thread reads it and wakes the main
+// loop. A second signal ends the program as if it had never been heard. One at a time in a process.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@ namespace restage::editor {
 
 class Farewell {
   public:
-    // `wake` [any]: asks the main loop for another turn. `last_words`: what is to be done when the display is gone, where
-    // its library is about to end the process; by then the main thread either has no `busy()` lock, or is within a call
-    // to the display. Made on the main thread, after the window.
+    // `wake` [any]: asks the main loop for another turn. `last_words`: what is to be done when the display is gone,
+    // where its library is about to end the process; by then the main thread either has no `busy()` lock, or is within
+    // a call to the display. Made on the main thread, after the window.
     Farewell(std::function<void()> wake, std::function<void()> last_words);
     ~Farewell();
     Farewell(const Farewell&) = delete;
