@@ -23,7 +23,7 @@ constexpr double pi = std::numbers::pi;
 constexpr int columns = 32;   // points over the width of the picture
 constexpr int directions = 24; // at each of them
 constexpr int lamp_points = 8; // on shining surfaces, for each of them
-constexpr double grey = 0.5;  // what surfaces around reflect
+constexpr int bounces = 7;    // as many as a path has by default
 
 double luminance(const dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 // The lattice of Kronecker's by the plastic number (Roberts 2018): point i, moved by `shift`.
@@ -129,6 +129,7 @@ class Meter {
             size_ = std::max(size_, glm::length(dvec3(place * glm::dvec4(k & 1 ? data.upper.x : data.lower.x,
                                                                          k & 2 ? data.upper.y : data.lower.y,
                                                                          k & 4 ? data.upper.z : data.lower.z, 1))));
+        albedo_[id.value] = ask_.albedo(in);
         if (const auto emission = ask_.emission(in)) {
             emission_[id.value] = *emission;
             const double radiance = luminance(dvec3(emission->radiance));
@@ -242,7 +243,7 @@ class Meter {
 
     double irradiance(const Hit& at, int number) const {
         const double shift = glm::fract(double(number) * 0.6180339887498949);
-        double sum = from_lamps(at) + from_surfaces(at, shift);
+        double reflected = 0, kept = 0, sky = 0; // kept: of the light, at each bounce
         const dvec3 other = std::abs(at.normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         const dvec3 s = glm::normalize(glm::cross(at.normal, other)), t = glm::cross(at.normal, s);
         for (int i = 0; i < directions; ++i) { // by the cosine: each stands for pi / directions
@@ -251,10 +252,18 @@ class Meter {
             const dvec3 d =
                 s * (r * std::cos(phi)) + t * (r * std::sin(phi)) + at.normal * std::sqrt(std::max(1 - u.x, 0.0));
             const Hit hit = trace(at.position, d);
-            const double radiance = hit.instance ? grey / pi * from_lamps(hit) : luminance(dvec3(ask_.sky));
-            sum += radiance * pi / directions;
+            if (!hit.instance) {
+                sky += luminance(dvec3(ask_.sky)) * pi / directions;
+                continue;
+            }
+            const double albedo = albedo_.at(hit.instance);
+            reflected += albedo * from_lamps(hit) / directions;
+            kept += albedo / directions;
         }
-        return sum;
+        double series = 0; // 1 + kept + kept^2 + ...
+        for (int i = 0; i < bounces; ++i)
+            series = 1 + kept * series;
+        return from_lamps(at) + from_surfaces(at, shift) + sky + reflected * series;
     }
 
     const scene::Scene& scene_;
@@ -265,6 +274,7 @@ class Meter {
     RTCScene top_ = nullptr;
     std::map<std::uint32_t, RTCScene> meshes_;
     std::map<std::uint32_t, scene::MaterialEmission> emission_;
+    std::map<std::uint32_t, double> albedo_; // by Id<Instance>::value, as emission_
     std::vector<Shining> shining_;
 };
 

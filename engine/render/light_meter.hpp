@@ -20,11 +20,12 @@ struct LightReading {
 struct MeterQuestions { // of an instance
     std::function<bool(const scene::Instance&)> passes; // light goes through it: left out
     std::function<std::optional<scene::MaterialEmission>(const scene::Instance&)> emission; // without textures
+    std::function<double(const scene::Instance&)> albedo; // 0 to 1
     glm::vec3 sky{0}; // mean radiance from all around
 };
 
-// From the active camera, through a pinhole. Direct light of lamps and shining surfaces, and what grey surfaces around
-// reflect of lamps once. Directions are fixed: the same for the same scene but for the last bits.
+// From the active camera, through a pinhole. Direct light of lamps and shining surfaces, and what matte surfaces around
+// reflect of lamps: once by rays, more often as if it went on alike. Directions are fixed: the same for the same scene but for the last bits.
 LightReading read_light(const scene::Scene&, const MeterQuestions&);
 
 } // namespace restage::render

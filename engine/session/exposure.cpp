@@ -60,6 +60,25 @@ bool passes(const Scene& s, const plugin::Registry& registry, const Instance& in
     return true;
 }
 
+// Of the first colour that a material of the type has and does not shine by.
+double albedo_of(const Scene& s, const plugin::Registry& registry, const Instance& in) {
+    const Material* m = s.materials.find(in.material);
+    const auto plugin = m ? registry.find_material(m->type) : std::nullopt;
+    for (std::uint32_t i = 0; plugin && i < plugin->table->param_count; ++i) {
+        const RestageParam& line = plugin->table->params[i];
+        const RestageEmission1* shine = plugin->source ? plugin->source->emission() : nullptr;
+        if (line.type != RESTAGE_COLOR || line.max != 1 || (shine && std::string_view(shine->radiance) == line.id))
+            continue;
+        const Value* set = m->params.find(line.id);
+        const Value v = set ? *set : default_value(line);
+        const glm::vec3 c = v.texture                 ? io::mean_of(s, v.texture)
+                            : v.type == RESTAGE_FLOAT ? glm::vec3(v.v[0])
+                                                      : glm::vec3(v.v[0], v.v[1], v.v[2]);
+        return std::clamp(double(0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z), 0.0, 1.0);
+    }
+    return 0.5;
+}
+
 void append(Edit& edit, Edit more) {
     std::move(more.changes.begin(), more.changes.end(), std::back_inserter(edit.changes));
 }
@@ -101,6 +120,7 @@ render::LightReading read_light(const Scene& s, const plugin::Registry& registry
                                              emission->radiance *= io::mean_of(s, emission->texture);
                                          return emission;
                                      },
+                                     .albedo = [&](const Instance& in) { return albedo_of(s, registry, in); },
                                      .sky = mean_of_sky(s)};
     return render::read_light(s, ask);
 }

@@ -121,7 +121,7 @@ const Frozen layout[] = {
         FIELD(RestageCamera, text, 0) FIELD(RestageCamera, camera_to_world, 24) FIELD(RestageCamera, fov, 152)
         FIELD(RestageCamera, screen_window, 156) FIELD(RestageCamera, lens_radius, 172)
         FIELD(RestageCamera, focal_distance, 176) FIELD(RestageCamera, frame_aspect, 180)
-        FIELD(RestageCamera, fit_aspect, 184)
+        FIELD(RestageCamera, fit_aspect, 188)
     SIZE(RestageFilm, 72)
         FIELD(RestageFilm, width, 0) FIELD(RestageFilm, height, 4) FIELD(RestageFilm, crop, 8)
         FIELD(RestageFilm, filter, 24) FIELD(RestageFilm, filter_radius, 32)

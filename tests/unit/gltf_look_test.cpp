@@ -261,13 +261,15 @@ TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colo
         {{"extensions",
           {{"KHR_materials_pbrSpecularGlossiness",
             {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.77, 0.34}}, {"glossinessFactor", 0.9}}}}}}};
-    const auto& metal = material_of(b.load(files)).params;
+    const auto gold = b.load(files);
+    const auto& metal = material_of(gold).params;
     CHECK(metal.number("metallic", 0) == 1);
     CHECK(metal.color("base_color", {})[1] == Approx(0.77));
     CHECK(metal.number("roughness", 0) == Approx(0.1));
     b.root["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
         {"diffuseFactor", {0.5, 0.25, 0, 0.5}}, {"specularFactor", {0.2, 0.1, 0.04}}};
-    const auto& coated = material_of(b.load(files)).params;
+    const auto paint = b.load(files);
+    const auto& coated = material_of(paint).params;
     CHECK(coated.number("metallic", 9) == 0);
     CHECK(coated.color("base_color", {})[0] == Approx(0.4)); // diffuse * (1 - max(specular))
     CHECK(coated.color("specular_color", {})[0] == Approx(5)); // F0 of ior 1.5 is 0.04

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OBJ importer, through the registry as the program uses it: objects, groups, smoothing, materials, report, errors.
 #include "model_files.hpp"
+#include "scene/projection.hpp"
+
+#include <algorithm>
 
 using namespace restage;
 using namespace restage::tests;
@@ -251,14 +254,20 @@ TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
     CHECK(says(in, RESTAGE_KEPT, "", "a neutral studio is added"));
     const auto& camera = in.scene.cameras[in.scene.active_camera.value];
     CHECK(glm::determinant(glm::dmat3(camera.camera_to_world)) == Approx(-1)); // a right-handed world
-    const auto& film = in.scene.film.value;
-    const double half = std::tan(glm::radians(camera.fov / 2.0)), aspect = double(film.width) / film.height;
-    for (const glm::vec3& p : in.scene.meshes[{1}].data->positions) {
-        const glm::dvec4 q = glm::inverse(camera.camera_to_world) * glm::dvec4(p, 1);
-        CHECK(q.z > 0);
-        CHECK(std::abs(q.x) < half * aspect * q.z);
-        CHECK(std::abs(q.y) < half * q.z);
+    for (const double aspect : {16.0 / 9, 1.0, 9.0 / 16, 4.0}) { // whatever the picture is made
+        const glm::dvec4 window = scene::film_window(camera, aspect);
+        CHECK(window.y / window.w == Approx(aspect));
+        double fills = 0;
+        for (const glm::vec3& p : in.scene.meshes[{1}].data->positions) {
+            const glm::dvec4 q = glm::inverse(camera.camera_to_world) * glm::dvec4(p, 1);
+            CHECK(q.z > 0);
+            CHECK(std::abs(q.x) < window.y * q.z);
+            CHECK(std::abs(q.y) < window.w * q.z);
+            fills = std::max({fills, std::abs(q.x) / (window.y * q.z), std::abs(q.y) / (window.w * q.z)});
+        }
+        CHECK(fills > 0.5);
     }
+    CHECK(scene::camera_fov(camera, 16.0 / 9) == Approx(40));
 }
 
 TEST_CASE("obj: broken files name the line and the column", "[obj]") {
