@@ -109,6 +109,6 @@ def test_a_sharp_lobe_of_a_stochastic_material_is_integrated_with_its_error(fact
     assert (code == 0) == passes, step
     if passes:
         figures = {f["name"]: f["value"] for f in step["figures"]}
-        assert 0.6 < figures["largest integral of pdf"] < 0.66
+        assert 0.6 < figures["largest integral of pdf"] < 0.7  # the largest of many estimates
     else:
         assert "it is no density" in step["text"]
