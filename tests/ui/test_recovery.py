@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Work is not lost when the editor is: it is killed in mid-edit, and started again."""
+import ctypes
 import pathlib
 import signal
 import subprocess
@@ -155,11 +156,31 @@ def test_a_display_that_is_gone_loses_nothing(binary, tmp_path):
         own.close()
 
 
+class ClientMessage(ctypes.Structure):  # XClientMessageEvent
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int), ("display", ctypes.c_void_p),
+                ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong), ("format", ctypes.c_int), ("data", ctypes.c_long * 5),
+                ("rest_of_XEvent", ctypes.c_long * 24)]
+
+
+def ask_to_close(display, window):
+    """As a window manager does it: WM_DELETE_WINDOW."""
+    x = ctypes.CDLL("libX11.so.6")
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XInternAtom.restype = ctypes.c_ulong
+    server = ctypes.c_void_p(x.XOpenDisplay(display.encode()))
+    atom = lambda name: x.XInternAtom(server, name, 0)
+    event = ClientMessage(type=33, window=window, message_type=atom(b"WM_PROTOCOLS"), format=32)
+    event.data[0] = atom(b"WM_DELETE_WINDOW")
+    x.XSendEvent(server, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(event))
+    x.XSync(server, 0)
+    x.XCloseDisplay(server)
+
+
 def test_a_close_request_writes_aside_before_it_is_answered(launch, desk, tmp_path):
     """A desktop whose session ends asks windows to close, and does not wait long."""
     editor, aside, before, hidden = unsaved(launch, tmp_path / "config")
     found = subprocess.run(["xdotool", "search", "--name", "Restage"], env=desk.environment, check=True, capture_output=True, text=True)
-    desk.xdotool("windowquit", found.stdout.split()[-1])
+    ask_to_close(desk.display, int(found.stdout.split()[-1]))
     editor.wait(lambda s: s["modal"] == "Unsaved changes", "the question")
     assert '"changes": "3"' in aside.read_text()
     editor.kill()
