@@ -146,6 +146,7 @@ void MaterialBalls::work(Maker maker) {
                 RESTAGE_TRY(renderer, render::Renderer::create(maker.options, render::material_lookup(maker.registry),
                                                                maker.log));
             }
+            renderer->forget_scene(); // two balls of one scene have the same versions
             RESTAGE_CHECK(renderer->sync(ball_scene(job.scene, job.id)));
             RESTAGE_CHECK(renderer->trace(samples, [&] {
                 const std::lock_guard guard(mutex_);
