@@ -102,8 +102,8 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     }
     bar.finish();
     if (strict) RESTAGE_CHECK(io::refuse_losses(imported.report, path));
-    for (const io::ReportEntry& entry : imported.report.entries) // what decides whether anything can be seen
-        if (entry.what == "exposure" || entry.what == "light")
+    for (const io::ReportEntry& entry : imported.report.entries) // what was done so that anything is seen
+        if (entry.what == "exposure" || (entry.what == "light" && !entry.note.starts_with(session::no_light)))
             context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));
     const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
                dropped = imported.report.count(RESTAGE_DROPPED);
