@@ -287,7 +287,9 @@ Result<> check_edit(const Edit& edit, Problem::Severity least) {
             [&](const auto& c) {
                 if (same_data(c)) return;
                 for (const ValueProblem& p : problems_in(c.after)) {
-                    if (p.severity < least || std::string_view(p.kind) == "image") continue;
+                    if (p.severity < least ||
+                        (p.severity == Problem::Severity::warning && std::string_view(p.kind) == "image"))
+                        continue;
                     const auto before = problems_in(c.before);
                     const bool was_so = std::ranges::any_of(
                         before, [&](const ValueProblem& b) { return std::string_view(b.kind) == p.kind; });

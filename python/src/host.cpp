@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
+#include <cstdlib>
 #if defined(__unix__) || defined(__APPLE__)
 #include <pthread.h>
+#include <unistd.h>
 #endif
 
 namespace restage::python {
@@ -64,7 +67,13 @@ void Host::begin_threads() {
             "threads; start workers as new processes (multiprocessing.get_context(\"spawn\") or "
             "\"forkserver\"), or fork before the first render");
 #if defined(__unix__) || defined(__APPLE__)
-    static const int registered = pthread_atfork(nullptr, nullptr, [] { is_forked = threads_began.load(); });
+    static const int registered = pthread_atfork(nullptr, nullptr, [] {
+        is_forked = threads_began.load();
+#ifdef __GLIBC__
+        // Handlers of drivers, at the end of the process, would wait for their threads as well: ours goes first.
+        if (is_forked) on_exit([](int status, void*) { std::fflush(nullptr), _exit(status); }, nullptr);
+#endif
+    });
     (void)registered;
 #endif
     threads_began = true;
