@@ -152,8 +152,14 @@ Everything::Everything(bool v4) {
                  .material = all.back(),
                  .object_to_world = place(4, 2, {-1, 1, 2}),
                  .media = MediumInterface{fog, {}},
-                 .alpha_texture = blend_id});
-    add(Instance{.name = "veil", .mesh = small, .material = red, .object_to_world = place(6, 1), .alpha = 0.4f});
+                 .alpha_texture = blend_id,
+                 .alpha_mask = !v4});
+    add(Instance{.name = "veil",
+                 .mesh = small,
+                 .material = red,
+                 .object_to_world = place(6, 1),
+                 .alpha = 0.4f,
+                 .alpha_mask = !v4});
 
     add(Light{.name = "bulb", .value = {1, 2, 3}, .light_to_world = place(2, 1)});
     add(Light{.name = "spot",

@@ -112,7 +112,8 @@ TEST_CASE("pbrt curves: those of one state are one thing", "[pbrt]") {
     Recorder many;
     std::string text = "Film \"rgb\"\nWorldBegin\n";
     for (int i = 0; i < 20000; ++i)
-        text += "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ] \"float width\" 0.001\n";
+        text +=
+            "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 " + std::to_string(i) + " ] \"float width\" 0.001\n";
     REQUIRE(many.load_text(text) == 1);
     CHECK(many.meshes.size() == 1);
     CHECK(many.reports("of 3 sides, at most 100 % of their width off"));

@@ -108,9 +108,9 @@ TEST_CASE("pbrt scoping: attributes, transforms, names", "[pbrt]") {
 
     const Recorder three = loaded(with("matte") + "WorldEnd", v3);
     CHECK(material_of(three, 0) == "b");
-    CHECK(material_of(three, 2) == "default"); // v3: "b" ended with its block,
+    CHECK(material_of(three, 2) == "a"); // v3: "b" ended with its block, and the current one stays (api.cpp),
     CHECK(three.reports("NamedMaterial \"b\": no material has that name"));
-    CHECK(material_of(three, 3) == "default"); // and TransformEnd restores only the transform
+    CHECK(material_of(three, 3) == "a"); // and TransformEnd restores only the transform
     check_vec(origin_of(three, 3), {0, 0, 0});
 }
 
@@ -159,15 +159,15 @@ TEST_CASE("pbrt scoping: coordinate systems, active transforms, Attribute, color
         "Material \"diffuse\"" +
         sphere + sphere + "\"float radius\" 3 AttributeEnd Material \"diffuse\"" + sphere);
     REQUIRE(a.meshes.size() == 3);
-    const auto radius = [](const restage::pbrt::test::MeshRecord& mesh) { // of the equator
+    const auto radius = [](const restage::pbrt::test::MeshRecord& mesh) { // of the equator of triangles of equal area
         float top = 0;
         for (const float x : mesh.positions)
             top = std::max(top, x);
         return top;
     };
-    CHECK(radius(a.meshes[0]) == Catch::Approx(2).epsilon(1e-3));
-    CHECK(radius(a.meshes[1]) == Catch::Approx(3).epsilon(1e-3));
-    CHECK(radius(a.meshes[2]) == Catch::Approx(1).epsilon(1e-3));
+    CHECK(radius(a.meshes[0]) == Catch::Approx(2).epsilon(3e-3));
+    CHECK(radius(a.meshes[1]) == Catch::Approx(3).epsilon(3e-3));
+    CHECK(radius(a.meshes[2]) == Catch::Approx(1).epsilon(3e-3));
     CHECK(a.materials[a.instances[0].raw.material - 1].values.at("reflectance").v[0] == 0.1f);
     CHECK(a.materials[a.instances[2].raw.material - 1].values.at("reflectance").v[0] == 0.5f);
 

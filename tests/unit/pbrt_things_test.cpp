@@ -138,7 +138,9 @@ TEST_CASE("pbrt materials: approximated ones go back out whole, unknown paramete
         "MakeNamedMaterial \"odd\" \"string type\" \"diffuse\" \"float wetness\" 0.5\nMaterial \"velvet\"\n"
         "MakeNamedMaterial \"paint\" \"string type\" \"measured\" \"string filename\" \"p.bsdf\"");
     CHECK(r.materials[0].type == "coateddiffuse");
-    CHECK(r.materials[0].values.at("reflectance").v[0] == 0.7f);
+    // Under a smooth coat of index 1.33 a share of 0.472 goes back inside (Egan and Hilgeman 1973): 0.7 / (1 - 0.3 *
+    // 0.472).
+    CHECK(std::abs(r.materials[0].values.at("reflectance").v[0] - 0.8155f) < 1e-3f);
     CHECK(r.materials[0].verbatim ==
           "=* \"string type\" [ \"subsurface\" ]\n=* \"float mfp\" [ 3 ]\n=* \"rgb reflectance\" [ 0.7 0.4 0.3 ]\n");
     CHECK(r.materials[1].verbatim == "\"float wetness\" [ 0.5 ]\n");
@@ -191,6 +193,7 @@ TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
     CHECK(r.materials[0].values.at("bump").ref == 2);
     const Named& normal = r.textures[r.materials[0].values.at("normalmap").ref - 1];
     CHECK(r.images[normal.image - 1].encoding == RESTAGE_LINEAR);
+    CHECK(r.reports("\"normalmap\" of a material: where it turns a normal away from the viewer"));
 
     r = run(v3 + "Texture \"a\" \"color\" " + map + "\"a.tga\"\nTexture \"b\" \"spectrum\" " + map +
             "\"a.tga\" \"bool gamma\" \"false\"\nTexture \"c\" \"float\" " + map +
@@ -413,7 +416,8 @@ TEST_CASE("pbrt report: the same thing is one line with a count and the first pl
 TEST_CASE("pbrt camera: orthographic and spherical ones are what they are", "[pbrt]") {
     const auto camera = [](const std::string& text) {
         const Recorder r = loaded(text + " WorldBegin");
-        CHECK_FALSE(r.reports("Camera"));
+        for (const auto& line : r.lines) // one that is kept says what tells the version
+            CHECK((line.fate == RESTAGE_KEPT || !line.what.starts_with("Camera")));
         return r.raw_cameras.at(0);
     };
     const RestageCamera flat =

@@ -49,6 +49,9 @@ void Builder::put_common(Values& values, const Directive& d) {
         if (const RestageHandle bump = find_texture(d, name, true)) values.texture("bump", RESTAGE_TEXTURE, bump);
     const std::string file = d.params.string("normalmap", "");
     if (file.empty()) return;
+    import_.approximated(d.at, "\"normalmap\" of a material",
+                         "where it turns a normal away from the viewer it is bent back until it faces them; "
+                         "pbrt's surface is black there");
     if (const RestageHandle pixels = image(d, file, RESTAGE_LINEAR, 1, true)) {
         const RestageTexture texture{.text = import_.text("", ""), .type = "imagemap", .is_float = 0, .image = pixels};
         if (const RestageHandle handle = import_.out.texture(import_.out.ctx, &texture))

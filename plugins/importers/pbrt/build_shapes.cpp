@@ -304,6 +304,7 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
             import_.approximated(d.at, "\"power\" of an AreaLightSource",
                                  "pbrt gives it to each triangle; it is spread evenly");
     }
+    if (power > 0 && !has_area) scale = 1; // goes with the power
     radiance = radiance * scale;
     for (const char* name : {"samples", "nsamples"})
         d.params.find(name); // how, not what
@@ -339,7 +340,8 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
         for (const float x : instance.emission)
             exact += " " + shortest(static_cast<double>(x));
         for (const Param& param : d.params.params)
-            if (param.name != "twosided") exact += " " + to_text(param);
+            if (param.name != "twosided" && !(param.name == "L" && (param.type == "rgb" || param.type == "color")))
+                exact += " " + to_text(param); // an RGB colour is written from the scene
         exact += "\n";
     }
     import_.keep_unused(d.params, "AreaLightSource " + quote(d.name));
