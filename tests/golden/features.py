@@ -3,7 +3,7 @@
 """Renders one-feature pbrt-v4 scenes, all in one process, and holds each against pbrt-v4's two independent pictures of it.
 
 RESTAGE_CASES names the folder that holds `pbrt-v4-features`: NAME.pbrt with NAME.1.exr and NAME.2.exr.
-    features.py [--samples 64] [--write] [NAME ...]
+    features.py [--samples 16] [--write] [NAME ...]
 --write puts the table into docs/pbrt.md. A row *agrees* when the mean luminance is within 0.5 % (and three standard errors)
 and hardly any block of 8x8 pixels is further off than noise can be; otherwise a line of its import report must say what is
 approximated or dropped. Exit code 1: there is a row that does neither.
@@ -105,7 +105,7 @@ def table(rows):
     return "\n".join(lines) + "\n"
 
 
-def run(names=None, samples=64, show=print):
+def run(names=None, samples=16, show=print):
     import exr_file
     restage = package()
     folder = pathlib.Path(os.environ["RESTAGE_CASES"]) / "pbrt-v4-features"
@@ -122,7 +122,7 @@ def run(names=None, samples=64, show=print):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*")
-    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--samples", type=int, default=16)
     parser.add_argument("--write", action="store_true")
     args = parser.parse_args()
     rows = run(args.names, args.samples, lambda line: print(line, flush=True))
