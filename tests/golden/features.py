@@ -33,7 +33,7 @@ def package():
 def scenes(folder):
     """Names of the scenes that have pictures, all of which must be there in two halves."""
     names = sorted(p.name[:-6] for p in folder.glob("*.1.exr"))
-    missing = [n for n in names for f in (f"{n}.pbrt", f"{n}.2.exr") if not (folder / f).is_file()]
+    missing = [f for n in names for f in (f"{n}.pbrt", f"{n}.2.exr") if not (folder / f).is_file()]
     if not names or missing:
         raise FileNotFoundError(f"{folder}: not all files are there: {missing or 'no pictures'}")
     return names

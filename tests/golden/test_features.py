@@ -24,7 +24,7 @@ def test_every_feature_agrees_or_is_reported():
 def test_missing_pictures_are_an_error(tmp_path):
     import features
     (tmp_path / "a.1.exr").write_bytes(b"")
-    with pytest.raises(FileNotFoundError, match="a.pbrt"):
+    with pytest.raises(FileNotFoundError, match=r"a\.pbrt"):
         features.scenes(tmp_path)
 
 
