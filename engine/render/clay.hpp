@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of first hits alone: what stands where, as if of clay and lit from the camera. It needs Embree and no shader,
-// so it is there before anything is compiled; with the guides that picking and outlines go by.
+// A picture of first hits alone: what stands where, as if of clay and lit from the camera. It needs Embree and no
+// shader, so it is there before anything is compiled; with the guides that picking and outlines go by.
 #pragma once
 
 #include "base/jobs.hpp"
