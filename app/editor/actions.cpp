@@ -355,7 +355,12 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         return keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key);
     };
     if (editor.viewport.dragging(editor)) { // an undo would pull what is dragged from under the mouse
-        if (pressed(ImGuiKey_Escape)) editor.viewport.cancel(editor);
+        // Whatever is held with it: Shift, where a copy is dragged.
+        const bool escape =
+            keys ? std::ranges::any_of(*keys,
+                                       [](ImGuiKeyChord key) { return (key & ~ImGuiMod_Mask_) == ImGuiKey_Escape; })
+                 : ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+        if (escape) editor.viewport.cancel(editor);
         return;
     }
     // While text is typed, a dialog is open, or the camera flies on WASD, keys mean something else.

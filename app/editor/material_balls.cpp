@@ -49,10 +49,10 @@ scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id
     using namespace scene;
     Scene ball = scene; // shares its data
     Edit rest;
-    ball.instances.each([&](Id<Instance> one, const Instance& i) {
-        rest.changes.push_back(Change<Instance>{one, i, std::nullopt});
-    });
-    ball.lights.each([&](Id<Light> one, const Light& l) { rest.changes.push_back(Change<Light>{one, l, std::nullopt}); });
+    ball.instances.each(
+        [&](Id<Instance> one, const Instance& i) { rest.changes.push_back(Change<Instance>{one, i, std::nullopt}); });
+    ball.lights.each(
+        [&](Id<Light> one, const Light& l) { rest.changes.push_back(Change<Light>{one, l, std::nullopt}); });
     ball.cameras.each([&](Id<Camera> one, const Camera& c) {
         if (one != ball.active_camera.value) rest.changes.push_back(Change<Camera>{one, c, std::nullopt});
     });
@@ -157,7 +157,8 @@ void MaterialBalls::work(Maker maker) {
         };
         if (const auto done = render(); !done) {
             renderer.reset(); // its device may be lost
-            if (!std::exchange(said, true)) maker.log.warning("a ball of a material was not rendered: " + done.error().message);
+            if (!std::exchange(said, true))
+                maker.log.warning("a ball of a material was not rendered: " + done.error().message);
         }
         lock.lock();
         if (stop_) return;

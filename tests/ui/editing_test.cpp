@@ -55,7 +55,8 @@ std::string font_of(char32_t first, char32_t last, bool groups) {
         put(12, 2), put(0, 2), put(28, 4), put(0, 4), put(1, 4), put(first, 4), put(last, 4), put(1, 4);
     } else {
         put(4, 2), put(32, 2), put(0, 2), put(4, 2), put(0, 2), put(0, 2), put(0, 2); // two segments
-        put(last, 2), put(0xffff, 2), put(0, 2), put(first, 2), put(0xffff, 2), put(1, 2), put(1, 2), put(0, 2), put(0, 2);
+        put(last, 2), put(0xffff, 2), put(0, 2), put(first, 2), put(0xffff, 2), put(1, 2), put(1, 2), put(0, 2),
+            put(0, 2);
     }
     return out;
 }
@@ -202,7 +203,8 @@ TEST_CASE("menus say what would be undone, the first group is Group, keys have t
         for (const editor::Action& action : editor::all_actions())
             for (const auto preset : {editor::KeyPreset::standard, editor::KeyPreset::blender}) {
                 const std::string text = editor::key_text(editor::key_of(action, preset));
-                IM_CHECK_STR_EQ(text.find("Slash") == text.npos && text.find("Bracket") == text.npos ? "" : text.c_str(), "");
+                IM_CHECK_STR_EQ(
+                    text.find("Slash") == text.npos && text.find("Bracket") == text.npos ? "" : text.c_str(), "");
             }
         for (int i = 0; i < 4; ++i)
             run(h, ctx, "edit.duplicate");
@@ -219,7 +221,8 @@ TEST_CASE("menus say what would be undone, the first group is Group, keys have t
 TEST_CASE("an image that is let go asks whether one object or all that share the material are meant", "[ui]") {
     test::TemporaryFolder folder;
     const auto file = folder.path() / "red.tga";
-    std::ofstream(file, std::ios::binary) << std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0", 18) << "\x10\x10\xf0";
+    std::ofstream(file, std::ios::binary)
+        << std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0", 18) << "\x10\x10\xf0";
     Headless h("demo/demo.pbrt");
     h.play("shared", [&](ImGuiTestContext* ctx) {
         h.wait_for(ctx, "picture");
@@ -282,5 +285,6 @@ TEST_CASE("what no font has is said, and fonts are asked what they have", "[ui]"
     scene::apply(named, *scene::rename(named, scene::Id<scene::Instance>{1}, "\xec\x9d\x98\xec\x9e\x90"));
     h.editor().adopt_scene(named);
     const auto lines = h.editor().notices.lines();
-    CHECK(std::ranges::any_of(lines, [](const auto& line) { return line.text.find("Names here are Korean") != line.text.npos; }));
+    CHECK(std::ranges::any_of(
+        lines, [](const auto& line) { return line.text.find("Names here are Korean") != line.text.npos; }));
 }
