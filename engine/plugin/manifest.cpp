@@ -42,7 +42,7 @@ std::size_t place_of_key(const std::string& text, const std::string& key) {
                 if (text[i] == '\\') ++i;
             const auto string = json::parse(text.substr(start, i + 1 - start), nullptr, false);
             if (std::exchange(is_key, false) && string.is_string() && string.get_ref<const std::string&>() == key)
-                return start + 1;
+                return start;
         }
     }
     return 0;

@@ -110,8 +110,7 @@ class Registry {
 
     // [main] Loads anew the materials whose files have changed since: manifest, library or GLSL. A version that does
     // not fit, or that `judge` refuses, is not taken, and the one before goes on; values of parameters live in the
-    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Other kinds of plugins need a new start,
-    // or reload().
+    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Other kinds of plugins need a new start.
     std::vector<Reload> reload_changed();
     Result<> reload(const Entry& plugin); // this one, changed or not
     // Asked before a material is taken by reload_changed: does its GLSL compile? See render/material_types.hpp.

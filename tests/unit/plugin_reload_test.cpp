@@ -248,7 +248,6 @@ TEST_CASE("an importer that somebody holds stays open when it is loaded anew", "
     fs::remove(library); // another file, as a build writes it
     REQUIRE(write_file_atomic(library, bytes));
     REQUIRE(registry.reload(*registry.entries()[0]));
-    CHECK(registry.find_importer("pbrt")->table != held->table);
     CHECK(held->table->probe("x.pbrt", "LookAt", 6) > 0);
 }
 
