@@ -41,7 +41,11 @@ Everything furnished(bool v4) {
         Instance{.name = "cloth here", .mesh = {2}, .material = {1}, .group = table, .object_to_world = place(1, 1)});
     made.add(Instance{.name = "lone", .mesh = {3}, .material = {2}, .group = made.add(Group{.name = "of one"})});
     apply(s, *set_hidden(s, std::array{Id<Instance>{4}, Id<Instance>{20}}, true));
-    made.add(Light{.name = "off", .kind = RESTAGE_LIGHT_SPOT, .light_to_world = place(1, 1), .hidden = true});
+    made.add(Light{.name = "off",
+                   .kind = RESTAGE_LIGHT_SPOT,
+                   .light_to_world = place(1, 1),
+                   .falloff = v4 ? RESTAGE_FALLOFF_SMOOTH : RESTAGE_FALLOFF_QUARTIC,
+                   .hidden = true});
     made.add(Camera{.name = "from above", .camera_to_world = place(3, 2), .fov = 50, .lens_radius = 0.1f});
     made.add(Camera{.name = "default"});
     return made;
