@@ -51,7 +51,8 @@ Result<int> run(const Options& o, Context& context) {
             std::printf("  %s\n", check::verdict_line(report).c_str());
         }
         if (!report.unable.empty())
-            context.log.error(report.id + ": its GLSL was not checked, for this machine cannot run it: " + report.unable);
+            context.log.error(report.id +
+                              ": its GLSL was not checked, for this machine cannot run it: " + report.unable);
         reports.push_back(std::move(report));
     }
     if (!o.json.empty()) {
@@ -83,9 +84,8 @@ void add_check(CLI::App& program, Context& context) {
     command->add_option("--seed", o->check.seed, "Seed of all random numbers; replays a failure")
         ->capture_default_str();
     std::vector<std::string> names;
-    for (const auto* steps :
-         {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(), &check::importer_steps(),
-          &check::exporter_steps()})
+    for (const auto* steps : {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(),
+                              &check::importer_steps(), &check::exporter_steps()})
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
     command->add_option("--only", o->check.only, "One step alone")->check(CLI::IsMember(names))->type_name("STEP");
