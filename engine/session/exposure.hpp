@@ -18,9 +18,9 @@ inline constexpr const char* no_light = "nothing shines in this scene, so its pi
 render::LightReading read_light(const scene::Scene&, const plugin::Registry&); // of what the active camera sees
 
 // Of a file that says nothing of exposure (ImportedScene::unexposed): the film's exposure is set so that white comes to
-// 0.6 in the picture, where it would be below 0.08 or above 4; where no light reaches what the camera sees, studio light
-// does (light_studio). Scenes of other files stay as they are. What was done, and that a scene has no light, is added to
-// the report. [worker]
+// 0.6 in the picture, where it would be below 0.08 or above 4; where no light reaches what the camera sees, studio
+// light does (light_studio). Scenes of other files stay as they are. What was done, and that a scene has no light, is
+// added to the report. [worker]
 void expose(io::ImportedScene&, const plugin::Registry&);
 
 // Studio light: a neutral sky, where there is none or a black one, and where that does not reach what the active camera
