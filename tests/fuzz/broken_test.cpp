@@ -192,10 +192,14 @@ TEST_CASE("broken: PLY files opened by themselves") {
     for (const Case& c : cases("ply")) {
         CAPTURE(c.path.filename().string());
         const auto result = io::import_scene(c.path.string(), importers.registry);
+        if (c.path.filename() == "no-faces.ply") { // points: they get a thickness
+            CHECK(result);
+            continue;
+        }
         REQUIRE_FALSE(result);
         const bool file = c.message.starts_with("report:");
         CHECK_THAT(result.error().message, ContainsSubstring(file ? c.message.substr(7) : c.message));
-        CHECK_THAT(result.error().message, ContainsSubstring(c.path.filename().string() + ": "));
+        CHECK_THAT(result.error().message, ContainsSubstring(c.path.filename().string() + ":"));
     }
 }
 

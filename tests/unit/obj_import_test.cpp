@@ -220,8 +220,8 @@ TEST_CASE("obj: options of textures may leave out numbers, and names may have bl
     CHECK(texture("a map_Kd").params.number("vdelta", 0) == 0.5);
     CHECK(texture("b map_Kd").params.number("uscale", 1) == 3);
     CHECK(texture("b map_Kd").params.number("vscale", 1) == 1);
-    CHECK(says(in, RESTAGE_DROPPED, "my wood.png", "no such file"));
-    CHECK(says(in, RESTAGE_DROPPED, "7.png", "no such file"));
+    CHECK(says(in, RESTAGE_DROPPED, "my wood.png", "No such file"));
+    CHECK(says(in, RESTAGE_DROPPED, "7.png", "No such file"));
     CHECK(says(in, RESTAGE_DROPPED, "m.mtl:9", "Kd spectral a.rfl"));
 }
 

@@ -11,8 +11,8 @@
 
 namespace restage::importing {
 
-// 3 a vertex, finite. `origin` stays 0 where floats are good enough: their rounding, 2^-24 of the largest coordinate, is
-// below a millionth of the size of what they describe.
+// 3 a vertex, finite. `origin` stays 0 where floats are good enough: their rounding, 2^-24 of the largest coordinate,
+// is below a millionth of the size of what they describe.
 inline std::vector<float> recentred(const std::vector<double>& positions, Vec3& origin) {
     Bounds bounds;
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3)

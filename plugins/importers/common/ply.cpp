@@ -163,9 +163,7 @@ class Reader {
                     target[p].set(i, value);
                 }
         }
-        const auto row_of = [&](std::size_t i) {
-            return rows_.is_plain(element) ? begin + i / 3 * element.stride : 0;
-        };
+        const auto row_of = [&](std::size_t i) { return rows_.is_plain(element) ? begin + i / 3 * element.stride : 0; };
         for (std::size_t i = 0; i < wide.size(); ++i)
             if (!(std::abs(wide[i]) <= double(std::numeric_limits<float>::max()))) not_finite(i / 3, row_of(i));
         for (std::size_t i = 0; i < mesh_.positions.size(); ++i)

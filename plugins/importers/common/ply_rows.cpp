@@ -64,6 +64,7 @@ void PlyRows::fail(const std::string& what) const {
 }
 
 std::string PlyRows::shortest(double value) {
+    if (value == std::floor(value) && std::abs(value) < 1e15) return std::to_string(static_cast<std::int64_t>(value));
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }

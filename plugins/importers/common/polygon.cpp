@@ -73,7 +73,19 @@ class EarCutter {
 
 } // namespace
 
-double cut_polygon(std::span<const Vec3> corners, std::vector<std::uint32_t>& out) {
+double cut_polygon(std::span<const Vec3> all, std::vector<std::uint32_t>& out) {
+    // A corner that is where the one before it is says nothing, and would hide which way the polygon turns there.
+    std::vector<std::uint32_t> which;
+    std::vector<Vec3> corners;
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+        if (all[i] != all[(i + all.size() - 1) % all.size()]) which.push_back(i), corners.push_back(all[i]);
+    if (corners.size() < all.size()) {
+        std::vector<std::uint32_t> cut;
+        const double off = cut_polygon(corners, cut);
+        for (const std::uint32_t i : cut)
+            out.push_back(which[i]);
+        return off;
+    }
     const std::size_t n = corners.size();
     if (n < 3) return 0;
     const auto fan = [&] {

@@ -10,7 +10,7 @@
 
 namespace restage::importing {
 
-// Cuts the polygon with these corners, in order, into corners.size() - 2 triangles of the same sense: indices into
+// Cuts the polygon with these corners, in order, into at most corners.size() - 2 triangles of the same sense: indices into
 // `corners`, three each, appended to `out`. Convex ones become a fan of the first corner; others lose ear after ear in
 // the plane that fits best (Meisters 1975; the least-squares normal is Newell's), so that their area is theirs however
 // many corners they have. Of one that crosses itself the parts that are left are a fan.

@@ -85,9 +85,8 @@ std::vector<Triangle> triangles_of(const MeshBuffer& mesh, const std::vector<flo
         if (area == 0 || !std::isfinite(area)) continue;
         const Vec3 p = mesh.position(c[0]);
         triangles[t].side = area > 0 ? 1 : -1;
-        triangles[t].tangent = normalized(((mesh.position(c[1]) - p) * u(2, 1) - (mesh.position(c[2]) - p) * u(1, 1)) *
-                                              triangles[t].side,
-                                          {0, 0, 0});
+        triangles[t].tangent = normalized(
+            ((mesh.position(c[1]) - p) * u(2, 1) - (mesh.position(c[2]) - p) * u(1, 1)) * triangles[t].side, {0, 0, 0});
     }
     return triangles;
 }
