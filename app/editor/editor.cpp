@@ -260,8 +260,8 @@ void Editor::document_changed() {
     up_ = session::guess_up(camera());
     if (const std::string scripts = unreadable_scripts(scene()); !scripts.empty())
         notices.add(LogLevel::warning, "Names here are " + scripts +
-                                           ", for which no font was found: they are shown as boxes. Install one (Noto "
-                                           "Sans has them all) and start Restage again");
+                                           ", for which no font was found: they are shown as boxes. Install one (the "
+                                           "Noto fonts have them all) and start Restage again");
 }
 
 void Editor::ask_for_base(const std::string& message, bool some_fits) {
