@@ -60,7 +60,7 @@ def test_rendering_with_a_cache_and_a_data_folder_that_cannot_be_made(tmp_path, 
 def test_reading_without_a_temporary_folder(blocked):
     for before in ([], ["--isolate"]):
         done = run(*before, "info", SPHERES, env={"TMPDIR": blocked})
-        assert done.stderr == "", done.stderr
+        assert done.stderr == run("info", SPHERES).stderr
 
 
 def test_crashes_are_not_remembered_and_one_line_says_so(tmp_path, blocked):
@@ -76,4 +76,4 @@ def test_a_temporary_folder_that_forbids_execution(tmp_path):
         pytest.skip("this user cannot mount a folder of its own")
     done = run("plugins", env={"TMPDIR": str(tmp_path)}, before=("unshare", "-m", "sh", "-c", mount, "sh"))
     assert "REFUSED" not in done.stdout and "material diffuse" in done.stdout, done.stdout
-    assert done.stderr == ""
+    assert "warning" not in done.stderr, done.stderr
