@@ -52,9 +52,12 @@ def test_rendering_without_home_and_cache(tmp_path):
 
 
 def test_rendering_with_a_cache_and_a_data_folder_that_cannot_be_made(tmp_path, blocked):
-    done = render(tmp_path, env={"XDG_CACHE_HOME": blocked, "XDG_DATA_HOME": blocked})
+    # The driver's own cache stays: without it this takes a minute.
+    usual = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "restage" / "mesa"
+    kept = os.environ.get("MESA_SHADER_CACHE_DIR", str(usual if usual.is_dir() else tmp_path))
+    done = render(tmp_path, env={"XDG_CACHE_HOME": blocked, "XDG_DATA_HOME": blocked, "MESA_SHADER_CACHE_DIR": kept})
     assert len(said(done, "compiled anew at each start")) == 1, done.stderr
-    assert len(done.stderr.splitlines()) <= 3, done.stderr
+    assert len(said(done, str(blocked))) == 1, done.stderr
 
 
 def test_reading_without_a_temporary_folder(blocked):
