@@ -94,7 +94,8 @@ TEST_CASE("a sky too bright for the film is left out, counted, and spoils no err
         b.set_film(16, 16);
         b.set_camera({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 100);
         b.instance(b.quad({-4, -4, 0}, {0, -4, 0}, {0, 4, 0}, {-4, 4, 0}), b.diffuse(0, 0, 0)); // half of it
-        b.environment(glm::vec3(bright));
+        b.scene.environment = {scene::Environment{.name = "sky", .image = b.image(2, 1, 1, {bright, bright})},
+                               ++b.scene.clock}; // as a constant it would be refused, see the next test
         renderer->forget_scene();
         renderer->reset_stats();
         REQUIRE(renderer->sync(b.scene));
@@ -109,6 +110,17 @@ TEST_CASE("a sky too bright for the film is left out, counted, and spoils no err
             CHECK(renderer->stats().dropped > 4 * 16 * 7); // half of them, or a little more
         CHECK((mean_luminance(image).value > 0) == (bright < 1e16f));
     }
+}
+
+TEST_CASE("a constant sky that no film can hold is refused with a sentence") {
+    const auto renderer = make_renderer("embree");
+    SceneBuilder b;
+    b.set_film(16, 16);
+    b.set_camera({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 100);
+    b.environment(glm::vec3(1e20f));
+    const auto synced = renderer->sync(b.scene);
+    REQUIRE_FALSE(synced);
+    CHECK(synced.error().message.find("environment") != std::string::npos);
 }
 
 TEST_CASE("a texture with NaN in it spoils no picture, and the log names it") {
