@@ -279,9 +279,10 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         if (in && (i >= old || scene.instances.version(id) > seen_.instances)) {
             const bool flat = !traceable(in->object_to_world);
             if (flat && !flat_[i] && !in->hidden)
-                changes.warnings.push_back(fmt::format("instance \"{}\": its transform flattens it, or makes it too "
-                                                       "small for rays; it is not rendered",
-                                                       in->name));
+                changes.warnings.push_back(
+                    fmt::format("instance \"{}\": its transform flattens it, or makes it too "
+                                "small for rays; it is not rendered",
+                                in->name));
             flat_[i] = flat;
         }
         const bool there = in && !in->hidden && !flat_[i] && mesh(in->mesh);

@@ -25,7 +25,8 @@ struct MeterQuestions { // of an instance
 };
 
 // From the active camera, through a pinhole. Direct light of lamps and shining surfaces, and what matte surfaces around
-// reflect of lamps: once by rays, more often as if it went on alike. Directions are fixed: the same for the same scene but for the last bits.
+// reflect of lamps: once by rays, more often as if it went on alike. Directions are fixed: the same for the same scene
+// but for the last bits.
 LightReading read_light(const scene::Scene&, const MeterQuestions&);
 
 } // namespace restage::render

@@ -6,9 +6,9 @@
 #include "scene/validate.hpp"
 #include "session/project.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 namespace restage::session {

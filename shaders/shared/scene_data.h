@@ -74,8 +74,8 @@ struct InstanceData { // 184 bytes
     uint object_id; // Id<Instance>
     uint emission_texture; // 0 = none
     uint pad0;
-    address tangents;        // vec4[] or 0; w: sign of the bitangent
-    address uvs2;            // vec2[] or 0: the second set
+    address tangents; // vec4[] or 0; w: sign of the bitangent
+    address uvs2; // vec2[] or 0: the second set
 };
 
 struct QuadricData { // 40 bytes; scene/quadric.hpp

@@ -47,15 +47,16 @@ inline RestageSceneWriter1 host() {
                 *count = 0;
                 return nullptr;
             },
-            .decode_image = [](void*, const void*, size_t, const char*, RestageDecodedImage* out) {
-                // Four texels, whatever the bytes: the decoders have a target of their own (fuzz_image).
-                static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255, 9, 9, 9, 0, 130, 120, 250, 255};
-                *out = {2, 2, 4, 8, texels, "", nullptr};
-                return 1;
-            },
+            .decode_image =
+                [](void*, const void*, size_t, const char*, RestageDecodedImage* out) {
+                    // Four texels, whatever the bytes: the decoders have a target of their own (fuzz_image).
+                    static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255,
+                                                           9, 9,   9,   0, 130, 120, 250, 255};
+                    *out = {2, 2, 4, 8, texels, "", nullptr};
+                    return 1;
+                },
             .release_image = [](void*, RestageDecodedImage* image) { *image = {}; }};
 }
-
 
 // Writes the bytes to a file with that extension and hands it to the importer.
 inline void import(const uint8_t* data, std::size_t size, const char* extension,

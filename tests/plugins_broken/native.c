@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* An importer, an exporter, a denoiser and a material with an inspector and a table, each right as it stands; a macro
  * NATIVE_* makes one wrong. tests/scripts/test_check_native.py gives them manifests. */
+#include <math.h>
 #include <restage/denoiser.h>
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
 #include <restage/table.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -158,14 +158,15 @@ static int run(const RestageDenoiseJob* job, const char** reason) {
 }
 static const RestageDenoiser1 denoiser = {sizeof(RestageDenoiser1), "copy", "Copy", available, run};
 
-/* --- a material with an inspector and a table ---------------------------------------------------------------------- */
+/* --- a material with an inspector and a table ----------------------------------------------------------------------
+ */
 
 static const RestageParam params[] = {
     {"share", "Share", RESTAGE_FLOAT, 0, 0, 1, {0.5f}, "", NULL, "Of light."},
     {"file", "File", RESTAGE_TABLE, 0, 0, 0, {0}, "", NULL, "Numbers."},
 };
-static const RestageMaterial1 material = {sizeof(RestageMaterial1), 0,      "broken", "Broken", "broken",
-                                          "broken.glsl",            params, 2,        "Grey."};
+static const RestageMaterial1 material = {
+    sizeof(RestageMaterial1), 0, "broken", "Broken", "broken", "broken.glsl", params, 2, "Grey."};
 
 static void draw(const RestageUi1* ui, void* ctx) {
     static const char* const names[] = {"Half", "All"};

@@ -38,7 +38,8 @@ class Headless {
         test_io.ConfigVerboseLevel = ImGuiTestVerboseLevel_Error;
         test_io.ConfigVerboseLevelOnError = ImGuiTestVerboseLevel_Info;
         test_io.ConfigLogToTTY = true;
-        test_io.ConfigWatchdogWarning = test_io.ConfigWatchdogKillTest = 1e9f; // a busy machine: ctest's limit comes first
+        test_io.ConfigWatchdogWarning = test_io.ConfigWatchdogKillTest =
+            1e9f; // a busy machine: ctest's limit comes first
         ImGuiTestEngine_Start(engine_, ImGui::GetCurrentContext());
         render::RendererOptions renderer;
         renderer.tracer = "embree";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host whose language writes decimal commas (Python after locale.setlocale, another program around the engine) changes
-// nothing that is read or written.
+// A host whose language writes decimal commas (Python after locale.setlocale, another program around the engine)
+// changes nothing that is read or written.
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
@@ -22,7 +22,8 @@ namespace {
 // No machine is sure to have German: this is its category LC_NUMERIC as glibc's localedef compiles it (decimal_point
 // ",", thousands_sep ".", grouping 3;3; the format is as old as glibc 2.3), in a folder that LOCPATH names.
 constexpr char lc_numeric[] =
-    "\x14\x11\x03\x20\x06\0\0\0\x20\0\0\0\x22\0\0\0\x24\0\0\0\x28\0\0\0\x2c\0\0\0\x30\0\0\0,\0.\0\x03\x03\0\0,\0\0\0.\0\0\0"
+    "\x14\x11\x03\x20\x06\0\0\0\x20\0\0\0\x22\0\0\0\x24\0\0\0\x28\0\0\0\x2c\0\0\0\x30\0\0\0,\0.\0\x03\x03\0\0,\0\0\0."
+    "\0\0\0"
     "ANSI_X3.4-1968";
 
 struct Commas : std::numpunct<char> {
@@ -65,12 +66,16 @@ TEST_CASE("files are read alike in every locale", "[locale]") {
     Folder folder;
     // By its content alone; and a number that only underflow makes special.
     REQUIRE(write_file_atomic(folder.path / "points.txt", "v 0.5 0.5 0.5\nv 1.5 0.25 0\nv 0 1.5 0.5\nf 1 2 3\n"));
-    REQUIRE(write_file_atomic(folder.path / "tiny.pbrt",
-                              "WorldBegin\nTranslate 1e-400 -2.5e-999999999999999999999 0.5\n"
-                              "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1.5 0 0 0 1.5 0] \"integer indices\" [0 1 2]\n"));
-    const std::vector<std::string> files = {(data() / "pbrt/everything.pbrt").string(), (data() / "models/thing.obj").string(),
-                                            (data() / "models/thing.gltf").string(),    (data() / "models/thing.stl").string(),
-                                            folder.file("points.txt"),                folder.file("tiny.pbrt")};
+    REQUIRE(
+        write_file_atomic(folder.path / "tiny.pbrt",
+                          "WorldBegin\nTranslate 1e-400 -2.5e-999999999999999999999 0.5\n"
+                          "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1.5 0 0 0 1.5 0] \"integer indices\" [0 1 2]\n"));
+    const std::vector<std::string> files = {(data() / "pbrt/everything.pbrt").string(),
+                                            (data() / "models/thing.obj").string(),
+                                            (data() / "models/thing.gltf").string(),
+                                            (data() / "models/thing.stl").string(),
+                                            folder.file("points.txt"),
+                                            folder.file("tiny.pbrt")};
     for (const std::string& file : files) {
         INFO(file);
         const auto plain = io::import_scene(file, plugins.registry);
@@ -94,7 +99,8 @@ TEST_CASE("files are written alike in every locale", "[locale]") {
     for (const bool v4 : {true, false}) {
         const Everything all(v4);
         const auto write = [&](const Folder& folder) {
-            const auto done = io::export_scene(all.scene, folder.file("all.pbrt"), plugins.registry, version(v4 ? "v4" : "v3"));
+            const auto done =
+                io::export_scene(all.scene, folder.file("all.pbrt"), plugins.registry, version(v4 ? "v4" : "v3"));
             INFO((done ? "" : done.error().message));
             REQUIRE(done);
         };
@@ -109,10 +115,11 @@ TEST_CASE("files are written alike in every locale", "[locale]") {
 TEST_CASE("a shutter and a light that were kept as text are read alike in every locale", "[locale]") {
     Plugins plugins;
     Folder folder;
-    REQUIRE(write_file_atomic(folder.path / "kept.pbrt",
-                              "Camera \"perspective\" \"float fov\" [40.5] \"float shutteropen\" [0.25] \"float shutterclose\" "
-                              "[0.75]\nWorldBegin\nLightSource \"point\" \"blackbody I\" [3000.5] \"float power\" [12.5]\n"
-                              "Shape \"sphere\" \"float radius\" [0.5]\n"));
+    REQUIRE(write_file_atomic(
+        folder.path / "kept.pbrt",
+        "Camera \"perspective\" \"float fov\" [40.5] \"float shutteropen\" [0.25] \"float shutterclose\" "
+        "[0.75]\nWorldBegin\nLightSource \"point\" \"blackbody I\" [3000.5] \"float power\" [12.5]\n"
+        "Shape \"sphere\" \"float radius\" [0.5]\n"));
     const auto round = [&](const char* name) {
         const auto in = io::import_scene(folder.file("kept.pbrt"), plugins.registry);
         INFO((in ? "" : in.error().message));

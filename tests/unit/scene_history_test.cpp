@@ -128,7 +128,9 @@ TEST_CASE("a gesture may insert and then move what it inserted", "[scene]") {
 TEST_CASE("a cancelled drag leaves everything as it was, also what could be redone", "[scene]") {
     Room r;
     History history;
-    const auto move = [&](double x) { return *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {x, 0, 0})); };
+    const auto move = [&](double x) {
+        return *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {x, 0, 0}));
+    };
     history.push(r.scene, move(1));
     history.push(r.scene, move(2));
     history.mark_clean();

@@ -177,9 +177,11 @@ void Exporter::put_mapping(Params& params, const Values& values, const std::stri
     for (const auto& [id, otherwise] : {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
         if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
     if (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0)
-        approximated(what, "it is turned on the surface, and pbrt's mapping only scales and shifts; the turn is left out");
+        approximated(what,
+                     "it is turned on the surface, and pbrt's mapping only scales and shifts; the turn is left out");
     if (values.number("uvset", 0) == 1)
-        approximated(what, "it lies on the second texture coordinates of its meshes, and pbrt's have one; it lies on those");
+        approximated(what,
+                     "it lies on the second texture coordinates of its meshes, and pbrt's have one; it lies on those");
     const std::string mapping = values.choice("mapping", "uv");
     if (mapping == "uv") return;
     params.add_string("mapping", mapping);

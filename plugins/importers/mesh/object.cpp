@@ -41,7 +41,8 @@ class Maker {
             report_.approximated("mesh", note);
         for (const auto& [what, how_much] : in_.not_read)
             report_.dropped(what, how_much);
-        if (!in_.edges.empty() && !thick_) report_.dropped("edges", std::to_string(in_.edges.size() / 2) + " lines have no surface");
+        if (!in_.edges.empty() && !thick_)
+            report_.dropped("edges", std::to_string(in_.edges.size() / 2) + " lines have no surface");
         if (in_.origin != Vec3{})
             report_.kept("coordinates", "they are large for their differences; the mesh is kept about a point of it");
         return bounds_;
@@ -84,10 +85,10 @@ class Maker {
         Strokes strokes = lines ? thick_lines(in_.mesh.positions, in_.edges) : thick_points(in_.mesh.positions, points);
         thick_ = true;
         const std::string what = lines ? "lines" : "points";
-        report_.approximated(what, "the file has no faces; its " +
-                                       std::to_string(lines ? in_.edges.size() / 2 : points.size()) + " " + what +
-                                       " get a radius of " + std::to_string(strokes.radius) +
-                                       (strokes.step > 1 ? ", every " + std::to_string(strokes.step) + "th of them" : ""));
+        report_.approximated(
+            what, "the file has no faces; its " + std::to_string(lines ? in_.edges.size() / 2 : points.size()) + " " +
+                      what + " get a radius of " + std::to_string(strokes.radius) +
+                      (strokes.step > 1 ? ", every " + std::to_string(strokes.step) + "th of them" : ""));
         std::vector<float> colors;
         for (std::size_t t = 0; t < strokes.mesh.triangle_count() && !in_.vertex_colors.empty(); ++t) {
             const std::size_t stroke = t / strokes.triangles_each * strokes.step;
@@ -137,16 +138,16 @@ class Maker {
             const bool faces = !in_.triangle_colors.empty();
             const auto& colors = faces ? in_.triangle_colors : in_.vertex_colors;
             const std::vector<std::uint32_t> corners = faces ? std::vector<std::uint32_t>() : in_.mesh.indices;
-            const RestageHandle image = bake_colors(out_, name_ + " colours", in_.mesh, [&](std::size_t t, std::size_t c) {
-                return linear(colors, faces ? t : corners[3 * t + c]);
-            });
+            const RestageHandle image = bake_colors(
+                out_, name_ + " colours", in_.mesh,
+                [&](std::size_t t, std::size_t c) { return linear(colors, faces ? t : corners[3 * t + c]); });
             if (faces && !in_.vertex_colors.empty())
                 report_.dropped("vertex colours", "the faces have colours, which are shown");
             if (image) {
                 object(in_.mesh, name_,
                        diffuse("colours", add_imagemap(out_, name_ + " colours", image, false, Mapping{})), "");
-                report_.kept("mesh", what + "; the colours of its " + (faces ? "faces" : "vertices") +
-                                         " are a texture");
+                report_.kept("mesh",
+                             what + "; the colours of its " + (faces ? "faces" : "vertices") + " are a texture");
                 return;
             }
             Rgb mean{};
@@ -178,8 +179,8 @@ class Maker {
         std::vector<RestageHandle> materials;
         for (const std::string& picture : in_.pictures) {
             const std::string file = find_file(path_.parent_path(), picture).string();
-            materials.push_back(
-                diffuse(picture, add_imagemap(out_, picture, add_image_file(out_, file, RESTAGE_SRGB), false, Mapping{})));
+            materials.push_back(diffuse(
+                picture, add_imagemap(out_, picture, add_image_file(out_, file, RESTAGE_SRGB), false, Mapping{})));
         }
         std::size_t without = 0;
         for (std::size_t p = 0; p < materials.size(); ++p) {

@@ -72,8 +72,8 @@ std::optional<double> number(std::string_view word) {
     double value = 0;
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-    const bool tiny = problem == std::errc::result_out_of_range &&
-                      (word.find("e-") != word.npos || word.find("E-") != word.npos);
+    const bool tiny =
+        problem == std::errc::result_out_of_range && (word.find("e-") != word.npos || word.find("E-") != word.npos);
     if (tiny) return 0;
     return problem == std::errc() && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }

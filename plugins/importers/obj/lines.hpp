@@ -11,7 +11,7 @@ namespace restage::obj {
 
 struct Statement {
     std::uint32_t line = 0, column = 0; // of the first character of `rest`
-    std::string_view word, rest;        // the keyword; what follows it, without blanks around. Valid until the next one
+    std::string_view word, rest; // the keyword; what follows it, without blanks around. Valid until the next one
 };
 
 // Takes \n, \r\n and \r as ends of a line, and a byte order mark at the beginning of the text.

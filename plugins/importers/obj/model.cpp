@@ -100,7 +100,8 @@ class Reader {
         for (std::size_t i = 0; i < width; ++i) {
             const auto word = words.next();
             const auto value = word ? number(*word) : std::nullopt;
-            if (!value && (word || all || i == 0)) ++model_.skipped.try_emplace(broken_name(), now_.line, 0).first->second.second;
+            if (!value && (word || all || i == 0))
+                ++model_.skipped.try_emplace(broken_name(), now_.line, 0).first->second.second;
             const double most = double(std::numeric_limits<float>::max());
             to.push_back(static_cast<float>(std::clamp(value.value_or(0), -most, most)));
         }
@@ -194,8 +195,9 @@ class Reader {
 
     void resolve(std::vector<std::uint32_t>& vertices) const { // faces may name what follows, and so may these
         for (const std::uint32_t i : vertices)
-            if (i >= count(0)) throw ImportError{"a line or point names vertex " + std::to_string(i + 1) + " of " +
-                                                 std::to_string(count(0))};
+            if (i >= count(0))
+                throw ImportError{"a line or point names vertex " + std::to_string(i + 1) + " of " +
+                                  std::to_string(count(0))};
     }
 
     struct Face {
@@ -215,7 +217,8 @@ class Reader {
     [[noreturn]] void fail_at(const Face& face, std::size_t which) const {
         Statements again(text_);
         Statement s;
-        while (again.next(s) && s.line != face.line) {}
+        while (again.next(s) && s.line != face.line) {
+        }
         Words words(s.rest, s.column);
         for (std::size_t i = 0; i <= which; ++i)
             words.next();

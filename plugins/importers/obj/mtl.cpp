@@ -19,25 +19,42 @@ struct Known {
     What what;
 };
 constexpr Known known_statements[] = {
-    {"Ka", "ka", What::color},           {"Kd", "kd", What::color},
-    {"Ks", "ks", What::color},           {"Ke", "ke", What::color},
-    {"Tf", "tf", What::color},           {"Tf", "kt", What::color},
-    {"Ns", "ns", What::number},          {"Ni", "ni", What::number},
-    {"d", "d", What::number},            {"Tr", "tr", What::number},
-    {"illum", "illum", What::number},    {"Pr", "pr", What::number},
-    {"Pm", "pm", What::number},          {"Ps", "ps", What::number},
-    {"Pc", "pc", What::number},          {"Pcr", "pcr", What::number},
-    {"aniso", "aniso", What::number},    {"anisor", "anisor", What::number},
+    {"Ka", "ka", What::color},
+    {"Kd", "kd", What::color},
+    {"Ks", "ks", What::color},
+    {"Ke", "ke", What::color},
+    {"Tf", "tf", What::color},
+    {"Tf", "kt", What::color},
+    {"Ns", "ns", What::number},
+    {"Ni", "ni", What::number},
+    {"d", "d", What::number},
+    {"Tr", "tr", What::number},
+    {"illum", "illum", What::number},
+    {"Pr", "pr", What::number},
+    {"Pm", "pm", What::number},
+    {"Ps", "ps", What::number},
+    {"Pc", "pc", What::number},
+    {"Pcr", "pcr", What::number},
+    {"aniso", "aniso", What::number},
+    {"anisor", "anisor", What::number},
     {"sharpness", "sharpness", What::number},
-    {"map_Ka", "map_ka", What::texture}, {"map_Kd", "map_kd", What::texture},
-    {"map_Ks", "map_ks", What::texture}, {"map_Ke", "map_ke", What::texture},
-    {"map_Ns", "map_ns", What::texture}, {"map_d", "map_d", What::texture},
+    {"map_Ka", "map_ka", What::texture},
+    {"map_Kd", "map_kd", What::texture},
+    {"map_Ks", "map_ks", What::texture},
+    {"map_Ke", "map_ke", What::texture},
+    {"map_Ns", "map_ns", What::texture},
+    {"map_d", "map_d", What::texture},
     {"map_d", "map_opacity", What::texture},
-    {"map_Pr", "map_pr", What::texture}, {"map_Pm", "map_pm", What::texture},
-    {"map_Ps", "map_ps", What::texture}, {"bump", "bump", What::texture},
-    {"bump", "map_bump", What::texture}, {"norm", "norm", What::texture},
-    {"norm", "map_kn", What::texture},   {"disp", "disp", What::texture},
-    {"disp", "map_disp", What::texture}, {"refl", "refl", What::texture},
+    {"map_Pr", "map_pr", What::texture},
+    {"map_Pm", "map_pm", What::texture},
+    {"map_Ps", "map_ps", What::texture},
+    {"bump", "bump", What::texture},
+    {"bump", "map_bump", What::texture},
+    {"norm", "norm", What::texture},
+    {"norm", "map_kn", What::texture},
+    {"disp", "disp", What::texture},
+    {"disp", "map_disp", What::texture},
+    {"refl", "refl", What::texture},
     {"refl", "map_refl", What::texture},
 };
 
@@ -108,7 +125,9 @@ MtlTexture read_texture(std::string_view rest, std::uint32_t column) {
 
 void read_statement(const Known& known, const Statement& s, Mtl& material) {
     Words words(s.rest, s.column);
-    const auto say = [&] { material.not_understood.try_emplace(std::string(s.word) + " " + std::string(s.rest), s.line); };
+    const auto say = [&] {
+        material.not_understood.try_emplace(std::string(s.word) + " " + std::string(s.rest), s.line);
+    };
     switch (known.what) {
         case What::color: {
             std::array<double, 3> color{};
@@ -158,8 +177,8 @@ std::vector<Mtl> read_mtl(std::string_view text) {
             continue;
         }
         if (result.empty()) continue;
-        const auto* found =
-            std::find_if(std::begin(known_statements), std::end(known_statements), [&](const Known& k) { return word == k.lower; });
+        const auto* found = std::find_if(std::begin(known_statements), std::end(known_statements),
+                                         [&](const Known& k) { return word == k.lower; });
         if (found != std::end(known_statements))
             read_statement(*found, s, result.back());
         else
