@@ -4,6 +4,7 @@
 #include "library.hpp"
 
 #include <restage/denoiser.h>
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -126,9 +127,46 @@ int oidn_quality(const State& s, uint32_t quality) {
     return quality == RESTAGE_DENOISE_FAST && has_fast ? quality_fast : quality_balanced;
 }
 
+std::string denoise(State& s, const RestageDenoiseJob& job);
+
+// The network takes what lies outside of a picture for black, so a tiny one is mostly border: its outermost
+// pixels are repeated on all sides until there is something to see.
+constexpr uint32_t least_side = 64;
+
+std::string denoise_padded(State& s, const RestageDenoiseJob& job) {
+    RestageDenoiseJob wide = job;
+    wide.width = std::max(job.width, least_side);
+    wide.height = std::max(job.height, least_side);
+    const std::size_t left = (wide.width - job.width) / 2, top = (wide.height - job.height) / 2;
+    const auto inside = [](std::size_t at, std::size_t border, uint32_t size) -> std::size_t {
+        return std::min<std::size_t>(at - std::min(at, border), size - 1);
+    };
+    const auto pad = [&](const float* in, std::vector<float>& out) -> const float* {
+        if (!in) return nullptr;
+        out.resize(std::size_t{3} * wide.width * wide.height);
+        for (std::size_t y = 0; y < wide.height; ++y)
+            for (std::size_t x = 0; x < wide.width; ++x) {
+                const std::size_t from = inside(y, top, job.height) * job.width + inside(x, left, job.width);
+                std::copy_n(in + 3 * from, 3, &out[3 * (y * wide.width + x)]);
+            }
+        return out.data();
+    };
+    std::vector<float> color, albedo, normal;
+    wide.color = pad(job.color, color);
+    wide.albedo = pad(job.albedo, albedo);
+    wide.normal = pad(job.normal, normal);
+    wide.output = color.data();
+    if (std::string error = denoise(s, wide); !error.empty()) return error;
+    for (std::size_t y = 0; y < job.height; ++y)
+        std::copy_n(&color[3 * ((y + top) * wide.width + left)], std::size_t{3} * job.width,
+                    job.output + 3 * y * job.width);
+    return {};
+}
+
 std::string denoise(State& s, const RestageDenoiseJob& job) {
     if (job.size < sizeof(RestageDenoiseJob)) return "the job is of an older program than this plugin";
     if (!job.color || !job.output || job.width == 0 || job.height == 0) return "the job has no picture";
+    if (job.width < least_side || job.height < least_side) return denoise_padded(s, job);
     if (!ensure_library(s)) return s.unavailable_reason;
     if (std::string error = ensure_device(s, job.threads); !error.empty()) return error;
 
