@@ -225,7 +225,6 @@ put("models/syntax.gltf", '{\n "asset": {"version": "2.0"},\n nodes\n}', "syntax
 put("models/empty.gltf", "", "empty.gltf")
 put("models/array.gltf", "[1, 2, 3]", "array.gltf")
 put("models/version-1.gltf", gltf(asset={"version": "1.0"}), "glTF 1.0")
-put("models/no-scene.gltf", gltf(scenes=[]), "no scene")
 put("models/no-mesh.gltf", gltf(nodes=[{"name": "nothing"}]), "shows nothing")
 put("models/scene-9.gltf", gltf(scene=9), "scene 9")
 put("models/node-9.gltf", gltf(scenes__0__nodes=[9]), "node 9")
