@@ -2,8 +2,8 @@
 #include "common/tangents.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -17,25 +17,23 @@ Vec3 across(Vec3 v, Vec3 n) { return v - n * dot(v, n); }
 
 // Vertices that are the same point to a tangent frame: numbers of classes.
 std::vector<std::uint32_t> weld(const MeshBuffer& mesh, const std::vector<float>& uv) {
-    using Key = std::array<float, 8>;
+    using Key = std::array<std::uint32_t, 8>; // by bits: an order also where a number is none
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.f); }; // -0 is 0
     std::vector<Key> keys(mesh.vertex_count());
     for (std::size_t i = 0; i < keys.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
-            keys[i][c] = mesh.positions[3 * i + c] + 0.f; // -0 is 0
-            keys[i][3 + c] = mesh.normals.empty() ? 0.f : mesh.normals[3 * i + c] + 0.f;
+            keys[i][c] = bits(mesh.positions[3 * i + c]);
+            keys[i][3 + c] = mesh.normals.empty() ? 0u : bits(mesh.normals[3 * i + c]);
         }
-        keys[i][6] = uv[2 * i] + 0.f;
-        keys[i][7] = uv[2 * i + 1] + 0.f;
+        keys[i][6] = bits(uv[2 * i]);
+        keys[i][7] = bits(uv[2 * i + 1]);
     }
-    const auto less = [&](std::uint32_t a, std::uint32_t b) { // by bits: an order also where a number is none
-        const int order = std::memcmp(&keys[a], &keys[b], sizeof(Key));
-        return order != 0 ? order < 0 : a < b;
-    };
+    const auto less = [&](std::uint32_t a, std::uint32_t b) { return std::tie(keys[a], a) < std::tie(keys[b], b); };
     std::vector<std::uint32_t> order(keys.size()), result(keys.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), less);
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && std::memcmp(&keys[order[i - 1]], &keys[order[i]], sizeof(Key)) == 0;
+        const bool same = i > 0 && keys[order[i - 1]] == keys[order[i]];
         result[order[i]] = same ? result[order[i - 1]] : order[i];
     }
     return result;
