@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """eval of the closed-form materials, as the GPU computes it in single precision, against double precision from the papers:
-1e4 random configurations each, relative 1e-4. docs/references.md has what was measured.
+1e4 random configurations each, relative 2e-4. docs/references.md has what was measured.
 
 Single precision cannot keep 1e-4 where the value itself changes by more when directions and parameters change in their
 last digits (far out in the tail of a narrow lobe, at grazing angles). So the bound is 2e-4 |f| plus what the *reference*
