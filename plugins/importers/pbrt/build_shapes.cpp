@@ -65,7 +65,8 @@ void Builder::placeholder(const Directive& d, const std::string& name, const std
     if (!is_affine(to_world) || !(std::abs(determinant3(to_world)) > 0)) return;
     const std::string called = take_name({name});
     RestageInstance instance = instance_of(d, to_world);
-    if ((instance.mesh = missing_mesh(called, line, file)) == 0) return;
+    instance.mesh = missing_mesh(called, line, file);
+    if (!instance.mesh) return;
     const Mesh none;
     const std::string emitted = state_.area_light && d.verb != Verb::light_source ? emission(d, none, instance) : "";
     place(instance, called, emitted);
