@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #if defined(__unix__) || defined(__APPLE__)
 #include <pthread.h>
 #include <unistd.h>
@@ -31,7 +32,7 @@ struct HostKeeper {
     HostKeeper() = default;
     HostKeeper(const HostKeeper&) = delete;
     ~HostKeeper() {
-        if (is_forked) new std::shared_ptr<Host>(std::move(host));
+        if (is_forked) new (std::nothrow) std::shared_ptr<Host>(std::move(host));
     }
 };
 
