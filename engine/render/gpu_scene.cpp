@@ -110,7 +110,8 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         const scene::MeshData& data = *mesh->data;
         GpuMesh g;
         g.version = scene.meshes.version(id);
-        if ((g.quadric = scene::quadric_of(*mesh))) {
+        g.quadric = scene::quadric_of(*mesh);
+        if (g.quadric) {
             const shared::QuadricData q = quadric_data(*g.quadric);
             RESTAGE_TRY(g.buffer, device_->create_buffer(sizeof q, gpu::BufferKind::host, mesh->name.c_str()));
             RESTAGE_CHECK(device_->upload(g.buffer, 0, std::as_bytes(std::span(&q, 1))));

@@ -95,7 +95,10 @@ Result<std::string> hand_over_pictures(io::ImportedScene& imported, const fs::pa
             const auto size = io::hand_over_image(job.image.path, file, &job.warning);
             if (!size) {
                 job.problem = size.error().message;
-            } else if ((total += *size) > most_picture_bytes) {
+                continue;
+            }
+            const std::uint64_t sum = total += *size;
+            if (sum > most_picture_bytes) {
                 job.problem = job.image.path + ": the scene's pictures take more than 16 GiB";
                 std::error_code ignored;
                 fs::remove(file, ignored);

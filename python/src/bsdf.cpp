@@ -6,6 +6,7 @@
 #include "check/bsdf_lab.hpp"
 
 #include <cstddef>
+#include <new>
 #include <type_traits>
 
 namespace restage::python {
@@ -73,13 +74,16 @@ class Lab {
 
     ~Lab() {
         if (!Host::forked()) return;
-        (void)compiler_.release();
-        (void)device_.release();
-        new std::optional(std::move(lab_));
+        new (std::nothrow) Kept{std::move(device_), std::move(compiler_), std::move(lab_)};
     }
     Lab(const Lab&) = delete;
 
   private:
+    struct Kept { // for ever: a forked child must not end what has threads
+        std::unique_ptr<gpu::Device> device;
+        std::unique_ptr<gpu::ShaderCompiler> compiler;
+        std::optional<check::BsdfLab> lab;
+    };
     std::shared_ptr<Host> host_;
     std::string type_;
     std::span<const RestageParam> table_;
