@@ -15,7 +15,11 @@ Result<std::vector<std::uint32_t>> parse_frames(const std::string& text) {
         at = to;
         return code == std::errc();
     };
-    const auto is = [&](char c) { return at < end && *at == c && ++at; };
+    const auto is = [&](char c) {
+        if (at == end || *at != c) return false;
+        ++at;
+        return true;
+    };
     do {
         std::uint32_t first = 0, step = 1;
         bool good = number(first);
