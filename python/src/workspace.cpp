@@ -4,6 +4,7 @@
 #include "session/navigation.hpp"
 
 #include <algorithm>
+#include <new>
 #include <set>
 
 namespace restage::python {
@@ -38,7 +39,7 @@ void Workspace::end_step() {
 }
 
 Workspace::~Workspace() {
-    if (Host::forked()) (void)renderer_.release(); // it would wait for its threads
+    if (Host::forked()) new (std::nothrow) std::unique_ptr(std::move(renderer_)); // it would wait for its threads
 }
 
 RendererUse::RendererUse(Workspace& workspace) : in_(workspace) {
