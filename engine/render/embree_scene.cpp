@@ -127,10 +127,10 @@ constexpr float largest_coordinate = 5e17f; // of a point before three products 
 // What else it asserts: numbers, and an interval that begins at 0 or later. Whatever kernels computed from a scene of
 // absurd sizes is a miss instead.
 bool can_be_asked(const glm::vec3& origin, const glm::vec3& direction, float near, float far, float reach) {
-    bool sound = near >= 0 && near <= far;
-    for (int k = 0; k < 3; ++k)
-        sound = sound && std::abs(origin[k]) <= reach && std::abs(direction[k]) <= 1e3f;
-    return sound;
+    // Sums of what is not negative, which NaN spoils, too; without a branch, as this is asked of every ray.
+    const float far_out = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z);
+    const float steep = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+    return (near >= 0) & (near <= far) & (far_out <= reach) & (steep <= 1e3f);
 }
 
 } // namespace

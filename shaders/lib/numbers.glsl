@@ -8,7 +8,9 @@ const uint EXPONENT_BITS = 0x7f800000u;
 
 bool is_nan(float x) { return (floatBitsToUint(x) & 0x7fffffffu) > EXPONENT_BITS; }
 bool finite(float x) { return (floatBitsToUint(x) & EXPONENT_BITS) != EXPONENT_BITS; }
-bool finite(vec3 c) { return finite(c.x) && finite(c.y) && finite(c.z); }
+// A sum is finite where all its terms are and it does not overflow, which nothing here may come close to: one test for
+// what would take three.
+bool finite(vec3 c) { return finite(c.x + c.y + c.z); }
 bool positive(float x) { return floatBitsToUint(x) - 1u < EXPONENT_BITS; } // infinity is; NaN, 0 and -0 are not
 
 #endif

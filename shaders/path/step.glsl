@@ -131,9 +131,10 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe.x), rng);
-    ok = ok && finite(shadow_contribution) && finite(path.radiance);
-    if (shadow.tmax > 0.0) ok = ok && finite(shadow.origin) && finite(shadow.direction);
-    if (b.flags != 0u) ok = ok && finite(b.weight) && finite(b.wi) && finite(vec3(b.pdf, b.eta, 0.0));
+    vec3 sums = shadow_contribution + path.radiance;
+    if (shadow.tmax > 0.0) sums += shadow.origin + shadow.direction;
+    if (b.flags != 0u) sums += b.weight + b.wi + vec3(b.pdf, b.eta, 0.0);
+    ok = ok && finite(sums);
     if (!ok) {
         shadow.tmax = -1.0;
         return false;
@@ -164,7 +165,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
     next.origin = offset_origin(s.p, s.ng, s.offset, wi_world);
     next.direction = normalize(wi_world);
-    if (!finite(next.origin) || !finite(next.direction)) {
+    if (!finite(next.origin + next.direction)) {
         shadow.tmax = -1.0;
         return false;
     }
