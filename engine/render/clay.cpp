@@ -42,19 +42,9 @@ void aim(const shared::CameraData& camera, std::uint32_t kind, glm::vec2 film, s
 } // namespace
 
 FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& jobs, glm::uvec2 size) {
-    FilmImage image;
-    image.width = size.x;
-    image.height = size.y;
+    FilmImage image = FilmImage::blank(size.x, size.y);
     image.samples = 1;
-    const std::size_t n = std::size_t(size.x) * size.y;
-    image.color.assign(n, ground);
-    image.std_error.resize(n);
-    image.luminance_variance.resize(n);
-    image.albedo.resize(n);
-    image.normal.resize(n);
-    image.depth.resize(n);
-    image.instance_id.resize(n);
-    image.material_id.resize(n);
+    image.color.assign(image.color.size(), ground);
     const shared::CameraData& camera = scene.data().camera;
     jobs.parallel_for(size.y, 4, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t y = begin; y < end; ++y)

@@ -24,11 +24,11 @@ void Film::clear() {
     std::memset(guides_.mapped(), 0, guides_.size());
 }
 
-FilmImage Film::read() const {
+FilmImage FilmImage::blank(std::uint32_t width, std::uint32_t height) {
     FilmImage image;
-    image.width = width_;
-    image.height = height_;
-    const std::size_t n = std::size_t(width_) * height_;
+    image.width = width;
+    image.height = height;
+    const std::size_t n = std::size_t(width) * height;
     image.color.resize(n);
     image.std_error.resize(n);
     image.luminance_variance.resize(n);
@@ -37,6 +37,12 @@ FilmImage Film::read() const {
     image.depth.resize(n);
     image.instance_id.resize(n);
     image.material_id.resize(n);
+    return image;
+}
+
+FilmImage Film::read() const {
+    FilmImage image = FilmImage::blank(width_, height_);
+    const std::size_t n = image.color.size();
     const auto pixels = pixels_.span<shared::FilmPixel>();
     const auto guides = guides_.span<shared::GuidePixel>();
     for (std::size_t i = 0; i < n; ++i) {

@@ -23,6 +23,8 @@ struct FilmImage {
     std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)
     std::vector<float> depth; // mean distance of the first hit; 0 = nothing
     std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = nothing
+
+    static FilmImage blank(std::uint32_t width, std::uint32_t height); // all zeros
 };
 
 class Film {

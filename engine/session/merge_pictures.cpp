@@ -167,8 +167,7 @@ Result<StoredPicture> read_picture(const std::string& path) {
     StoredPicture out;
     out.metadata = std::move(image.metadata);
     FilmImage& film = out.film;
-    film.width = image.width;
-    film.height = image.height;
+    film = FilmImage::blank(image.width, image.height);
     out.ranges = parse_ranges(metadata(out, "restage:ranges"));
     for (const SampleRange& r : out.ranges)
         film.samples += r.count;
@@ -176,15 +175,6 @@ Result<StoredPicture> read_picture(const std::string& path) {
         return fail(path +
                     ": does not say how many samples it has; only pictures that `restage render` wrote as .exr "
                     "can be continued and merged");
-    const std::size_t pixels = std::size_t{film.width} * film.height;
-    film.color.resize(pixels);
-    film.std_error.resize(pixels);
-    film.luminance_variance.resize(pixels);
-    film.albedo.resize(pixels);
-    film.normal.resize(pixels);
-    film.depth.resize(pixels);
-    film.instance_id.resize(pixels);
-    film.material_id.resize(pixels);
     const auto to = [](std::vector<glm::vec3>& where) {
         return [&where](std::size_t i, const std::vector<float>& v) { where[i] = {v[0], v[1], v[2]}; };
     };
