@@ -186,6 +186,30 @@ TEST_CASE("obj: what other programs write is read", "[obj]") {
     CHECK(areas(load(comb + "v 0 0 0\n" + face + " 903\n")) == Approx(300 + 300));
 }
 
+TEST_CASE("obj: comments and options may stand behind what they belong to", "[obj]") {
+    ModelFiles files;
+    files.write("my lib.mtl", "newmtl red # of the door\nKd 1 0 0 # as paint\nillum 1\n");
+    files.write("more.mtl",
+                "newmtl tex\nillum 1\nmap_Kd wood #2.png -s 3 2\nnewmtl other\nillum 1\nmap_Kd oak.png # planks\n");
+    files.write("a.obj", std::string("mtllib my lib.mtl more.mtl # both\n") + square +
+                             "usemtl red\nf 1 2 3 # the first\nusemtl  tex\nf 1 3 4#\nusemtl other\nf 1 2 4 #\n");
+    CHECK_THAT(files.error("a.obj"), ContainsSubstring("a.obj:13:7: the face names \"4#\""));
+    files.write("a.obj", std::string("mtllib my lib.mtl more.mtl # both\n") + square +
+                             "usemtl red\nf 1 2 3 # the first\nusemtl tex\nf 1 3 4 #\nusemtl other\nf 1 2 4\n");
+    const auto in = files.load("a.obj");
+    const auto& material = in.scene.materials[scene::find_by_name<scene::Material>(in.scene, "red # of the door")];
+    CHECK(material.params.color("reflectance", {}) == std::array<float, 3>{1, 0, 0});
+    const auto texture = [&](const char* name) -> const scene::Texture& {
+        return in.scene.textures[scene::find_by_name<scene::Texture>(in.scene, name)];
+    };
+    CHECK(texture("tex map_Kd").params.number("uscale", 1) == 3);
+    CHECK(texture("tex map_Kd").params.number("vscale", 1) == 2);
+    CHECK(says(in, RESTAGE_DROPPED, "wood #2.png", "No such file"));
+    CHECK(says(in, RESTAGE_DROPPED, "oak.png", "No such file"));
+    for (const io::ReportEntry& entry : in.report.entries)
+        CHECK(entry.what.find("mtllib") == std::string::npos);
+}
+
 TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
     ModelFiles files;
     files.write("utm.obj",

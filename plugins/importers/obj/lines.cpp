@@ -56,7 +56,7 @@ bool Statements::next(Statement& out) {
 
 std::optional<std::string_view> Words::next() {
     const std::size_t start = rest_.find_first_not_of(blanks, at_);
-    if (start == rest_.npos) return std::nullopt;
+    if (start == rest_.npos || rest_[start] == '#') return std::nullopt;
     start_ = start;
     at_ = std::min(rest_.find_first_of(blanks, start), rest_.size());
     return rest_.substr(start, at_ - start);

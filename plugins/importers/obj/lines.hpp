@@ -29,7 +29,7 @@ class Statements {
     std::string joined_;
 };
 
-// Words of a statement's rest, from left to right.
+// Words of a statement's rest, from left to right, up to a comment.
 class Words {
   public:
     Words(std::string_view rest, std::uint32_t column) : rest_(rest), first_column_(column) {}

@@ -20,8 +20,20 @@ namespace fs = std::filesystem;
 Importer::Importer(const RestageSceneWriter1& writer, const fs::path& path, std::string_view text)
     : out_(writer), path_(path), text_(text), report_(writer, path.string()) {}
 
+namespace {
+
+// What two spellings of a material's name have in common: not the case, the number of blanks, or a comment behind.
+std::string bare(const std::string& name) {
+    std::string result;
+    std::istringstream words(lower(name));
+    for (std::string word; words >> word && (result.empty() || word[0] != '#');)
+        result += result.empty() ? word : " " + word;
+    return result;
+}
+
+} // namespace
+
 void Importer::read_libraries() {
-    std::error_code code;
     std::vector<std::pair<std::string, std::uint32_t>> names; // in the order of the file, each once
     const auto add = [&](const std::string& name, std::uint32_t line) {
         if (std::none_of(names.begin(), names.end(), [&](const auto& n) { return n.first == name; }))
@@ -30,13 +42,24 @@ void Importer::read_libraries() {
     for (const auto& [rest, line] : model_.libraries) {
         std::string name = rest;
         if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-        if (fs::exists(find_file(path_.parent_path(), name), code)) { // a name with blanks
-            add(name, line);
-            continue;
+        const auto exists = [&](const std::string& file) {
+            std::error_code code;
+            return fs::exists(find_file(path_.parent_path(), file), code);
+        };
+        // One name with blanks, or several; the longest that is there counts.
+        std::vector<std::string> words;
+        std::istringstream stream(name);
+        for (std::string word; stream >> word && (words.empty() || word[0] != '#');)
+            words.push_back(word);
+        if (exists(name)) words = {name};
+        for (std::size_t i = 0; i < words.size();) {
+            std::string longest = words[i], so_far = words[i];
+            std::size_t next = i + 1;
+            for (std::size_t k = i + 1; k < words.size(); ++k)
+                if (so_far += " " + words[k]; exists(so_far)) longest = so_far, next = k + 1;
+            add(longest, line);
+            i = next;
         }
-        std::istringstream words(name);
-        for (std::string word; words >> word;)
-            add(word, line);
     }
     for (const auto& [name, line] : names) {
         const fs::path file = find_file(path_.parent_path(), name);
@@ -57,7 +80,7 @@ const Mtl* Importer::find(const std::string& name) const {
     for (const bool exact : {true, false})
         for (const Library& library : libraries_)
             for (const Mtl& m : library.materials)
-                if (exact ? m.name == name : !found && lower(m.name) == lower(name)) found = &m;
+                if (exact ? m.name == name : !found && bare(m.name) == bare(name)) found = &m;
     return found;
 }
 

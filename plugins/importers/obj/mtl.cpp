@@ -58,15 +58,19 @@ constexpr Known known_statements[] = {
     {"refl", "map_refl", What::texture},
 };
 
-void read_numbers(Words& words, std::array<double, 3>& to) { // one, two or three
+constexpr std::string_view known_options[] = {"-s",     "-o",      "-t",       "-mm",        "-bm",
+                                              "-boost", "-texres", "-clamp",   "-blendu",    "-blendv",
+                                              "-cc",    "-type",   "-imfchan", "-colorspace"};
+
+// One, two or three; `name_follows`: "-s 2 2 7" is two numbers and a file.
+void read_numbers(Words& words, std::array<double, 3>& to, bool name_follows) {
     for (double& value : to) {
         const auto word = words.peek();
         const auto read = word ? number(*word) : std::nullopt;
         if (!read) return;
-        // "-s 2 2 7.png" is no number; "-s 2 2 7" would be: a file name must be left.
         Words behind = words;
         behind.next();
-        if (behind.remainder().empty()) return;
+        if (name_follows && behind.remainder().empty()) return;
         value = *read;
         words = behind;
     }
@@ -80,21 +84,18 @@ double read_number(Words& words, double otherwise) {
     return *read;
 }
 
-// "-s 2 2 -bm .5 my file.png": options, then the name, which may have blanks or quotes.
-MtlTexture read_texture(std::string_view rest, std::uint32_t column) {
-    MtlTexture result;
-    Words words(rest, column);
+// Takes the options that are next.
+void read_options(Words& words, MtlTexture& result, bool name_follows) {
     while (const auto option = words.peek()) {
-        const Words before = words;
-        if (!option->starts_with('-')) break;
-        words.next();
         const std::string name = importing::lower(*option);
+        if (std::ranges::find(known_options, name) == std::end(known_options)) return; // a file may begin with "-"
+        words.next();
         if (name == "-s") {
-            read_numbers(words, result.scale);
+            read_numbers(words, result.scale, name_follows);
         } else if (name == "-o") {
-            read_numbers(words, result.offset);
+            read_numbers(words, result.offset, name_follows);
         } else if (name == "-t") {
-            read_numbers(words, result.turbulence);
+            read_numbers(words, result.turbulence, name_follows);
         } else if (name == "-mm") {
             result.base = read_number(words, 0);
             result.gain = read_number(words, 1);
@@ -102,24 +103,39 @@ MtlTexture read_texture(std::string_view rest, std::uint32_t column) {
             result.bump = read_number(words, 1);
         } else if (name == "-boost" || name == "-texres") {
             read_number(words, 0);
-        } else if (name == "-clamp" || name == "-blendu" || name == "-blendv" || name == "-cc") {
-            const std::string value = importing::lower(words.peek().value_or(""));
-            if (value == "on" || value == "off" || value == "1" || value == "0") words.next();
-            if (name == "-clamp") result.clamp = value != "off" && value != "0";
         } else if (name == "-imfchan") {
             result.channel = importing::lower(words.next().value_or(""));
         } else if (name == "-colorspace") {
             result.colorspace = importing::lower(words.next().value_or(""));
         } else if (name == "-type") {
             words.next();
-        } else { // a file whose name begins with it
-            words = before;
-            break;
+        } else { // -clamp, -blendu, -blendv, -cc
+            const std::string value = importing::lower(words.peek().value_or(""));
+            if (value == "on" || value == "off" || value == "1" || value == "0") words.next();
+            if (name == "-clamp") result.clamp = value != "off" && value != "0";
         }
     }
-    result.file = words.remainder();
-    if (result.file.size() >= 2 && result.file.front() == '"' && result.file.back() == '"')
-        result.file = result.file.substr(1, result.file.size() - 2);
+}
+
+// "-s 2 2 -bm .5 my file.png": options, then the name, which may have blanks or quotes. Some write options, or a
+// comment, behind it.
+MtlTexture read_texture(std::string_view rest, std::uint32_t column) {
+    MtlTexture result;
+    Words words(rest, column);
+    read_options(words, result, true);
+    std::string_view file = words.remainder();
+    for (std::size_t blank = file.find(' '); blank != file.npos; blank = file.find(' ', blank + 1)) {
+        const std::string_view behind = file.substr(blank + 1);
+        Words tail(behind, 0);
+        const std::string word = importing::lower(tail.peek().value_or(""));
+        const bool ends = behind.starts_with('#') || std::ranges::find(known_options, word) != std::end(known_options);
+        if (!ends || file.find('.') >= blank) continue; // no name yet
+        read_options(tail, result, false);
+        file = file.substr(0, file.find_last_not_of(' ', blank) + 1);
+        break;
+    }
+    if (file.size() >= 2 && file.front() == '"' && file.back() == '"') file = file.substr(1, file.size() - 2);
+    result.file = file;
     return result;
 }
 
