@@ -140,6 +140,19 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
     CHECK(first_texel(faces) == std::array<float, 3>{0, 0, 1});
     CHECK(says(faces, RESTAGE_DROPPED, "f.ply", "face property \"quality\": 2 values"));
     CHECK(says(faces, RESTAGE_DROPPED, "f.ply", "1 are named, but nothing says"));
+    // An opacity beside the colours is worth a word only where something can be seen through.
+    const std::string rgba = rgb + "property uchar alpha\n";
+    const auto with_opacity = [&](const char* vertex, const char* face) {
+        const auto row = [&](const char* place) { return std::string(place) + " 255 0 0 " + vertex + "\n"; };
+        files.write("a.ply", "\xef\xbb\xbf" + ply(rgba, "element face 1\n" + list + rgba,
+                                                  row("0 0 0") + row("1 0 0") + row("1 1 0") + row("0 1 0") +
+                                                      "3 0 1 2 0 0 255 " + face + "\n"));
+        return files.load("a.ply");
+    };
+    const auto opaque = with_opacity("255", "255"), thin = with_opacity("128", "0");
+    CHECK_FALSE(says(opaque, RESTAGE_DROPPED, "a.ply", "alpha"));
+    CHECK(says(thin, RESTAGE_DROPPED, "a.ply", "vertex property \"alpha\": 4 values"));
+    CHECK(says(thin, RESTAGE_DROPPED, "a.ply", "face property \"alpha\": 1 values"));
 }
 
 TEST_CASE("ply: MeshLab's textures, by the corners of faces", "[mesh]") {

@@ -125,6 +125,7 @@ class Reader {
         if (wanted_.colors)
             for (const auto& names : color_names)
                 if (bind(mesh_.colors, names, true)) break;
+        if (!mesh_.colors.empty()) bind(opacity_, {"alpha"}, true);
         for (std::size_t p = 0; p < out.size(); ++p)
             if (!out[p]) unread(element, element.properties[p]);
         return out;
@@ -173,6 +174,13 @@ class Reader {
             if (!std::isfinite(value)) value = 0;
         for (float& value : mesh_.colors)
             value = value > 0 ? std::min(value, 1.f) : 0; // NaN too
+        for (const float value : opacity_)
+            see_through("vertex", value);
+    }
+
+    // Colours are written with an opacity that nearly always says nothing.
+    void see_through(const std::string& what, double opacity) {
+        if (opacity < 0.999) ++mesh_.not_read[what + " property \"alpha\""];
     }
 
     [[noreturn]] void not_finite(std::size_t vertex, std::size_t byte = 0) const {
@@ -213,6 +221,7 @@ class Reader {
                          find(element, names.begin()[2])};
             if (at[0] >= 0 && at[1] >= 0 && at[2] >= 0) std::copy_n(at, 3, color);
         }
+        const int alpha = color[0] >= 0 ? find(element, "alpha") : -1;
         has_uvs_ = uvs >= 0, has_texture_ = texture >= 0, has_color_ = color[0] >= 0;
         mesh_.indices.reserve(element.count * 3);
         const PlyProperty& indices = element.properties[static_cast<std::size_t>(list)];
@@ -221,7 +230,7 @@ class Reader {
                            (indices.type == PlyType::i32 || indices.type == PlyType::u32);
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
             const int i = static_cast<int>(p);
-            if (i != list && i != uvs && i != texture && std::find(color, color + 3, i) == color + 3)
+            if (i != list && i != uvs && i != texture && i != alpha && std::find(color, color + 3, i) == color + 3)
                 unread(element, element.properties[p]);
         }
         Face face;
@@ -251,6 +260,8 @@ class Reader {
                 } else if (channel != color + 3) {
                     const double value = rows_.number(property.type) / white(property.type);
                     face.color[channel - color] = static_cast<float>(value > 0 ? std::min(value, 1.0) : 0);
+                } else if (at == alpha) {
+                    see_through("face", rows_.number(property.type) / white(property.type));
                 } else {
                     rows_.skip(property);
                 }
@@ -337,6 +348,7 @@ class Reader {
     PlyHeader header_;
     PlyRows rows_;
     PlyMesh mesh_;
+    std::vector<float> opacity_; // of vertices
     bool has_uvs_ = false, has_texture_ = false, has_color_ = false;
     std::vector<std::uint32_t> cut_;
     std::vector<Vec3> points_;
@@ -344,6 +356,9 @@ class Reader {
 
 } // namespace
 
-PlyMesh read_ply(std::string_view bytes, const PlyWanted& wanted) { return Reader(bytes, wanted).read(); }
+PlyMesh read_ply(std::string_view bytes, const PlyWanted& wanted) {
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3); // a byte order mark, as Windows' editors put it
+    return Reader(bytes, wanted).read();
+}
 
 } // namespace restage::importing
