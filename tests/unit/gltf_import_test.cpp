@@ -223,6 +223,9 @@ TEST_CASE("gltf: what is wrong is named as glTF counts it", "[gltf]") {
     CHECK_THAT(broken([](Builder& b) { b.root["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }),
                ContainsSubstring("KHR_draco_mesh_compression"));
     CHECK_THAT(broken([](Builder& b) { b.root["asset"]["version"] = "1.0"; }), ContainsSubstring("glTF 1.0"));
+    CHECK_THAT(broken([](Builder& b) { b.root["asset"]["minVersion"] = "2.1"; }), ContainsSubstring("minVersion"));
+    files.write("a.gltf", " \n");
+    CHECK_THAT(files.error("a.gltf"), ContainsSubstring("the file is empty"));
     files.write("a.gltf", "{\n  \"asset\": {\"version\": \"2.0\"},\n  nodes\n}\n");
     CHECK_THAT(files.error("a.gltf"), ContainsSubstring("a.gltf:3:4: "));
     files.write("a.glb", std::string("glTF\2\0\0\0\xff\0\0\0", 12) + std::string(20, '\0'));

@@ -81,6 +81,7 @@ void Importer::light(int index, int light_index) {
                        .cone_delta = 5};
     for (std::size_t i = 0; i < 3; ++i)
         light.value[i] = static_cast<float>(std::max(in.intensity * (i < in.color.size() ? in.color[i] : 1.0), 0.0));
+    if (in.intensity < 0) report_.approximated(what, "its intensity is negative; 0 is taken");
     if (in.type == "directional") {
         light.kind = RESTAGE_LIGHT_DISTANT;
     } else if (in.type == "spot") {

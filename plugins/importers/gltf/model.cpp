@@ -217,6 +217,7 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
     if (bytes.size() > 0xffffffffu) throw ImportError{"the file is larger than 4 GiB, which glTF does not allow"};
     const bool binary = bytes.starts_with("glTF");
     if (binary) check_header(bytes);
+    if (bytes.find_first_not_of(" \t\r\n") == bytes.npos) throw ImportError{"the file is empty"};
     check_depth(bytes, binary);
     BufferFiles files = buffer_files(path.parent_path(), binary ? json_of(bytes) : bytes);
     reader.SetFsCallbacks(file_access(files));
@@ -235,6 +236,9 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
     if (!read) fail(errors, binary);
     if (!model.asset.version.empty() && model.asset.version[0] != '2')
         throw ImportError{"this is glTF " + model.asset.version + "; version 2 is read: convert it"};
+    const std::string& least = model.asset.minVersion; // glTF 2.0, 3.2
+    if (!least.empty() && least != "2.0" && least != "2")
+        throw ImportError{"it is for programs that read glTF " + least + " (asset.minVersion); version 2.0 is read"};
     return model;
 }
 
