@@ -279,6 +279,23 @@ TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colo
     CHECK(in.report.count(RESTAGE_APPROXIMATED) == 0);
 }
 
+TEST_CASE("gltf: a picture of the thickness of a film mixes its two bounds", "[gltf]") {
+    ModelFiles files;
+    Square b;
+    b.material()["name"] = "a bubble of soap with a long name";
+    b.material()["extensions"]["KHR_materials_iridescence"] = {{"iridescenceFactor", 1},
+                                                               {"iridescenceThicknessMinimum", 150},
+                                                               {"iridescenceThicknessMaximum", 550},
+                                                               {"iridescenceThicknessTexture", texture()}};
+    const auto in = b.load(files);
+    const auto& mix = texture_of(in, material_of(in).params, "iridescence_thickness");
+    CHECK(mix.name == "a bubble of soap with a long name film");
+    CHECK(mix.type == "mix");
+    CHECK(mix.params.number("tex1", 0) == 150);
+    CHECK(mix.params.number("tex2", 0) == 550);
+    CHECK(mix.params.texture("amount"));
+}
+
 TEST_CASE("gltf: a coat that is not as the normal map below it is reported", "[gltf]") {
     ModelFiles files;
     Square b;

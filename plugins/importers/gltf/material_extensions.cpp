@@ -51,7 +51,8 @@ void Importer::iridescence(const tinygltf::Value& v, MadeMaterial& made, Values&
     mix.number("tex1", least);
     mix.number("tex2", most);
     mix.texture("amount", RESTAGE_FLOAT, amount);
-    const RestageTexture between = {.text = {(made.name + " film").c_str(), "", ""},
+    const std::string film = made.name + " film";
+    const RestageTexture between = {.text = {film.c_str(), "", ""},
                                     .type = "mix",
                                     .is_float = 1,
                                     .image = 0,
