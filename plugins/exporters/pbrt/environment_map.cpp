@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An environment picture in the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
+// A picture of all directions in the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
 // P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008, as in pbrt-v4.
 #include "exporter.hpp"
 
@@ -30,7 +30,7 @@ Direction from_octahedral(double px, double py) {
 }
 
 // pbrt-v4 EqualAreaSphereToSquare, with the exact arc tangent.
-std::array<double, 2> to_octahedral(Direction w) {
+std::array<double, 2> octahedral_of(Direction w) {
     const double x = std::abs(w.x), y = std::abs(w.y), z = std::abs(w.z);
     const double r = std::sqrt(std::max(0.0, 1 - z));
     const double phi = x == 0 && y == 0 ? 0 : std::atan2(std::min(x, y), std::max(x, y)) * 2 / pi;
@@ -48,7 +48,7 @@ Direction from_equirect(double u, double v) {
     const double phi = 2 * pi * u, theta = pi * v, s = std::sin(theta);
     return {s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
 }
-std::array<double, 2> to_equirect(Direction w) {
+std::array<double, 2> equirect_of(Direction w) {
     const double phi = std::atan2(w.y, w.x);
     return {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi), std::acos(std::clamp(w.z, -1.0, 1.0)) / pi};
 }
@@ -82,37 +82,46 @@ class Picture {
 
 } // namespace
 
+OwnPicture resampled(const RestageImage& image, bool to_octahedral, std::uint32_t least_side) {
+    // About as many pixels as before; four samples a side of each, so that narrow lights keep their energy.
+    const auto side =
+        std::max(least_side, static_cast<std::uint32_t>(std::lround(std::sqrt(double(image.width) * image.height))));
+    OwnPicture out;
+    out.width =
+        to_octahedral ? side : std::max(2u, static_cast<std::uint32_t>(std::lround(double(side) * std::sqrt(2.0))));
+    out.height = to_octahedral ? side : std::max(1u, out.width / 2);
+    const Picture from(image, to_octahedral);
+    constexpr int samples = 4;
+    out.pixels.resize(std::size_t{out.width} * out.height * 3);
+    for (std::uint32_t y = 0; y < out.height; ++y)
+        for (std::uint32_t x = 0; x < out.width; ++x)
+            for (int s = 0; s < samples * samples; ++s) {
+                const double u = (x + (s % samples + 0.5) / samples) / out.width,
+                             v = (y + (s / samples + 0.5) / samples) / out.height;
+                const auto at = to_octahedral ? equirect_of(from_octahedral(u, v)) : octahedral_of(from_equirect(u, v));
+                from.add_bilinear(at[0], at[1], 1.0 / (samples * samples),
+                                  &out.pixels[(std::size_t{y} * out.width + x) * 3]);
+            }
+    return out;
+}
+
+std::string Exporter::own_picture(const OwnPicture& picture, const std::string& name) {
+    const RestageImage image{
+        .width = picture.width, .height = picture.height, .channels = 3, .pixels = picture.pixels.data()};
+    const std::string file = out_.unique_file("textures", plain_name(name), ".pfm");
+    out_.write(file, pfm_bytes(image));
+    return file;
+}
+
 std::string Exporter::environment_file(const RestageEnvironment& e) {
     RestageImage image{};
     if (!in_.image(in_.ctx, e.image, &image) || !image.pixels || image.width == 0) return "";
-    const bool to_oct = !v3();
-    // About as many pixels as before; four samples a side of each, so that narrow lights keep their energy.
-    const auto side =
-        std::max(2u, static_cast<std::uint32_t>(std::lround(std::sqrt(double(image.width) * image.height))));
-    const std::uint32_t width =
-        to_oct ? side : std::max(2u, static_cast<std::uint32_t>(std::lround(double(side) * std::sqrt(2.0))));
-    const std::uint32_t height = to_oct ? side : std::max(1u, width / 2);
-    const Picture from(image, to_oct);
-    constexpr int samples = 4;
-    std::vector<float> pixels(std::size_t{width} * height * 3);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x)
-            for (int s = 0; s < samples * samples; ++s) {
-                const double u = (x + (s % samples + 0.5) / samples) / width,
-                             v = (y + (s / samples + 0.5) / samples) / height;
-                const auto at = to_oct ? to_equirect(from_octahedral(u, v)) : to_octahedral(from_equirect(u, v));
-                from.add_bilinear(at[0], at[1], 1.0 / (samples * samples), &pixels[(std::size_t{y} * width + x) * 3]);
-            }
-    std::string bytes = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1\n";
-    for (std::uint32_t row = height; row-- > 0;)
-        bytes.append(reinterpret_cast<const char*>(&pixels[std::size_t{row} * width * 3]),
-                     std::size_t{width} * 3 * sizeof(float));
-    const std::string file =
-        out_.unique_file("textures", plain_name(e.text.name) + (to_oct ? "_octahedral" : "_equirect"), ".pfm");
-    out_.write(file, bytes);
+    const bool to_octahedral = !v3();
+    const std::string file = own_picture(resampled(image, to_octahedral, 2),
+                                         std::string(e.text.name) + (to_octahedral ? "_octahedral" : "_equirect"));
     approximated(std::string("environment \"") + e.text.name + "\"",
                  std::string("its picture was resampled to ") +
-                     (to_oct ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");
+                     (to_octahedral ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");
     return file;
 }
 

@@ -47,6 +47,13 @@ struct Kept {
     std::vector<std::string> foreign;              // of another format: comments
 };
 
+struct OwnPicture { // made by the export; RGB, row 0 is the top
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> pixels;
+};
+// From the other version's mapping of all directions: equirectangular is pbrt-v3's, octahedral v4's.
+OwnPicture resampled(const RestageImage&, bool to_octahedral, std::uint32_t least_side);
+
 class Exporter {
   public:
     Exporter(const RestageSceneReader1& reader, Options options, Output& output)
@@ -106,9 +113,18 @@ class Exporter {
     // write_world.cpp
     std::string medium(RestageHandle);
     void lights();
+    void light(RestageHandle);
     void environment();
     std::string environment_file(
         const RestageEnvironment&); // its picture in the other mapping, "" = there are no pixels
+    std::string own_picture(const OwnPicture&, const std::string& name); // its file
+
+    // write_picture_lights.cpp: goniometric and projection
+    struct PictureLight;
+    bool picture_light(const RestageLight&, const std::string& what, std::string& type, Params&);
+    void goniometric(PictureLight&, std::string& type, Params&);
+    void projection(PictureLight&, Params&);
+    RestageHandle picture_named(const std::string& file);
 
     // write_shapes.cpp
     struct Placement { // one Shape in the file, or one ObjectInstance
@@ -155,5 +171,6 @@ bool is_identity(const double m[16]);
 std::optional<std::array<double, 16>> inverse(const double m[16]);
 std::array<double, 16> multiply(const double a[16], const double b[16]);
 std::string ply_bytes(const RestageMesh&);
+std::string pfm_bytes(const RestageImage&); // rows from the bottom, little-endian; alpha is left out
 
 } // namespace restage::pbrt_out

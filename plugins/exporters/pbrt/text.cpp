@@ -183,6 +183,8 @@ std::string Params::value(std::string_view name) const {
     return "";
 }
 
+std::string Params::string(std::string_view name) const { return unquote(value(name)); }
+
 void Params::map_strings(const std::function<std::string(const std::string&)>& f) {
     for (Entry& e : entries_)
         if (e.value.starts_with('"') && skip_string(e.value, 0) == e.value.size()) e.value = quote(f(unquote(e.value)));

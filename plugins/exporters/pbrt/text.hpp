@@ -37,6 +37,7 @@ class Params {
     // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no relative names of files.
     bool stands_alone() const;
     std::string value(std::string_view name) const; // "" = absent
+    std::string string(std::string_view name) const; // without its quotes; "" = absent
     void map_strings(const std::function<std::string(const std::string&)>&); // each value that is one string
     bool empty() const { return entries_.empty(); }
     std::string text(std::string_view separator = " ") const;

@@ -8,18 +8,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string pfm_bytes(const RestageImage& image) { // rows from the bottom, little-endian; alpha is left out
-    const std::uint32_t channels = image.channels == 1 ? 1 : 3;
-    std::string out =
-        (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1\n";
-    for (std::uint32_t row = image.height; row-- > 0;)
-        for (std::uint32_t x = 0; x < image.width; ++x) {
-            const float* pixel = image.pixels + (std::size_t{row} * image.width + x) * image.channels;
-            out.append(reinterpret_cast<const char*>(pixel), channels * sizeof(float));
-        }
-    return out;
-}
-
 std::string extension_of(const std::string& path) {
     std::string extension = fs::path(path).extension().string();
     for (char& c : extension)
@@ -32,6 +20,18 @@ bool is_float_file(const std::string& extension) {
 }
 
 } // namespace
+
+std::string pfm_bytes(const RestageImage& image) {
+    const std::uint32_t channels = image.channels == 1 ? 1 : 3;
+    std::string out =
+        (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1\n";
+    for (std::uint32_t row = image.height; row-- > 0;)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const float* pixel = image.pixels + (std::size_t{row} * image.width + x) * image.channels;
+            out.append(reinterpret_cast<const char*>(pixel), channels * sizeof(float));
+        }
+    return out;
+}
 
 std::string Exporter::place_file(const std::string& path) {
     std::string& file = files_[path];

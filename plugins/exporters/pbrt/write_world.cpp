@@ -81,17 +81,27 @@ void Exporter::environment() {
 }
 
 void Exporter::lights() {
-    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_LIGHT); ++h) {
-        RestageLight light{};
-        if (!in_.light(in_.ctx, h, &light)) continue;
-        const std::string what = std::string("light \"") + light.text.name + "\"";
-        const Kept k = kept(light.text, what);
+    for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_LIGHT); ++h)
+        light(h);
+}
+
+void Exporter::light(RestageHandle handle) {
+    RestageLight light{};
+    if (!in_.light(in_.ctx, handle, &light)) return;
+    const std::string what = std::string("light \"") + light.text.name + "\"";
+    std::string type, rest;
+    Params params;
+    const bool has_picture = picture_light(light, what, type, params);
+    for (const std::string& line : lines(light.text.verbatim))
+        if (!line.starts_with("=whole ")) rest += line + "\n";
+    const Kept k = kept({light.text.name, rest.c_str(), light.text.verbatim_format}, what);
+    if (!has_picture) {
         const std::array<float, 3> value{light.value[0], light.value[1], light.value[2]};
         const char* point_type = v3() ? "point" : "point3";
-        const char* type = "point";
-        Params params;
+        params = {};
         switch (light.kind) {
             case RESTAGE_LIGHT_POINT:
+                type = "point";
                 params.add_rgb("I", value);
                 break;
             case RESTAGE_LIGHT_SPOT:
@@ -111,29 +121,20 @@ void Exporter::lights() {
                 params.add_rgb("L", value).add(point_type, "from", "0 0 0").add(point_type, "to", "0 0 1");
                 break;
             default:
-                continue;
+                return;
         }
         put_exact(params, k, "value", light.value, what);
-        for (const std::string& text : k.lines)
-            params.add_raw(text);
-        Params whole; // of a kind that is only approximated here
-        std::string kind = type;
-        if (put_exact(whole, k, "whole", light.value, what)) {
-            const KeptLine l = split_directive(k.for_values.at("whole").substr(k.for_values.at("whole").find('L')));
-            kind = l.name;
-            params = Params().add_raw(l.rest);
-            for (const char* placed : {"from", "to"}) // are in the transform already
-                params.remove(placed);
-        }
-        text_ += "\n";
-        const std::size_t start = text_.size();
-        text_ += "AttributeBegin\n";
-        mark("    ", "name", {light.text.name});
-        comment(k.foreign, "    ");
-        transform(light.light_to_world, "    ");
-        text_ += "    LightSource " + quote(kind) + " " + finished(params) + "\nAttributeEnd\n";
-        if (light.flags & RESTAGE_LIGHT_HIDDEN) only_for_us(start); // pbrt would light the scene with it
     }
+    for (const std::string& text : k.lines)
+        params.add_raw(text);
+    text_ += "\n";
+    const std::size_t start = text_.size();
+    text_ += "AttributeBegin\n";
+    mark("    ", "name", {light.text.name});
+    comment(k.foreign, "    ");
+    transform(light.light_to_world, "    ");
+    text_ += "    LightSource " + quote(type) + " " + finished(params) + "\nAttributeEnd\n";
+    if (light.flags & RESTAGE_LIGHT_HIDDEN) only_for_us(start); // pbrt would light the scene with it
 }
 
 } // namespace restage::pbrt_out

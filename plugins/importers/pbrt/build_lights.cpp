@@ -55,12 +55,12 @@ void Builder::light(const Directive& d) {
     const double power = d.params.number("power", -1);
     const auto from = d.params.triple("from", {0, 0, 0}), to = d.params.triple("to", {0, 0, 1});
     const Vec3 origin{from[0], from[1], from[2]}, direction = Vec3{to[0], to[1], to[2]} - origin;
-    const bool aims = d.name == "spot" || is_distant;
+    const bool aims = d.name == "spot" || is_distant, is_placed = aims || d.name == "point";
     if (aims && !(length(direction) > 0))
         throw ImportError{d.at, what + ": \"from\" and \"to\" are the same point; move one"};
     if (d.name == "spot" || d.name == "projection") {
         out.kind = RESTAGE_LIGHT_SPOT;
-        to_world = to_world * translation(origin);
+        if (is_placed) to_world = to_world * translation(origin);
         if (aims) to_world = to_world * frame_along(direction);
         double cone = d.params.number("coneangle", 30), delta = d.params.number("conedeltaangle", 5);
         if (d.name == "projection") {
@@ -84,7 +84,7 @@ void Builder::light(const Directive& d) {
         if (illuminance > 0) scale *= illuminance;
     } else if (d.name == "point" || d.name == "goniometric") {
         out.kind = RESTAGE_LIGHT_POINT;
-        to_world = to_world * translation(origin);
+        if (is_placed) to_world = to_world * translation(origin);
         if (power > 0) scale *= power / (4 * std::numbers::pi);
         if (d.name == "goniometric") {
             d.params.mark_all_used();
@@ -101,6 +101,10 @@ void Builder::light(const Directive& d) {
     out.value[1] = static_cast<float>(value.g);
     out.value[2] = static_cast<float>(value.b);
     std::memcpy(out.light_to_world, to_world.m.data(), sizeof out.light_to_world);
+    // For the exporter, and so that it can be found where it is missing. v3 takes it as it is, v4 decodes 8-bit ones.
+    if (const std::string file = d.params.string(import_.v3() ? "mapname" : "filename", "");
+        !file.empty() && (d.name == "goniometric" || d.name == "projection"))
+        image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, true);
     std::string verbatim = import_.keep_unused(d.params, what);
     if (d.name == "goniometric" || d.name == "projection") { // `whole`: all of it, as long as the colour is this
         std::string numbers;
