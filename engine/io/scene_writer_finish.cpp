@@ -36,7 +36,11 @@ void SceneWriter::read_images(Jobs& jobs) {
     });
     for (Job& job : work) {
         const std::string who = "image \"" + job.image.name + "\"";
-        if (!job.problem.empty())
+        // The importer may have named the place that asks for it.
+        const bool told = std::ranges::any_of(report.entries, [&](const ReportEntry& entry) {
+            return entry.fate == RESTAGE_DROPPED && entry.note.ends_with(": " + job.image.path);
+        });
+        if (!job.problem.empty() && !told)
             report.add(RESTAGE_DROPPED, who, job.problem, job.image.path);
         else if (!job.warning.empty())
             report.add(RESTAGE_APPROXIMATED, who, job.warning, job.image.path);

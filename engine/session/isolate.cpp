@@ -108,7 +108,10 @@ Result<std::string> hand_over_pictures(io::ImportedScene& imported, const fs::pa
     json list = json::array();
     for (const Job& job : work) {
         const std::string who = "image \"" + job.image.name + "\"";
-        if (!job.problem.empty())
+        const bool told = std::ranges::any_of(imported.report.entries, [&](const io::ReportEntry& entry) {
+            return entry.fate == RESTAGE_DROPPED && entry.note.ends_with(": " + job.image.path);
+        });
+        if (!job.problem.empty() && !told)
             imported.report.add(RESTAGE_DROPPED, who, job.problem, job.image.path);
         else if (!job.warning.empty())
             imported.report.add(RESTAGE_APPROXIMATED, who, job.warning, job.image.path);

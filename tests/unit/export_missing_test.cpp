@@ -138,6 +138,20 @@ TEST_CASE("strict exports refuse what the format lacks and write nothing", "[exp
     CHECK(out.contents().count("out.pbrt") == 1);
 }
 
+TEST_CASE("a picture that is not there is told of once, with the place that asks for it", "[export]") {
+    Plugins plugins;
+    Folder folder;
+    write(folder.file("in.pbrt"), v4_head +
+                                      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"none.png\"\n"
+                                      "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n");
+    const auto scene = imported(folder.file("in.pbrt"), plugins);
+    REQUIRE(scene.report.count(RESTAGE_DROPPED) == 1);
+    const auto& entries = scene.report.entries;
+    const auto told = std::ranges::find(entries, RESTAGE_DROPPED, &io::ReportEntry::fate);
+    CHECK(told->line > 0);
+    CHECK_THAT(told->note, ContainsSubstring("there is no such file"));
+}
+
 TEST_CASE("a spot that fades as the other version's is reported", "[export]") {
     Plugins plugins;
     Folder folder, out;

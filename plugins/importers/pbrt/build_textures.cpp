@@ -102,7 +102,9 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
     std::error_code code;
     std::string as_written; // of what is not there
     if (!std::filesystem::is_regular_file(path, code)) {
-        import_.lost(d.at, "image " + quote(file), "there is no such file: " + path);
+        const bool there = std::filesystem::exists(path, code);
+        import_.lost(d.at, "image " + quote(file),
+                     (there ? "it is not a regular file: " : "there is no such file: ") + path);
         if (!keep_missing) return 0;
         as_written = "\"string filename\" [ " + quote(file) + " ]\n";
     }
