@@ -47,8 +47,8 @@ Result<int> run(Context& context, const Options& o) {
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
         RESTAGE_CHECK(io::set_option(*exporter.table, assignment, options.values));
-    RESTAGE_TRY(const auto imported, open_scene(context, o.input, o.strict));
-    RESTAGE_TRY(const auto report, o.strict ? io::export_strictly(imported.scene, o.output, context.registry(), options)
+    RESTAGE_TRY(const auto imported, open_scene(context, o.input));
+    RESTAGE_TRY(const auto report, o.strict ? io::convert_strictly(imported, o.output, context.registry(), options)
                                             : io::export_scene(imported.scene, o.output, context.registry(), options));
     for (const auto& entry : report.entries)
         if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
@@ -72,7 +72,8 @@ void add_convert(CLI::App& program, Context& context) {
     command->add_option("--set", o->assignments,
                         "Option of the exporter, for example --set version=v3 (may be repeated)");
     command->add_flag("--strict", o->strict,
-                      "Write nothing when something is approximated or dropped, in reading or in writing");
+                      "Write nothing when the written file would not have all of IN. What is only rendered otherwise "
+                      "than it is (a kind of texture, say), and written as it was, is no loss");
     command->add_option("--exposure", o->exposure, "Of a picture: stops that are added")
         ->check(CLI::Range(-64.f, 64.f));
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });

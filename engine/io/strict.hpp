@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/export.hpp"
+#include "io/import.hpp"
 
 namespace restage::io {
 
@@ -13,5 +14,11 @@ Result<> refuse_losses(const Report&, const std::string& path);
 // a temporary folder, to see.
 Result<Report> export_strictly(const scene::Scene&, const std::string& path, const plugin::Registry&,
                                ExportOptions = {});
+
+// As export_strictly; what the import approximated or dropped counts as well, unless the written file has it: its
+// import, which is tried, says the same of it. (A texture that is not rendered is approximated in the picture, and in
+// the file.)
+Result<Report> convert_strictly(const ImportedScene&, const std::string& path, const plugin::Registry&,
+                                ExportOptions = {});
 
 } // namespace restage::io

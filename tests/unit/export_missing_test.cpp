@@ -152,6 +152,36 @@ TEST_CASE("a picture that is not there is told of once, with the place that asks
     CHECK_THAT(told->note, ContainsSubstring("there is no such file"));
 }
 
+TEST_CASE("a strict conversion refuses what the written file lacks, not what is only shown otherwise", "[export]") {
+    Plugins plugins;
+    Folder folder, out;
+    const auto converted = [&](const std::string& text, const char* to) {
+        write(folder.file("in.pbrt"), text);
+        const auto scene = imported(folder.file("in.pbrt"), plugins);
+        INFO(text);
+        CHECK_FALSE(io::refuse_losses(scene.report, "in.pbrt")); // each is another picture than pbrt's
+        const auto done = io::convert_strictly(scene, out.file("out.pbrt"), plugins.registry, version(to));
+        CHECK(out.contents().count("out.pbrt") == (done ? 1u : 0u));
+        std::filesystem::remove(out.file("out.pbrt"));
+        return done ? std::string() : done.error().message;
+    };
+    const std::string dots = "Texture \"t\" \"spectrum\" \"dots\" \"rgb inside\" [1 0 0]\n";
+    const std::string matte = "Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"\n";
+    const std::string diffuse = "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n";
+    CHECK(converted(v4_head + dots + diffuse, "v4") == "");
+    CHECK(converted(v3_head + dots + matte + "WorldEnd\n", "v4") == "");
+    CHECK(
+        converted(v4_head + "LightSource \"infinite\" \"rgb L\" [1 1 1] \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]\n",
+                  "v4") == "");
+    CHECK_THAT(
+        converted(v4_head + dots + diffuse + "ActiveTransform StartTime\nTranslate 1 0 0\nShape \"sphere\"\n", "v4"),
+        ContainsSubstring("in motion"));
+    CHECK_THAT(converted(v3_head + "LookAt 0 0 0 0 0 0 0 1 0\nShape \"sphere\"\nWorldEnd\n", "v3"),
+               ContainsSubstring("LookAt"));
+    CHECK_THAT(converted(v4_head + "Shape \"plymesh\" \"string filename\" \"none.ply\"\n", "v4"),
+               ContainsSubstring("none.ply"));
+}
+
 TEST_CASE("a spot that fades as the other version's is reported", "[export]") {
     Plugins plugins;
     Folder folder, out;
