@@ -38,6 +38,7 @@ Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
     view.snap_move = preferences.snap_move;
     view.snap_angle = preferences.snap_angle;
     view.snap_scale = preferences.snap_scale;
+    live_->denoise_by(preferences.denoiser);
 }
 
 Editor::~Editor() = default;

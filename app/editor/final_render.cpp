@@ -27,6 +27,7 @@ struct Wish {
     float error = 0; // > 0: stop there, at `samples` at the latest
     bool from_view = true; // not from the scene's camera, where both differ
     bool denoise = true;
+    std::string denoiser; // as in Preferences
     fs::path path;
 };
 
@@ -107,7 +108,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     if (denoise) {
         job.report(traced, "denoising");
         const auto clean = [&]() -> Result<void> {
-            RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, ""));
+            RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, wish.denoiser));
             denoiser = render::denoiser_label(chosen, RESTAGE_DENOISE_HIGH);
             RESTAGE_TRY(picture.denoised,
                         render::denoise(picture.film, chosen, RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
@@ -158,6 +159,7 @@ void final_render_dialog(Editor& e) {
     auto wish = std::make_shared<Wish>();
     wish->samples = std::max(e.scene().settings.value.samples, 1u);
     wish->denoise = !e.registry().denoisers().empty();
+    wish->denoiser = e.preferences.denoiser;
     e.show_modal("Final picture", [wish](Editor& editor) {
         const scene::Film& film = editor.scene().film.value;
         dialog_width(360);

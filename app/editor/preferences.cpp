@@ -29,6 +29,7 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     step("snap_move", preferences.snap_move, 1e6f);
     step("snap_angle", preferences.snap_angle, 180);
     step("snap_scale", preferences.snap_scale, 100);
+    if (const auto name = j.find("denoiser"); name != j.end() && name->is_string()) preferences.denoiser = *name;
     return preferences;
 }
 
@@ -38,7 +39,8 @@ void write_preferences(const std::filesystem::path& config_dir, const Preference
                            {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"},
                            {"snap_move", preferences.snap_move},
                            {"snap_angle", preferences.snap_angle},
-                           {"snap_scale", preferences.snap_scale}};
+                           {"snap_scale", preferences.snap_scale},
+                           {"denoiser", preferences.denoiser}};
     // What cannot be remembered is no reason to bother anybody.
     (void)write_file_atomic(file_in(config_dir), j.dump(1) + "\n");
 }

@@ -87,6 +87,8 @@ std::string Editor::probe() const {
                   clean && frame && clean->request == frame->request && clean->divider == 1 ? clean->image.samples : 0},
                  {"first_clean_request", latency_.clean_request},
                  {"first_clean_seconds", latency_.clean_seconds},
+                 {"denoiser", clean ? clean->denoiser : ""},
+                 {"denoiser_missing", live_->denoiser_missing()},
                  {"denoised_seconds", clean ? clean->seconds : 0.0},
                  {"hovered", hovered.value}};
     if (const ImGuiInputTextState* input = ImGui::GetInputTextState(ImGui::GetActiveID()))

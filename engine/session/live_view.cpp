@@ -422,6 +422,8 @@ void LiveView::configure(render::RendererOptions options) {
     impl_->wake_render.notify_one();
 }
 
+void LiveView::denoise_by(const std::string& name) { impl_->denoiser->choose(name); }
+
 std::shared_ptr<const Frame> LiveView::frame() const {
     std::lock_guard lock(impl_->mutex);
     return impl_->pictures.raw();

@@ -24,6 +24,7 @@ struct Frame {
     std::uint64_t document = 0; // of its ViewOptions
     std::uint32_t divider = 1; // full resolution / this one's
     bool denoised = false;
+    std::string denoiser; // its type, where `denoised`
     bool clay = false; // of first hits alone, see render/clay.hpp; colours in [0,1], not to be exposed
     double seconds = 0; // since that show()
     double relative_error = 1e30; // of what was traced; Film::relative_error
@@ -76,6 +77,8 @@ class LiveView {
     std::uint64_t show(scene::Scene scene, const ViewOptions& options);
     // Opens the renderer anew, with another device, tracer or number of threads.
     void configure(render::RendererOptions options);
+    // Denoises by this one, see render::choose_denoiser; the picture that is there too.
+    void denoise_by(const std::string& name);
 
     // The newest pictures of the document that was asked for last; null before the first. frame(): as traced.
     std::shared_ptr<const Frame> frame() const;

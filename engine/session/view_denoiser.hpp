@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -26,9 +27,12 @@ class ViewDenoiser {
     ~ViewDenoiser(); // stops within some 50 ms
 
     void add(std::shared_ptr<const Frame> frame);
+    // By this one from now on, the last picture too; see render::choose_denoiser.
+    void choose(std::string name);
 
   private:
     void run();
+    bool choose_again(std::optional<plugin::DenoiserEntry>& chosen);
 
     const plugin::Registry& registry_;
     Host host_;
@@ -36,6 +40,9 @@ class ViewDenoiser {
     std::condition_variable wake_;
     bool stop_ = false;
     std::deque<std::shared_ptr<const Frame>> queue_; // at most a coarse one and the full one
+    std::shared_ptr<const Frame> last_; // that was added
+    std::string name_;
+    bool chosen_ = false; // the thread knows of `name_`
     std::thread thread_;
 };
 

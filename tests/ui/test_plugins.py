@@ -3,6 +3,7 @@
 edited on disk while its picture is on the screen."""
 
 import json
+import shutil
 import struct
 from pathlib import Path
 
@@ -169,3 +170,41 @@ def test_a_table_is_chosen_and_refused_in_red(launch, tmp_path):
     assert ball(editor).mean() < grey - 0.03, "a darker grey: 0.5, not 0.7"
     editor.key("ctrl+z")
     editor.wait(lambda s: "material.filename.problem" not in s["marks"] and s["history"]["position"] == 1, "undo")
+
+
+def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
+    """Built-in by default; a plugin's by its name, at once and after a restart; one that is gone is said to be."""
+    plugin = tmp_path / "copier"
+    plugin.mkdir()
+    shutil.copy(binary.resolve().parent.parent / "tests/plugins_broken/denoiser_sound.so", plugin / "copier.so")
+    (plugin / "plugin.json").write_text(json.dumps({
+        "id": "org.example.broken", "kind": "denoiser", "version": "1.0.0", "abi": 1, "licence": "MIT", "library": "copier"}))
+    file = scene(tmp_path, '"diffuse"')
+    by = lambda name: lambda s: s["view"]["denoiser"] == name
+    editor = launch("--plugin-path", plugin, file)
+    editor.settled(samples=1)
+    editor.wait(by("oidn"), "the built-in denoiser")
+    editor.click("tab.Scene")
+    if "render.denoiser" not in editor.state()["marks"]:
+        editor.reveal("scene.render")
+        editor.click("scene.render")
+    editor.reveal("render.denoiser")
+    editor.click("render.denoiser")
+    editor.click("render.denoiser.copy")
+    editor.wait(by("copy"), "the plugin's")
+    assert not editor.state()["modified"], "it is no part of the document"
+    editor.kill()
+    editor = launch("--plugin-path", plugin, file)
+    editor.wait(by("copy"), "the plugin's, after a restart", 90)
+    editor.kill()
+    editor = launch(file)  # without it: pictures are shown as they are, and the toolbar says why
+    editor.wait(lambda s: s["view"]["samples"] >= 4, "a picture", 90)
+    assert editor.state()["view"]["denoiser"] == "" and "copy" in editor.state()["view"]["denoiser_missing"]
+    editor.click("tab.Scene")
+    if "render.denoiser" not in editor.state()["marks"]:
+        editor.reveal("scene.render")
+        editor.click("scene.render")
+    editor.reveal("render.denoiser")
+    editor.click("render.denoiser")
+    editor.click("render.denoiser.")
+    editor.wait(by("oidn"), "the built-in one again")

@@ -63,6 +63,31 @@ void scene_rows(Editor& e) {
             "scene.settings");
 }
 
+// Of those that are loaded, by name, and kept over restarts.
+void denoiser_row(Editor& e) {
+    const auto denoisers = e.registry().denoisers();
+    const std::string& now = e.preferences.denoiser;
+    std::string shown = now.empty() ? "Built-in" : now + " (not loaded)";
+    for (const plugin::DenoiserEntry& entry : denoisers)
+        if (now == entry.table->type || now == entry.plugin->manifest.id) shown = entry.table->label;
+    form_row("Denoiser", "Which one cleans the live picture and final ones; remembered for all scenes");
+    const bool open = ImGui::BeginCombo("##denoiser", shown.c_str());
+    e.mark("render.denoiser");
+    if (!open) return;
+    const auto choice = [&](const char* label, const std::string& name) {
+        if (ImGui::Selectable(label, now == name))
+            e.later([&e, name] {
+                e.preferences.denoiser = name;
+                e.live().denoise_by(name);
+            });
+        e.mark("render.denoiser." + name);
+    };
+    choice("Built-in", "");
+    for (const plugin::DenoiserEntry& entry : denoisers)
+        choice(entry.table->label, entry.table->type);
+    ImGui::EndCombo();
+}
+
 void live_rows(Editor& e) {
     ImGui::SeparatorText("Live picture");
     form_row("Denoise", "Shows the picture without its noise");
@@ -71,6 +96,7 @@ void live_rows(Editor& e) {
     ImGui::EndDisabled();
     if (!e.live().denoiser_missing().empty()) tip(e.live().denoiser_missing().c_str());
     e.mark("render.denoise");
+    denoiser_row(e);
     int samples = int(e.view.samples);
     form_row("Stop at samples", "Of the live picture. 0 = at the scene's number of samples");
     if (ImGui::DragInt("##live samples", &samples, 1, 0, 1 << 20, samples ? "%d a pixel" : "As above",
