@@ -18,7 +18,10 @@ logger "restage" of Python's logging.
 """
 import pathlib as _pathlib
 
-from . import _core
+from . import _core, _sentences
+
+_sentences.install(_core)  # before its functions get their public names
+
 from ._core import (
     Camera, Cameras, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
     Plugin, Progress, Report, ReportEntry, Selection, Session, Sky, Step, Texture, Textures,
@@ -46,7 +49,7 @@ def _program() -> _pathlib.Path:
 
 def bundled_scene(name: str) -> _pathlib.Path:
     """Path of a scene that comes with Restage: demo (a room), cornell or spheres."""
-    path = _pathlib.Path(_core.home()) / "share/restage/scenes" / name / f"{name}.pbrt"
+    path = _pathlib.Path(_core.home()) / "share/restage/scenes" / f"{name}" / f"{name}.pbrt"
     if not path.exists():
         names = sorted(p.parent.name for p in path.parents[1].glob("*/*.pbrt") if p.parent.name == p.stem)
         raise Error(f"there is no bundled scene \"{name}\"; there are {', '.join(names)}")

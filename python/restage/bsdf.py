@@ -41,6 +41,8 @@ class Bsdf:
     """
 
     def __init__(self, type: str):
+        if not isinstance(type, str):
+            raise TypeError(f"Bsdf(): \"type\" must be a str, not {type!r}")
         self.type = type
         self._lab = _core.BsdfLab(type)
 

@@ -66,6 +66,8 @@ def check(plugin: str | os.PathLike | _core.Plugin, *, quick: bool = False, only
     without an answer from the plugin [s]. Raises Error when there is nothing to check."""
     from . import _program
 
+    if not isinstance(plugin, (_core.Plugin, str, os.PathLike)):
+        raise TypeError(f'check(): "plugin" must be a path, an id or a Plugin, not {plugin!r}')
     name = str(plugin.folder) if isinstance(plugin, _core.Plugin) else os.fspath(plugin)
     command = [str(_program()), "check", name, "--json", "-"]
     command += ["--quick"] if quick else []

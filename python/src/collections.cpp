@@ -4,6 +4,7 @@
 
 #include "scene/merge.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <limits>
 
@@ -44,8 +45,13 @@ std::vector<std::string> names(const Collection<T>& c) {
 }
 
 template <class T>
+std::string word_of() { // what Python calls it
+    return std::is_same_v<T, Instance> ? "object" : std::string(kind_name<T>);
+}
+
+template <class T>
 nb::builtin_exception not_there(const Collection<T>& c, const std::string& name) {
-    std::string sentence = "there is no " + std::string(kind_name<T>) + " called \"" + name + "\"";
+    std::string sentence = "there is no " + word_of<T>() + " called \"" + name + "\"";
     const std::string near = nearest_name(names(c), name);
     if (!near.empty()) sentence += "; did you mean \"" + near + "\"?";
     return nb::key_error(sentence.c_str());
@@ -75,9 +81,12 @@ void bind(nb::module_& m, const char* name, const char* element) {
             "__getitem__",
             [](const C& c, long index) {
                 const auto list = all(c);
-                if (index < 0) index += static_cast<long>(list.size());
-                if (index < 0 || index >= static_cast<long>(list.size())) throw nb::index_error("out of range");
-                return list[static_cast<std::size_t>(index)];
+                const auto count = static_cast<long>(list.size()), at = index < 0 ? index + count : index;
+                if (at < 0 || at >= count)
+                    throw nb::index_error(
+                        fmt::format("there is no {} {}: there are {}, counted from 0", word_of<T>(), index, count)
+                            .c_str());
+                return list[static_cast<std::size_t>(at)];
             },
             "index"_a, "By position, in the order of the file.")
         .def(

@@ -277,7 +277,7 @@ void bind_picture(nb::module_& m) {
         .def("_repr_png_", &png_of, "For notebooks: what save() writes as .png.")
         .def("__array__", &as_array, "dtype"_a = nb::none(), "copy"_a = nb::none(),
              "float32 (H, W, 3), a copy: the denoised picture where there is one, else `color`.",
-             nb::sig("def __array__(self, dtype: numpy.typing.DTypeLike = None, copy: bool | None = None) -> "
+             nb::sig("def __array__(self, dtype: numpy.typing.DTypeLike | None = None, copy: bool | None = None) -> "
                      "numpy.typing.NDArray[typing.Any]"))
         .def("__getstate__", &get_state)
         .def("__setstate__", &set_state)

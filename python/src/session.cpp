@@ -317,7 +317,7 @@ void bind_contents(nb::class_<Workspace>& c) {
             "remove_sky", [](Workspace& w) { w.edit(set_environment(w.scene(), std::nullopt, "Remove sky")); },
             "No light from all around any more.")
         .def("add_material", &add_material, "name"_a, "type"_a, "values"_a,
-             "A new material: add_material(\"Brass\", \"conductor\", roughness=0.2).")
+             "A new material: add_material(\"Brass\", \"conductor\", uroughness=0.2, vroughness=0.2).")
         .def(
             "add_texture", &add_texture, "image"_a, "name"_a = nb::none(), "scalar"_a = false,
             "A new texture. image: path (8-bit files are sRGB, or linear where scalar), or a linear array (H, W, C).",
