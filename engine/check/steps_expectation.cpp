@@ -260,41 +260,62 @@ Result<StepResult> check_expectation(Subject& s) {
 Result<StepResult> check_mean_reciprocity(Subject& s) {
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("reciprocity");
-    const std::size_t sets = s.size(300, 100);
+    struct Pair {
+        scene::ParamSet config;
+        Vec3 a, b;
+        Mean there = {}, back = {};
+        double z() const {
+            return std::abs(there.mean() - back.mean()) /
+                   std::sqrt(there.variance() + back.variance() + 1e-12 + std::pow(1e-3 * there.mean(), 2));
+        }
+    };
+    const auto look = [&](std::span<Pair> pairs, std::size_t streams, std::size_t repeats) -> Result<> {
+        std::vector<scene::ParamSet> configs;
+        std::vector<BsdfJob> jobs;
+        for (const Pair& p : pairs) {
+            const auto config = static_cast<std::uint32_t>(configs.size());
+            configs.push_back(p.config);
+            for (std::size_t k = 0; k < streams; ++k) {
+                jobs.push_back({.wo = p.a, .wi = p.b, .config = config, .seed = e()});
+                jobs.push_back({.wo = p.b, .wi = p.a, .config = config, .seed = e()});
+            }
+        }
+        RESTAGE_TRY(const std::vector<BsdfAnswer> answers,
+                    lab->run(configs, jobs, static_cast<std::uint32_t>(repeats)));
+        for (Pair& p : pairs)
+            p.there = p.back = {};
+        for (std::size_t j = 0; j < jobs.size(); ++j) {
+            Pair& p = pairs[jobs[j].config];
+            (j % 2 ? p.back : p.there).add(luminance(answers[j].eval) / jobs[j].wi[2]);
+        }
+        return {};
+    };
+    const std::size_t sets = s.size(300, 100), repeats = s.size(256, 64);
     constexpr std::size_t streams = 32;
-    std::vector<scene::ParamSet> configs;
-    std::vector<BsdfJob> jobs;
-    for (std::uint32_t i = 0; i < sets; ++i) {
-        configs.push_back(wide_config(s.table(), e));
-        const Vec3 a = random_direction(e, 0.1f), b = random_direction(e, 0.1f);
-        for (std::size_t k = 0; k < streams; ++k) {
-            jobs.push_back({.wo = a, .wi = b, .config = i, .seed = e()});
-            jobs.push_back({.wo = b, .wi = a, .config = i, .seed = e()});
-        }
-    }
-    RESTAGE_TRY(const std::vector<BsdfAnswer> answers,
-                lab->run(configs, jobs, static_cast<std::uint32_t>(s.size(256, 64))));
-    double worst = 0;
-    std::string text;
+    std::vector<Pair> pairs;
     for (std::size_t i = 0; i < sets; ++i) {
-        Mean there, back;
-        for (std::size_t k = 0; k < 2 * streams; ++k) {
-            const std::size_t j = i * 2 * streams + k;
-            (k % 2 ? back : there).add(luminance(answers[j].eval) / jobs[j].wi[2]);
-        }
-        const double z = std::abs(there.mean() - back.mean()) /
-                         std::sqrt(there.variance() + back.variance() + 1e-12 + std::pow(1e-3 * there.mean(), 2));
-        if (z <= worst) continue;
-        worst = z;
-        text = fmt::format(
-            "f(wo, wi) is {:.5g} +- {:.2g}, f(wi, wo) is {:.5g} +- {:.2g} (luminance, means)\n  with {}; "
-            "wi {}",
-            there.mean(), there.sigma(), back.mean(), back.sigma(), where(configs[i], jobs[i * 2 * streams].wo),
-            describe(jobs[i * 2 * streams].wi));
+        scene::ParamSet config = wide_config(s.table(), e);
+        const Vec3 a = random_direction(e, 0.1f), b = random_direction(e, 0.1f);
+        pairs.push_back({std::move(config), a, b});
     }
-    std::vector<Figure> figures = {{"pairs", double(sets)}, {"worst", worst, "sigma"}};
-    if (worst > two_sided_sigma(sidak(family_alpha, sets)) + 2) return StepResult::failed(text, figures);
-    return StepResult::passed(figures);
+    RESTAGE_CHECK(look(pairs, streams, repeats));
+    const double limit = two_sided_sigma(sidak(family_alpha, sets)) + 2;
+    // A mean that few of the estimates carry seems too small, and so does its error: look again, longer.
+    double again = 0;
+    for (Pair& p : pairs) {
+        if (p.z() <= limit) continue;
+        RESTAGE_CHECK(look({&p, 1}, 8 * streams, 8 * repeats));
+        again += 1;
+    }
+    const Pair& worst =
+        *std::max_element(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.z() < q.z(); });
+    std::vector<Figure> figures = {{"pairs", double(sets)}, {"looked at again", again}, {"worst", worst.z(), "sigma"}};
+    if (worst.z() <= limit) return StepResult::passed(figures);
+    return StepResult::failed(
+        fmt::format("f(wo, wi) is {:.5g} +- {:.2g}, f(wi, wo) is {:.5g} +- {:.2g} (luminance, means)\n  with {}; wi {}",
+                    worst.there.mean(), worst.there.sigma(), worst.back.mean(), worst.back.sigma(),
+                    where(worst.config, worst.a), describe(worst.b)),
+        figures);
 }
 
 } // namespace restage::check
