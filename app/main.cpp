@@ -2,6 +2,7 @@
 // The program `restage`: understands the command line, runs one command, returns its exit code (see ExitCode).
 
 #include "commands/commands.hpp"
+#include "usage.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -30,9 +31,7 @@ int run(int argc, char** argv) {
     program.set_help_flag("-h,--help", "Show this help and exit");
     program.require_subcommand(0, 1);
     program.fallthrough(); // options of the program are understood after the command as well
-    program.failure_message([](const CLI::App* app, const CLI::Error& error) {
-        return "restage: " + std::string(error.what()) + "\nTry '" + app->get_name() + " --help'.\n";
-    });
+    program.failure_message([](const CLI::App* app, const CLI::Error& error) { return usage_sentence(*app, error); });
     program.footer(
         "Exit codes: 0 done, 1 failed, 2 command line not understood. Data goes to stdout, the log to stderr.");
     program.add_flag_callback("-v,--verbose", [&] { context.log.set_threshold(restage::LogLevel::debug); }, "Log more");
@@ -58,6 +57,7 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     for (auto* add : all_commands)
         add(program, context);
+    forbid_empty_values(program);
 
     // `restage SCENE` is `restage edit SCENE`, and `restage` alone opens the editor where there is a display.
     std::vector<std::string> arguments(argv + 1, argv + argc);

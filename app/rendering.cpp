@@ -69,6 +69,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"embree", "vulkan"}));
     command.add_option("--device", o.renderer.device, "Vulkan device: its number or part of its name");
     command.add_option("--threads", o.renderer.threads, "Threads of the embree tracer (0 = all)")
+        ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
     command.add_flag("--validation", o.renderer.validation, "Turn Vulkan's validation layers on");
 }

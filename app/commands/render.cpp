@@ -98,8 +98,26 @@ Result<void> apply_assignments(Context& context, const Options& o, scene::Scene&
     return {};
 }
 
+using Metadata = std::map<std::string, std::string>;
+Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as same_render compares it
+    std::string changes = fmt::format("{}", fmt::join(o.assignments, "; "));
+    if (!o.camera.empty()) changes += " --camera " + o.camera;
+    if (o.studio) changes += " --studio";
+    return {{"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
+            {"restage:changes", changes},
+            {"restage:strategy", o.strategy},
+            {"restage:max_depth", std::to_string(scene.settings.value.max_depth)}};
+}
+
 // Where the new samples begin and how many there are, when some are in a picture already.
 Result<void> go_on(Options& o, const session::StoredPicture& before, const scene::Scene& scene) {
+    if (auto same = session::same_render(what_is_rendered(o, scene), before.metadata); !same)
+        return fail("--resume " + o.resume + " " + same.error().message);
+    const scene::Film& film = scene.film.value;
+    if (film.crop == glm::vec4{0, 1, 0, 1} && (film.width != before.film.width || film.height != before.film.height))
+        return fail(fmt::format("--resume {}: has {}x{} pixels, not {}x{}; say --size {}x{}", o.resume,
+                                before.film.width, before.film.height, film.width, film.height, before.film.width,
+                                before.film.height));
     const std::uint32_t target = o.spp ? o.spp : scene.settings.value.samples ? scene.settings.value.samples : 64;
     for (const session::SampleRange& range : before.ranges)
         if (range.seed == o.renderer.seed) o.first_sample = std::max(o.first_sample, range.first + range.count);
@@ -111,22 +129,16 @@ Result<void> go_on(Options& o, const session::StoredPicture& before, const scene
     return {};
 }
 
-using Metadata = std::map<std::string, std::string>;
 Metadata metadata_of(const Options& o, render::Renderer& renderer, const scene::Scene& scene) {
     const session::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.samples()}};
-    std::string changes = fmt::format("{}", fmt::join(o.assignments, "; "));
-    if (!o.camera.empty()) changes += " --camera " + o.camera;
-    if (o.studio) changes += " --studio";
-    return {{"restage:version", RESTAGE_VERSION},
-            {"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
-            {"restage:changes", changes},
-            {"restage:device", renderer.device().info().name},
-            {"restage:tracer", renderer.tracer_name()},
-            {"restage:samples", std::to_string(renderer.samples())},
-            {"restage:seed", std::to_string(o.renderer.seed)},
-            {"restage:ranges", session::to_text(range)},
-            {"restage:strategy", o.strategy},
-            {"restage:max_depth", std::to_string(scene.settings.value.max_depth)}}; // no times: equal renders are equal
+    Metadata metadata = what_is_rendered(o, scene);
+    metadata.merge(Metadata{{"restage:version", RESTAGE_VERSION},
+                            {"restage:device", renderer.device().info().name},
+                            {"restage:tracer", renderer.tracer_name()},
+                            {"restage:samples", std::to_string(renderer.samples())},
+                            {"restage:seed", std::to_string(o.renderer.seed)},
+                            {"restage:ranges", session::to_text(range)}}); // no times: equal renders are equal
+    return metadata;
 }
 
 // Adds the picture's samples to those of `before`.
@@ -225,6 +237,11 @@ Result<void> check(Context& context, const Options& o) {
         RESTAGE_CHECK(check_picture_path(output.path()));
         to_stdout += output.to_stdout();
     }
+    std::vector<std::string> files = o.outputs;
+    if (!o.statistics.empty()) files.push_back(o.statistics);
+    std::sort(files.begin(), files.end());
+    if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end() && *twice != "-")
+        return fail("-o, --statistics: " + *twice + " would be written twice");
     if (to_stdout > 1) return fail("-o, --statistics: only one of them can go to stdout");
     if (auto known = session::check_aovs(o.picture.aovs); !known) return fail("--aov", known.error());
     if (!o.denoise.empty() || !o.denoiser.empty())

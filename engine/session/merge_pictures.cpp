@@ -205,16 +205,26 @@ Result<StoredPicture> read_picture(const std::string& path) {
     return out;
 }
 
+Result<> same_render(const std::map<std::string, std::string>& first, const std::map<std::string, std::string>& other) {
+    const auto value = [](const auto& all, const char* key) {
+        const auto it = all.find(key);
+        return it == all.end() ? std::string() : it->second;
+    };
+    for (const char* key : {"restage:scene", "restage:changes", "restage:strategy", "restage:max_depth"})
+        if (value(first, key) != value(other, key))
+            return fail(fmt::format("is of another render: its {} is \"{}\", not \"{}\"", std::string(key).substr(8),
+                                    value(other, key), value(first, key)));
+    return {};
+}
+
 Result<StoredPicture> merge_pictures(std::span<const StoredPicture> pictures) {
     if (pictures.empty()) return fail("there are no pictures to merge");
     StoredPicture out{.film = {}, .layers = pictures[0].layers, .metadata = pictures[0].metadata, .ranges = {}};
     std::vector<PicturePart> parts;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const StoredPicture& p = pictures[i];
-        for (const char* key : {"restage:scene", "restage:changes", "restage:strategy", "restage:max_depth"})
-            if (metadata(p, key) != metadata(out, key))
-                return fail(fmt::format("picture {} is of another render: its {} is \"{}\", that of the first \"{}\"",
-                                        i + 1, std::string(key).substr(8), metadata(p, key), metadata(out, key)));
+        if (auto same = same_render(out.metadata, p.metadata); !same)
+            return fail(fmt::format("picture {}", i + 1), same.error());
         out.ranges.insert(out.ranges.end(), p.ranges.begin(), p.ranges.end());
         std::erase_if(out.layers, [&](const std::string& layer) { return !p.layers.contains(layer); });
         parts.push_back({.film = &p.film, .first_sample = p.ranges.empty() ? 0 : p.ranges.front().first});

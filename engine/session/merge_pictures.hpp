@@ -41,6 +41,10 @@ struct StoredPicture {
 // An error when it does not say how many samples it has, or has no layer `stderr`.
 Result<StoredPicture> read_picture(const std::string& path);
 
+// Is `other` of another render than `first`: another scene, other changes or settings? Then a sentence says what
+// differs.
+Result<> same_render(const std::map<std::string, std::string>& first, const std::map<std::string, std::string>& other);
+
 // Several such files as one. Refused: parts of other scenes, sizes or settings, and parts that share samples.
 Result<StoredPicture> merge_pictures(std::span<const StoredPicture>);
 

@@ -352,3 +352,38 @@ def test_a_camera_is_chosen_by_name_or_number(tmp_path):
     assert pictures[1] == pictures[2] != pictures[0]
     done = restage("render", tmp_path / "two.pbrt", "-o", tmp_path / "x.pfm", "--spp", 1, "--camera", "front")
     assert done.returncode == 1 and '2 "away"' in done.stderr and "front" in done.stderr
+
+
+@pytest.mark.parametrize("extra, says", [
+    (["--samples", 3], "restage render has no option --samples"),
+    (["more.pbrt"], '"more.pbrt" is one argument too many'),
+    (["--size", ""], "--size: the value is empty"), (["--camera", ""], "--camera: the value is empty"),
+    (["--statistics", ""], "--statistics: the value is empty"), (["--frames", ""], "--frames: the value is empty"),
+    (["--error", "nan"], "nan is not a finite number"), (["--exposure", "inf"], "inf is not a finite number"),
+    (["--clamp-direct", "nan"], "nan is not a finite number"),
+    (["--time", 0], "--time: 0 is no number above 0"), (["--clamp-direct", -1], "-1 is no number of 0 or more"),
+    (["--spp", -1], "--spp: -1 is no number from 1 to 16777216"), (["--seed", -1], '--seed: "-1" is no whole number from 0 to 4294967295'),
+    (["--threads", 100000], "--threads: 100000 is no number from 0 to 1024"), (["--tracer", "foo"], '--tracer: "foo" is none of embree,vulkan'),
+    (["--crop", 0, 1, 0], "--crop takes 4 values, and got 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is no number"),
+])
+def test_wrong_values_of_options_are_sentences(extra, says, tmp_path):
+    done = restage("render", CORNELL, "-o", tmp_path / "x.png", *extra)
+    assert done.returncode == 2 and says in done.stderr and "restage render --help" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_that_would_be_written_twice_is_refused(tmp_path):
+    for extra in (["-o", "x.png"], ["--statistics", "x.png"]):
+        done = restage("render", CORNELL, "-o", "x.png", *extra, cwd=tmp_path)
+        assert done.returncode == 1 and "x.png would be written twice" in done.stderr and not list(tmp_path.iterdir())
+
+
+def test_what_cannot_be_resumed_is_told_before_rendering(tmp_path):
+    common = ["--spp", 1, "--size", "16x12"]
+    assert restage("render", CORNELL, "-o", "a.exr", *common, cwd=tmp_path).returncode == 0
+    for scene, extra, says in ((CORNELL, ["--size", "20x12"], "has 16x12 pixels, not 20x12; say --size 16x12"),
+                               (CORNELL, ["--set", "White.reflectance=0.1"], 'is of another render: its changes is "", not "White.reflectance=0.1"'),
+                               (ROOT / "scenes/spheres/spheres.pbrt", [], 'its scene is "cornell.pbrt", not "spheres.pbrt"')):
+        size = [] if "--size" in extra else ["--size", "16x12"]
+        done = restage("render", scene, "-o", "r.exr", "--resume", "a.exr", "--spp", "16777216", *size, *extra, cwd=tmp_path)
+        assert done.returncode == 1 and says in done.stderr and not (tmp_path / "r.exr").exists()

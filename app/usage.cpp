@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "usage.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+
+namespace restage::app {
+
+void forbid_empty_values(CLI::App& program) {
+    for (CLI::App* command : program.get_subcommands(nullptr))
+        for (CLI::Option* option : command->get_options()) {
+            if (option->get_expected_min() == 0 || option->get_items_expected_max() == 0) continue; // a flag
+            const bool number = option->get_type_name().find("FLOAT") != std::string::npos;
+            option->check([number](const std::string& value) -> std::string {
+                if (value.empty()) return "the value is empty; give one, or leave the option out";
+                const double x = number ? std::strtod(value.c_str(), nullptr) : 0;
+                return std::isfinite(x) ? "" : value + " is not a finite number";
+            });
+        }
+}
+
+std::string usage_sentence(const CLI::App& program, const CLI::Error& error) {
+    const auto chosen = program.get_subcommands();
+    const std::string name = chosen.empty() ? "restage" : "restage " + chosen.front()->get_name();
+    std::string text = error.what();
+    std::smatch m;
+    if (std::regex_match(text, m, std::regex("The following arguments? w\\S+ not expected: (.*)"))) {
+        const std::string extras = m[1];
+        if (std::regex_search(extras, m, std::regex("(^| )(-\\S+)")))
+            text = name + " has no option " + m[2].str();
+        else
+            text = "\"" + extras + "\" is " + (chosen.empty() ? "no command" : "one argument too many");
+    }
+    const auto rewrite = [&](const char* pattern, const char* sentence) {
+        text = std::regex_replace(text, std::regex(pattern), sentence);
+    };
+    rewrite("Value (\\S*) not in range \\[2\\.2\\S* - 1\\.7\\S*\\]", "$1 is no number above 0");
+    rewrite("Value (\\S*) not in range \\[0 - 1\\.7\\S*\\]", "$1 is no number of 0 or more");
+    rewrite("Value (\\S*) not in range \\[(\\S*) - (\\S*)\\]", "$1 is no number from $2 to $3");
+    rewrite("^(\\S+): (\\S+) not in \\{(.*)\\}$", "$1: \"$2\" is none of $3");
+    rewrite("^(\\S+): At least (\\d+) required but received (\\d+)$", "$1 takes $2 values, and got $3");
+    if (std::regex_match(text, m, std::regex("Could not convert: (\\S+) = (.*)"))) {
+        const CLI::Option* option = chosen.empty() ? nullptr : chosen.front()->get_option_no_throw(m[1]);
+        const bool whole = option && (option->get_type_name().starts_with("UINT") || m[1] == "--region");
+        text =
+            m[1].str() + ": \"" + m[2].str() + "\" is no " + (whole ? "whole number from 0 to 4294967295" : "number");
+    }
+    return "restage: " + text + "\nTry '" + name + " --help'.\n";
+}
+
+} // namespace restage::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the command line says of itself: values that no option takes, and mistakes as sentences.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace restage::app {
+
+// No value may be empty, and no number NaN or infinite, of any command's options.
+void forbid_empty_values(CLI::App& program);
+// What was wrong, and where help is.
+std::string usage_sentence(const CLI::App& program, const CLI::Error&);
+
+} // namespace restage::app
