@@ -31,6 +31,20 @@ std::vector<fs::path> files_of(const fs::path& folder) {
     return out;
 }
 
+struct Expected { // of the first line, "# expect 3:7 part of the message"
+    unsigned line = 0, column = 0;
+    std::string part;
+};
+
+Expected expected_of(const fs::path& path) {
+    const std::string text = read(path);
+    Expected out;
+    int used = 0;
+    REQUIRE(std::sscanf(text.c_str(), "# expect %u:%u %n", &out.line, &out.column, &used) == 2);
+    out.part = text.substr(std::size_t(used), text.find('\n') - std::size_t(used));
+    return out;
+}
+
 const fs::path data = restage::test::source_dir() / "tests/data/pbrt";
 
 } // namespace
@@ -40,18 +54,14 @@ TEST_CASE("pbrt broken files: message and place", "[pbrt]") {
     CHECK(files.size() >= 40);
     for (const fs::path& path : files) {
         INFO(path.filename().string());
-        unsigned line = 0, column = 0;
-        int used = 0;
-        const std::string text = read(path);
-        REQUIRE(std::sscanf(text.c_str(), "# expect %u:%u %n", &line, &column, &used) == 2);
-        const std::string part = text.substr(std::size_t(used), text.find('\n') - std::size_t(used));
+        const Expected expected = expected_of(path);
         Recorder r;
         CHECK(r.load_file(path.string()) == 0);
         REQUIRE(r.error.set);
         CHECK(r.error.file == fs::weakly_canonical(path).string());
-        CHECK(r.error.line == line);
-        CHECK(r.error.column == column);
-        CHECK_THAT(r.error.message, Catch::Matchers::ContainsSubstring(part));
+        CHECK(r.error.line == expected.line);
+        CHECK(r.error.column == expected.column);
+        CHECK_THAT(r.error.message, Catch::Matchers::ContainsSubstring(expected.part));
     }
 }
 
@@ -60,17 +70,13 @@ TEST_CASE("pbrt files that pbrt warns of: read, with the place and a line of the
     CHECK(files.size() >= 7);
     for (const fs::path& path : files) {
         INFO(path.filename().string());
-        unsigned line = 0, column = 0;
-        int used = 0;
-        const std::string text = read(path);
-        REQUIRE(std::sscanf(text.c_str(), "# expect %u:%u %n", &line, &column, &used) == 2);
-        const std::string part = text.substr(std::size_t(used), text.find('\n') - std::size_t(used));
+        const Expected expected = expected_of(path);
         Recorder r;
         REQUIRE(r.load_file(path.string()) == 1);
         INFO(r.all_reports());
         CHECK(std::any_of(r.lines.begin(), r.lines.end(), [&](const auto& said) {
-            return said.fate != RESTAGE_KEPT && said.line == line &&
-                   (said.what + ": " + said.note).find(part) != std::string::npos;
+            return said.fate != RESTAGE_KEPT && said.line == expected.line &&
+                   (said.what + ": " + said.note).find(expected.part) != std::string::npos;
         }));
     }
 }

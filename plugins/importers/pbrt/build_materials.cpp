@@ -270,4 +270,37 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
     import_.report(dropped ? RESTAGE_DROPPED : RESTAGE_APPROXIMATED, d.at, what + " (" + type + ")", note);
 }
 
+RestageHandle Builder::named_material(const Directive& directive, const std::string& name) {
+    if (const auto found = state_.names->materials.find(name); found != state_.names->materials.end())
+        return found->second;
+    if (const auto later = later_materials_.find(name); later != later_materials_.end()) {
+        const Directive& made = *later->second;
+        constexpr int deepest_mix = 100;
+        if (material_depth_ >= deepest_mix)
+            throw ImportError{directive.at, "materials mix each other more than 100 deep; flatten them"};
+        later_materials_.erase(later);
+        ++material_depth_;
+        const RestageHandle handle = material(made, name, made.params.string("type", ""));
+        --material_depth_;
+        writable_names().materials[name] = handle;
+        made_materials_.insert(name);
+        return handle;
+    }
+    import_.warned(directive.at, directive.word + " " + quote(name),
+                   "no material has that name; a grey diffuse one stands for it");
+    if (!files_are_missing_) return default_material(directive);
+    // A missing file may define it: it keeps its name, and is not defined when it is written ("extern").
+    Values values;
+    values.color("reflectance", {0.5, 0.5, 0.5});
+    values.number("sigma", 0);
+    const std::string verbatim = "=* extern " + quote(name) + "\n";
+    const RestageMaterialDesc desc{.text = import_.text(name.c_str(), verbatim.c_str()),
+                                   .type = "diffuse",
+                                   .values = values.data(),
+                                   .value_count = values.size()};
+    const RestageHandle handle = import_.out.material(import_.out.ctx, &desc);
+    writable_names().materials[name] = handle;
+    return handle;
+}
+
 } // namespace restage::pbrt

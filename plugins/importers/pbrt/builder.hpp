@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks the directives with pbrt's graphics state and pushes the scene to the host. Scoping lives in builder.cpp; each
-// kind of thing has a file of its own (build_*.cpp).
+// Walks the directives with pbrt's graphics state and pushes the scene to the host. Each kind of thing has a file of
+// its own (build_*.cpp).
 #pragma once
 
 #include "curves.hpp"
@@ -46,19 +46,21 @@ class Builder {
     bool run(SceneFile& scene);
 
   private:
-    // builder.cpp: scoping
+    // builder.cpp
     void step(Directive& directive);
     void option_step(Directive& directive);
-    void transform_step(const Directive& directive);
-    void push(const Directive& directive);
-    void pop(const Directive& directive, bool only_transform);
     void finish(const SceneFile& scene);
     void add_attributes(Directive& directive, const char* target);
-    void pop_v3(const Directive& directive); // an End that does not fit its Begin
     Names& writable_names();
     const Matrix& ctm(const Directive& directive); // at shutter opening; motion is reported
     bool in_world(const Directive& directive); // v3: false where it must be left out
     void missing_file(const Directive& directive);
+
+    // build_scopes.cpp
+    void push(const Directive& directive);
+    void pop(const Directive& directive, bool only_transform);
+    void pop_v3(const Directive& directive); // an End that does not fit its Begin
+    void transform_step(const Directive& directive);
 
     // build_names.cpp
     void read_comments(const Directive& directive);
