@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "usage.hpp"
 
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <regex>
+#include <system_error>
 
 namespace restage::app {
 
@@ -14,8 +15,12 @@ void forbid_empty_values(CLI::App& program) {
             const bool number = option->get_type_name().find("FLOAT") != std::string::npos;
             option->check([number](const std::string& value) -> std::string {
                 if (value.empty()) return "the value is empty; give one, or leave the option out";
-                const double x = number ? std::strtod(value.c_str(), nullptr) : 0;
-                return std::isfinite(x) ? "" : value + " is not a finite number";
+                if (!number) return "";
+                double x = 0;
+                const char* begin = value.c_str() + (value[0] == '+');
+                const auto read = std::from_chars(begin, value.c_str() + value.size(), x); // whatever the locale says
+                const bool finite = std::isfinite(x) && read.ec != std::errc::result_out_of_range;
+                return finite ? "" : value + " is not a finite number";
             });
         }
 }
