@@ -74,7 +74,7 @@ void Viewport::navigate(Editor& e, bool over) {
             break;
         case Navigation::dolly:
             if (moved) {
-                session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9), aspect);
+                session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
                 set_camera(e, camera, "navigate");
             }
             break;
@@ -108,7 +108,7 @@ void Viewport::navigate(Editor& e, bool over) {
             if (depth > 0 && std::isfinite(depth)) distance = depth;
         }
         session::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance,
-                       1 - std::pow(0.88, double(io.MouseWheel)), aspect);
+                       1 - std::pow(0.88, double(io.MouseWheel)));
         // Turns of the wheel that follow each other are one step.
         if (ImGui::GetTime() - wheel_time_ > 0.7) e.end_gesture();
         wheel_time_ = ImGui::GetTime();

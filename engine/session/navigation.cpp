@@ -31,6 +31,12 @@ glm::dmat4 turn(const scene::Camera& camera, const glm::dvec3& up, glm::dvec2 an
     return glm::rotate(glm::dmat4(1), angles.x, up) * tilt;
 }
 
+// In the matrix, which a view that has left the scene's camera has of its own, and not in the screen window.
+void scale_film(scene::Camera& camera, double by) {
+    camera.camera_to_world[0] *= by;
+    camera.camera_to_world[1] *= by;
+}
+
 } // namespace
 
 glm::dvec3 guess_up(const scene::Camera& camera) {
@@ -64,11 +70,10 @@ void pan(scene::Camera& camera, glm::dvec2 delta, double distance, double aspect
     translate_local(camera, {-delta.x * per_height, delta.y * per_height, 0});
 }
 
-void dolly(scene::Camera& camera, const glm::dvec3& towards, double part, double aspect) {
+void dolly(scene::Camera& camera, const glm::dvec3& towards, double part) {
     glm::dvec3 way = (towards - position(camera)) * part;
     if (camera.projection == RESTAGE_ORTHOGRAPHIC) { // nearer is no larger: the film shrinks around the point
-        const glm::dvec4 window = film_window(camera, aspect) * (1 - part);
-        camera.screen_window = glm::vec4(window);
+        scale_film(camera, 1 - part);
         way -= axis(camera, 2) * glm::dot(way, axis(camera, 2));
     }
     camera.camera_to_world[3] += glm::dvec4(way, 0);
@@ -82,7 +87,7 @@ void frame(scene::Camera& camera, const scene::Bounds& bounds, double aspect) {
     double distance = radius / std::sin(std::atan(half));
     if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
         const double unit = glm::length(glm::dvec3(camera.camera_to_world[1]));
-        camera.screen_window = glm::vec4(window * (radius / (half * unit)));
+        scale_film(camera, radius / (half * unit));
         distance = 2 * radius;
     } else if (is_spherical(camera)) { // sees all around: from the middle
         distance = 0;

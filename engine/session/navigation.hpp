@@ -24,10 +24,10 @@ void translate_local(scene::Camera&, const glm::dvec3& by);
 // height; +y down).
 void pan(scene::Camera&, glm::dvec2 delta, double distance, double aspect);
 // Moves towards the world point by this part of the distance (negative = away). An orthographic camera moves across the
-// view only, and its window shrinks by that part: the point stays where it is on the film.
-void dolly(scene::Camera&, const glm::dvec3& towards, double part, double aspect);
+// view only, and its x and y axes shrink by that part: the point stays where it is on the film.
+void dolly(scene::Camera&, const glm::dvec3& towards, double part);
 // Steps back along the view until the sphere around the bounds fits; keeps the direction. An orthographic camera's
-// window is fitted; a spherical one goes to the middle.
+// x and y axes are fitted; a spherical one goes to the middle.
 void frame(scene::Camera&, const scene::Bounds&, double aspect);
 
 // The pinhole ray through a point of the film: (0,0) top left, (1,1) bottom right. `direction` has z = 1 in camera
