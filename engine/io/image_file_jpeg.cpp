@@ -118,7 +118,9 @@ Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
     Decoder decoder;
     if (!decoder.read_header(bytes)) return decoder.problem(bytes.size());
     const jpeg_decompress_struct& jpeg = decoder.jpeg;
-    RESTAGE_CHECK(check_image_size(jpeg.image_width, jpeg.image_height, bytes.size()));
+    // A block of 64 takes a bit at least by Huffman codes, and arithmetic ones of a plain picture no hundredth of it.
+    constexpr std::uint64_t most_texels_per_byte = 8 * 64 * 64;
+    RESTAGE_CHECK(check_image_size(jpeg.image_width, jpeg.image_height, bytes.size(), most_texels_per_byte));
     if (jpeg.num_components != 1 && jpeg.num_components != 3 && jpeg.num_components != 4)
         return fail(fmt::format("JPEG pictures of {} components are not read", jpeg.num_components));
     const bool cmyk = jpeg.num_components == 4;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files: each format gives the numbers that were put in, and a file that lies or ends early gives an error.
 #include "io/image_file.hpp"
+#include "io/image_file_codecs.hpp"
 
 #include "base/file.hpp"
 #include "image_test_files.hpp"
@@ -349,4 +350,18 @@ TEST_CASE("image_file: write_image goes by the extension") {
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message.find(".webp") != std::string::npos);
     CHECK_FALSE(io::write_image(folder / "no/such/folder/a.png", image));
+}
+
+TEST_CASE("image_file: a JPG of a few bytes that claims to be huge is refused before it is unpacked") {
+    auto jpeg = io::encode_jpeg(16, 16, 1, 90, std::vector<std::uint8_t>(256, 128));
+    REQUIRE(jpeg);
+    REQUIRE(io::decode_jpeg(*jpeg, false));
+    const std::size_t frame = jpeg->find("\xff\xc0");
+    REQUIRE(frame != std::string::npos);
+    for (const std::size_t at : {frame + 5, frame + 7}) // height and width: 8224
+        (*jpeg)[at] = (*jpeg)[at + 1] = '\x20';
+    const auto huge = io::decode_jpeg(*jpeg, false);
+    REQUIRE_FALSE(huge);
+    CHECK(huge.error().message.find("the header says 8224 x 8224 pixels, but the file has only") !=
+          std::string::npos);
 }
