@@ -27,12 +27,12 @@ Result<int> compare_scenes(Context& context, const std::string& a, const std::st
         const nlohmann::ordered_json out = {
             {"a", a}, {"b", b}, {"same", differences.empty()}, {"differences", differences}};
         std::printf("%s\n", out.dump(2).c_str());
-        return exit_ok;
+        return differences.empty() ? exit_ok : exit_failed;
     }
     std::printf("%s\n", differences.empty() ? "the same scene" : "the scenes differ:");
     for (const std::string& line : differences)
         std::printf("  %s\n", line.c_str());
-    return exit_ok;
+    return differences.empty() ? exit_ok : exit_failed;
 }
 
 } // namespace restage::app

@@ -185,7 +185,9 @@ def test_compare_says_what_differs_between_two_scenes(tmp_path):
     assert json.loads(done.stdout)["same"] is True
     out.write_text(re.sub(r"\bfov\b(.*?)[0-9.]+", r"fov\g<1>12", out.read_text(), count=1))
     done = restage("compare", CORNELL, out)
-    assert done.returncode == 0 and "differ" in done.stdout and "camera" in done.stdout.lower(), done.stdout
+    assert done.returncode == 1 and "differ" in done.stdout and "camera" in done.stdout.lower(), done.stdout
+    done = restage("compare", CORNELL, out, "--json")
+    assert done.returncode == 1 and json.loads(done.stdout)["same"] is False
 
 
 def test_demo_runs_the_main_job(tmp_path):
