@@ -176,4 +176,4 @@ def test_what_is_not_there_is_said(tmp_path):
         done = check(name, "--quick")
         assert done.returncode == 1 and says in done.stderr
     done = check("mirror", "--quick", "--only", "nosuchstep")
-    assert done.returncode == 2 and "--only: nosuchstep not in" in done.stderr
+    assert done.returncode == 2 and '--only: "nosuchstep" is none of' in done.stderr
