@@ -362,6 +362,5 @@ TEST_CASE("image_file: a JPG of a few bytes that claims to be huge is refused be
         (*jpeg)[at] = (*jpeg)[at + 1] = '\x20';
     const auto huge = io::decode_jpeg(*jpeg, false);
     REQUIRE_FALSE(huge);
-    CHECK(huge.error().message.find("the header says 8224 x 8224 pixels, but the file has only") !=
-          std::string::npos);
+    CHECK(huge.error().message.find("the header says 8224 x 8224 pixels, but the file has only") != std::string::npos);
 }
