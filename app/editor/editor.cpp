@@ -22,8 +22,9 @@
 
 namespace restage::editor {
 
-Editor::Editor(plugin::Registry& registry, Log& log, EditorOptions options)
-    : options_(std::move(options)),
+Editor::Editor(plugin::Registry& registry, Log& log, Notices& shown, EditorOptions options)
+    : notices(shown),
+      options_(std::move(options)),
       log_(log),
       registry_(registry),
       session_(registry),

@@ -70,7 +70,8 @@ struct PickTool {
 
 class Editor {
   public:
-    Editor(plugin::Registry& registry, Log& log, EditorOptions options);
+    // `notices`: where `log` is shown, from before the editor lives.
+    Editor(plugin::Registry& registry, Log& log, Notices& notices, EditorOptions options);
     ~Editor();
     Editor(const Editor&) = delete;
     Editor& operator=(const Editor&) = delete;
@@ -149,7 +150,7 @@ class Editor {
     void set_picture_size(glm::uvec2 size) { picture_size_ = size; } // by the viewport
     bool show_original = false; // the scene as it was opened, while a key is held
     std::set<std::uint32_t> locked; // Id<Instance>::value: not picked by clicks
-    Notices notices;
+    Notices& notices;
     Drag gizmo_drag; // of the handles
     Viewport viewport;
     std::optional<scene::Id<scene::Material>> material_clipboard;

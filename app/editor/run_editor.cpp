@@ -77,10 +77,10 @@ std::string prepare(std::filesystem::path& config) {
 
 Result<int> run_editor(const RunOptions& options) {
     // The order matters: what comes later goes first. The editor outlives the window, see texture.hpp.
-    Notices* notices = nullptr;
+    Notices notices;
     Log log([&](LogLevel level, std::string_view line) {
         if (level != LogLevel::debug) std::fprintf(stderr, "restage: %.*s\n", int(line.size()), line.data());
-        if (notices) notices->add(level, std::string(line));
+        notices.add(level, std::string(line));
     });
     plugin::Registry registry(
         log, {.safe_mode = options.plugins.safe_mode, .quarantine = plugin::Registry::default_quarantine()});
@@ -94,13 +94,12 @@ Result<int> run_editor(const RunOptions& options) {
     registry.set_judge(render::material_judge(bin.parent_path() / "share/restage/shaders"));
 
     // Frames are asked for from threads before and after the window's life: GLFW ignores that.
-    Editor editor(registry, log,
+    Editor editor(registry, log, notices,
                   {.renderer = options.renderer,
                    .wake = Window::wake,
                    .config_dir = config,
                    .autosave_seconds = options.autosave_seconds,
                    .isolate = options.isolate});
-    notices = &editor.notices;
     RESTAGE_TRY(const auto window, Window::create({.size = options.size,
                                                    .device = options.renderer.device,
                                                    .validation = options.renderer.validation,

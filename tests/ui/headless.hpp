@@ -45,7 +45,7 @@ class Headless {
         renderer.tracer = "embree";
         renderer.stand_ins = true;
         renderer.shader_dir = restage::test::source_dir() / "shaders";
-        editor_ = std::make_unique<editor::Editor>(registry_, log_,
+        editor_ = std::make_unique<editor::Editor>(registry_, log_, notices_,
                                                    editor::EditorOptions{.renderer = renderer, .wake = [] {}});
         editor_->view.resolution = 0.02f; // the picture is no matter here
         editor_->open(restage::test::source_dir() / "scenes" / scene);
@@ -164,6 +164,7 @@ class Headless {
     }
 
     Log log_{[](LogLevel, std::string_view) {}};
+    editor::Notices notices_;
     plugin::Registry registry_{log_};
     ImGuiTestEngine* engine_ = nullptr;
     std::unique_ptr<editor::Editor> editor_;
