@@ -26,8 +26,8 @@ constexpr std::string_view words[] = {
     "accelerationStructureNV", "nonuniformEXT", "devicecoherent", "queuefamilycoherent", "workgroupcoherent",
     "subgroupcoherent", "shadercallcoherent", "pervertexEXT", "pervertexNV", "nonprivate", "demote",
     "terminateInvocation",
-    // of the headers around a material, and the one method that everything has
-    "address", "length"};
+    // macros of the headers around a material and of the compiler, and the one method that everything has
+    "address", "length", "Material", "VULKAN"};
 
 bool any_of(std::string_view name, std::initializer_list<std::string_view> list) {
     return std::find(list.begin(), list.end(), name) != list.end();
@@ -74,6 +74,7 @@ bool is_opaque(std::string_view name) { // usampler2DArray, image3D, textureCube
 } // namespace
 
 bool is_glsl_word(std::string_view name) {
+    if (name.starts_with("GL_") || name.starts_with("RESTAGE_")) return true; // macros: of extensions, of headers
     return std::find(std::begin(words), std::end(words), name) != std::end(words) || is_vector_or_matrix(name) ||
            is_scalar(name) || is_opaque(name);
 }

@@ -4,10 +4,10 @@
 #include "base/file.hpp"
 #include "base/json.hpp"
 #include "plugin/library.hpp"
+#include "plugin/manifest_keys.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t longest_manifest = 1 << 20;
 
-// Keys of a manifest: a misspelt one is not passed over. Who keeps notes of their own in it calls them "x-...".
 constexpr std::string_view known_keys[] = {"id",      "version", "kind",      "abi",       "licence",
                                            "library", "files",   "materials", "exceptions"};
 
@@ -48,36 +47,11 @@ std::size_t place_of_key(const std::string& text, const std::string& key) {
     return 0;
 }
 
-// How many letters must be inserted, dropped or replaced (Levenshtein 1966).
-std::size_t typing_errors(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
 Result<> check_keys(const json& object, const std::string& text, const std::string& file) {
-    for (const auto& [key, value] : object.items()) {
-        if (key.starts_with("x-") || std::count(std::begin(known_keys), std::end(known_keys), key)) continue;
-        std::string all;
-        std::string_view nearest = known_keys[0];
-        for (const std::string_view known : known_keys) {
-            all += (all.empty() ? "" : ", ") + std::string(known);
-            if (typing_errors(key, known) < typing_errors(key, nearest)) nearest = known;
-        }
-        const bool alike = typing_errors(key, nearest) <= std::max<std::size_t>(1, nearest.size() / 3);
-        return fail(file + ":" + line_and_column(text, place_of_key(text, key)) + ": the key \"" + key +
-                    "\" is unknown; " + (alike ? "is \"" + std::string(nearest) + "\" meant?" : "known are " + all) +
-                    " (keys of your own begin with \"x-\")");
-    }
-    return {};
+    const auto key = unknown_key(object, known_keys);
+    if (!key) return {};
+    return fail(file + ":" + line_and_column(text, place_of_key(text, *key)) + ": " +
+                unknown_key_text(*key, known_keys));
 }
 
 Result<std::string> text_of(const json& object, const char* key, const std::string& file) {
@@ -125,11 +99,32 @@ Result<> read_abi(const json& object, const std::string& file, Manifest& out) {
         out.abi_max = out.abi_min;
         return {};
     }
+    constexpr std::string_view keys[] = {"min", "max"};
+    if (const auto key = unknown_key(*abi, keys)) return fail(file + ": \"abi\": " + unknown_key_text(*key, keys));
     for (const char* key : {"min", "max"})
         if (!abi->contains(key)) return fail(file + ": \"abi\" has no \"" + key + "\"");
     RESTAGE_TRY(out.abi_min, revision((*abi)["min"], "\"abi\".\"min\"", file));
     RESTAGE_TRY(out.abi_max, revision((*abi)["max"], "\"abi\".\"max\"", file));
     if (out.abi_min > out.abi_max) return fail(file + ": \"abi\": min is greater than max");
+    return {};
+}
+
+// Read by `restage check`; whether its steps know exceptions is asked there.
+Result<> check_exceptions(const json& object, const std::string& file) {
+    const auto list = object.find("exceptions");
+    if (list == object.end()) return {};
+    const std::string what = file + ": \"exceptions\"";
+    if (!list->is_array()) return fail(what + " must be a list of objects { \"step\", \"limit\", \"why\" }");
+    constexpr std::string_view keys[] = {"step", "limit", "why"};
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        const json& one = (*list)[i];
+        const std::string where = what + "[" + std::to_string(i) + "]";
+        if (!one.is_object()) return fail(where + " must be an object { \"step\", \"limit\", \"why\" }");
+        if (const auto key = unknown_key(one, keys)) return fail(where + ": " + unknown_key_text(*key, keys));
+        RESTAGE_TRY(const std::string step, text_of(one, "step", where));
+        RESTAGE_TRY(const std::string why, text_of(one, "why", where));
+        if (!one.contains("limit") || !one["limit"].is_number()) return fail(where + ": \"limit\" must be a number");
+    }
     return {};
 }
 
@@ -172,6 +167,7 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
         return fail(file + ": \"kind\": \"" + kind +
                     "\" is unknown; material, importer, exporter and denoiser are known");
     RESTAGE_CHECK(read_abi(object, file, out));
+    RESTAGE_CHECK(check_exceptions(object, file));
     if (object.contains("materials")) { // material_json.cpp reads them
         if (out.kind != Kind::material) return fail(file + ": only a plugin of kind material has \"materials\"");
         if (object.contains("library"))

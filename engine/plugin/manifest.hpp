@@ -5,8 +5,8 @@
 //     "licence": "MIT", "library": "velvet", "files": ["velvet.glsl"] }
 // "abi": 1 is short for min = max = 1. "library" without an extension gets that of the platform. Paths are relative to
 // the manifest's folder and stay inside it. `restage check` reads "exceptions". Keys of somebody else's begin with
-// "x-"; others are refused, because they are typing errors. A material without native code has no "library"; its table
-// stands in the manifest:
+// "x-", here and in all that is nested; others are refused, because they are typing errors. A material without native
+// code has no "library"; its table stands in the manifest:
 //   "materials": [{ "type": "velvet", "label": "Velvet", "prefix": "velvet", "glsl": "velvet.glsl", "tooltip":
 //   "Cloth.",
 //     "flags": ["lossless"],                       stochastic lossless transmissive nonreciprocal tangent additive

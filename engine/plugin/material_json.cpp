@@ -2,6 +2,7 @@
 // Material tables written as JSON: the same lines as RestageMaterial1 and RestageParam, by name. Whether they make
 // sense is asked by check_table, as for tables that come from a library.
 #include "base/json.hpp"
+#include "plugin/manifest_keys.hpp"
 #include "plugin/material_source.hpp"
 
 #include <algorithm>
@@ -43,9 +44,8 @@ struct JsonReader {
     // Every key is known: a typing error is not passed over.
     static Result<> know(const json& object, std::initializer_list<std::string_view> keys, const std::string& where) {
         if (!object.is_object()) return fail(where + " must be an object { ... }");
-        for (const auto& [key, value] : object.items())
-            if (std::find(keys.begin(), keys.end(), key) == keys.end())
-                return fail(where + ": the key \"" + key + "\" is unknown");
+        const Keys known(keys.begin(), keys.end());
+        if (const auto key = unknown_key(object, known)) return fail(where + ": " + unknown_key_text(*key, known));
         return {};
     }
     const char* keep(std::string text) { return out.strings_.emplace_back(std::move(text)).c_str(); }

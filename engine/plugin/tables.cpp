@@ -114,6 +114,8 @@ bool is_glsl_identifier(std::string_view name) {
     return letters && !is_glsl_word(name);
 }
 
+bool is_taken_prefix(std::string_view prefix) { return prefix == "material"; }
+
 std::string check_params(const RestageParam* params, std::uint32_t count) {
     if (count > 0 && !params) return "its parameter table is missing";
     if (count > 4096) return std::to_string(count) + " parameters are not believable";
@@ -143,6 +145,8 @@ std::string check_table(const RestageMaterial1& m, const fs::path& folder) {
     if (m.prefix ? !is_glsl_identifier(m.prefix) || std::string_view(m.prefix).back() == '_' : has_code)
         return who + ": its prefix " + (m.prefix ? quoted(m.prefix) : "NULL") +
                " is no GLSL identifier, or ends with an underscore";
+    if (m.prefix && is_taken_prefix(m.prefix))
+        return who + ": its prefix " + quoted(m.prefix) + " is taken: the functions around a material begin with it";
     if (const std::string problem = check_params(m.params, m.param_count); !problem.empty())
         return who + ": " + problem;
     for (std::uint32_t i = 0; i < m.param_count; ++i)

@@ -16,6 +16,7 @@
 namespace restage::plugin {
 
 bool is_glsl_identifier(std::string_view); // and no reserved word
+bool is_taken_prefix(std::string_view); // by the functions that call a material's
 std::string check_params(const RestageParam* params, std::uint32_t count);
 std::string check_table(const RestageMaterial1&, const std::filesystem::path& folder);
 std::string check_table(const RestageImporter1&);

@@ -75,13 +75,17 @@ def test_new_plugin_refuses(installed, tmp_path):
         assert done.returncode == 1
         return done.stderr
 
-    for name in ("Velvet", "9x", "a-b", "float", "x_", "a__b"):
+    for name in ("Velvet", "9x", "a-b", "float", "x_", "a__b", "material"):
         assert "cannot be the name of a material" in said(name)
     assert 'there is a material "diffuse" already' in said("diffuse")
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").write_text("mine")
     assert "is there already, and not empty" in said("velours", "--folder", "full")
     assert (tmp_path / "full" / "file").read_text() == "mine"
+    assert "full/file: is there already, and no folder" in said("velours", "--folder", "full/file")
+    assert "--label: quotes, backslashes" in said("velours", "--label", 'So "soft"')
+    assert '"nonsense" is not in reverse-DNS form' in said("velours", "--id", "nonsense")
+    assert [p.name for p in tmp_path.iterdir()] == ["full"], "a failed command leaves nothing behind"
 
 
 def test_the_tutorial(installed, tmp_path):

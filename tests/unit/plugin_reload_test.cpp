@@ -31,7 +31,7 @@ const std::string params = R"([
  {"id": "tint", "label": "Tint", "type": "color", "flags": ["texturable"], "default": [0.1, 0.2, 0.3], "tooltip": "T."},
  {"id": "fuzz", "type": "float", "min": 0.5, "max": 2, "default": 1.5, "unit": "m", "flags": ["texturable", "advanced"]},
  {"id": "count", "type": "int", "min": 1, "max": 9, "default": 3},
- {"id": "soft", "type": "bool", "default": true},
+ {"id": "soft", "type": "bool", "default": true, "x-note": "its author's own"},
  {"id": "weave", "type": "enum", "choices": ["plain", "twill"], "default": "twill"}])";
 
 // Mappings of private copies of plugin libraries.
@@ -83,7 +83,11 @@ TEST_CASE("what is wrong in a table written as JSON is named with its place", "[
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "min": "0"}])")),
                ContainsSubstring("\"min\" must be a number"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "mim": 0}])")),
-               ContainsSubstring("the key \"mim\" is unknown"));
+               ContainsSubstring("\"params\"[0]: the key \"mim\" is unknown; is \"min\" meant?"));
+    CHECK_THAT(refused(velvet("[]", R"(, "tooltips": "x")")),
+               ContainsSubstring("\"materials\"[0]: the key \"tooltips\" is unknown; is \"tooltip\" meant?"));
+    CHECK_THAT(refused(velvet("[]", R"(, "emission": {"radiance": "a", "colour": "b"})")),
+               ContainsSubstring("\"emission\": the key \"colour\" is unknown; known are radiance, scale, two_sided"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "default": 7}])")),
                ContainsSubstring("parameter \"a\": its default is out of its range"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "color", "default": 1}])")),
@@ -92,6 +96,7 @@ TEST_CASE("what is wrong in a table written as JSON is named with its place", "[
                ContainsSubstring("must be one of the choices"));
     CHECK_THAT(refused(velvet("[]", R"(, "flags": ["shiny"])")), ContainsSubstring("\"shiny\" is unknown"));
     CHECK_THAT(refused(velvet("[]", R"(, "prefix": "a__b")")), ContainsSubstring("no GLSL identifier"));
+    CHECK_THAT(refused(velvet("[]", R"(, "prefix": "material")")), ContainsSubstring("\"material\" is taken"));
     CHECK_THAT(refused(velvet("[") + "]"), ContainsSubstring("not JSON"));
     const std::string both = json_manifest(velvet("[]"));
     CHECK_THAT(folder.refusal_of(both.substr(0, both.size() - 1) + R"(, "library": "velvet"})", "good"),

@@ -130,6 +130,22 @@ TEST_CASE("a misspelt key of a manifest is named with its place and the nearest 
                ContainsSubstring("the key \"homepage\" is unknown; known are id, version"));
     CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
                ContainsSubstring("keys of your own begin with \"x-\""));
+    const auto abi = [&](const std::string& value) {
+        std::string text = with("");
+        return text.replace(text.find("\"abi\": 1"), 8, "\"abi\": " + value);
+    };
+    CHECK_THAT(folder.refusal_of(abi(R"({"min": 1, "mex": 1})"), "good"),
+               ContainsSubstring("\"abi\": the key \"mex\" is unknown; is \"max\" meant?"));
+    const auto exceptions = [&](const std::string& list) {
+        return folder.refusal_of(with(", \"exceptions\": " + list), "good");
+    };
+    CHECK_THAT(exceptions(R"({"step": "energy"})"), ContainsSubstring("\"exceptions\" must be a list"));
+    CHECK_THAT(exceptions("[1]"), ContainsSubstring("\"exceptions\"[0] must be an object"));
+    CHECK_THAT(exceptions(R"([{"step": "energy", "limit": 1.1, "why": "x"}, {"stp": "energy"}])"),
+               ContainsSubstring("\"exceptions\"[1]: the key \"stp\" is unknown; is \"step\" meant?"));
+    CHECK_THAT(exceptions(R"([{"step": "energy", "limit": "1.1", "why": "x"}])"),
+               ContainsSubstring("\"limit\" must be a number"));
+    CHECK_THAT(exceptions(R"([{"step": "energy", "limit": 1.1}])"), ContainsSubstring("\"why\" is missing"));
     fs::remove_all(folder.path);
     folder.add("p", with(R"(, "x-homepage": "example.org", "exceptions": [])"), "good");
     Registry registry(folder.log);
@@ -152,14 +168,41 @@ TEST_CASE("a plugin that is not built says so, and how to build it", "[plugin]")
 
 TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
     // Of each family something, each tried with glslang as the member of a struct in a composed shader.
-    for (const char* word : {"sampler",        "samplerShadow",   "usampler2DArray", "sampler2DRectShadow",
-                             "image2D",        "iimage2DMSArray", "image3D",         "texture2D",
-                             "utextureBuffer", "subpassInput",    "usubpassInputMS", "samplerCubeArrayShadow",
-                             "vec3",           "bvec2",           "f16vec4",         "i64vec2",
-                             "hvec3",          "mat4x3",          "dmat2",           "uint64_t",
-                             "float16_t",      "atomic_uint",     "rayPayloadEXT",   "accelerationStructureEXT",
-                             "nonprivate",     "pervertexEXT",    "precise",         "half",
-                             "long",           "address",         "length"}) {
+    for (const char* word : {"sampler",
+                             "samplerShadow",
+                             "usampler2DArray",
+                             "sampler2DRectShadow",
+                             "image2D",
+                             "iimage2DMSArray",
+                             "image3D",
+                             "texture2D",
+                             "utextureBuffer",
+                             "subpassInput",
+                             "usubpassInputMS",
+                             "samplerCubeArrayShadow",
+                             "vec3",
+                             "bvec2",
+                             "f16vec4",
+                             "i64vec2",
+                             "hvec3",
+                             "mat4x3",
+                             "dmat2",
+                             "uint64_t",
+                             "float16_t",
+                             "atomic_uint",
+                             "rayPayloadEXT",
+                             "accelerationStructureEXT",
+                             "nonprivate",
+                             "pervertexEXT",
+                             "precise",
+                             "half",
+                             "long",
+                             "address",
+                             "length",
+                             "Material",
+                             "VULKAN",
+                             "GL_EXT_ray_tracing",
+                             "RESTAGE_LIB_RNG"}) {
         INFO(word);
         CHECK_FALSE(is_glsl_identifier(word));
         const RestageParam param{.id = word,
@@ -174,8 +217,9 @@ TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
                                  .tooltip = ""};
         CHECK_THAT(check_params(&param, 1), ContainsSubstring(std::string("\"") + word + "\" is a word of GLSL"));
     }
-    for (const char* name : {"tint", "textures", "texture_scale", "vector", "matte", "int_size", "imagery", "samples",
-                             "vec", "mat5", "ivec5", "texture", "mix", "clamp", "color"})
+    for (const char* name :
+         {"tint", "textures", "texture_scale", "vector", "matte", "int_size", "imagery", "samples", "vec", "mat5",
+          "ivec5", "texture", "mix", "clamp", "color", "material", "normalize", "PI", "main"})
         CHECK(is_glsl_identifier(name));
 }
 
