@@ -4,18 +4,16 @@
 #include "io/import.hpp"
 #include "render/agreement.hpp"
 
-#include <catch2/generators/catch_generators.hpp>
 #include <cstdlib>
 
 using namespace restage;
 using namespace restage::tests;
 
-TEST_CASE("tracers agree: real scenes") {
+namespace {
+
+void check_scene(const std::string& name) {
     const char* folder = std::getenv("RESTAGE_SCENES");
     if (!folder || !*folder) SKIP("RESTAGE_SCENES is not set: the eleven real scenes are left out");
-    const std::string name =
-        GENERATE("coffee", "cornell-box", "dining-room", "kitchen", "living-room", "material-testball", "staircase2",
-                 "teapot-full", "veach-bidir", "veach-mis", "water-caustic");
     const auto path = std::filesystem::path(folder) / name / "scene.pbrt";
     INFO(path.string());
     auto imported = io::import_scene(path.string(), plugins().registry);
@@ -34,3 +32,21 @@ TEST_CASE("tracers agree: real scenes") {
     const double alike = share_alike(vulkan.image, same.image);
     CHECK(alike >= 0.9);
 }
+
+} // namespace
+
+// A case a scene: with cold caches each compiles for up to a minute.
+#define REAL_SCENE(name) \
+    TEST_CASE("tracers agree: real scene " name) { check_scene(name); }
+
+REAL_SCENE("coffee")
+REAL_SCENE("cornell-box")
+REAL_SCENE("dining-room")
+REAL_SCENE("kitchen")
+REAL_SCENE("living-room")
+REAL_SCENE("material-testball")
+REAL_SCENE("staircase2")
+REAL_SCENE("teapot-full")
+REAL_SCENE("veach-bidir")
+REAL_SCENE("veach-mis")
+REAL_SCENE("water-caustic")
