@@ -5,9 +5,11 @@
 #include <restage/scene_io.h>
 #include <unistd.h>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 
 namespace restage::fuzz {
 
@@ -58,14 +60,23 @@ inline RestageSceneWriter1 host() {
             .release_image = [](void*, RestageDecodedImage* image) { *image = {}; }};
 }
 
-// Writes the bytes to a file with that extension and hands it to the importer.
-inline void import(const uint8_t* data, std::size_t size, const char* extension,
+// Writes the bytes to a file with that extension and hands it to the importer. What follows a line "@@" goes into a
+// file of its own, which the first can name: "beside.mtl", or "beside.bin".
+inline void import(const uint8_t* data, std::size_t size, const std::string& extension,
                    int (*load)(const char*, const RestageSceneWriter1*)) {
-    static const std::string path = "/tmp/restage-fuzz-" + std::to_string(getpid()) + extension;
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (!file) std::abort();
-    std::fwrite(data, 1, size, file);
-    std::fclose(file);
+    static const std::filesystem::path folder = "/tmp/restage-fuzz-" + std::to_string(getpid());
+    std::filesystem::create_directories(folder);
+    const auto write = [](const std::filesystem::path& path, std::string_view text) {
+        std::ofstream file(path, std::ios::binary);
+        if (!file.write(text.data(), std::streamsize(text.size())).flush()) std::abort();
+    };
+    constexpr std::string_view mark = "\n@@\n";
+    const std::string_view all(reinterpret_cast<const char*>(data), size);
+    const std::size_t cut = all.find(mark);
+    const std::string path = folder / ("model" + extension);
+    write(path, all.substr(0, cut));
+    write(folder / (extension == ".obj" ? "beside.mtl" : "beside.bin"),
+          cut == all.npos ? std::string_view() : all.substr(cut + mark.size()));
     handles = 0;
     const RestageSceneWriter1 writer = host();
     load(path.c_str(), &writer);
