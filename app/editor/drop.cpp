@@ -167,31 +167,37 @@ void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
 }
 
 void preview_drop(Editor& e, const fs::path& path, ImVec2 screen) {
-    const std::string extension = extension_of(path);
+    const std::string extension = extension_of(path), name = path.stem().string();
     const InstanceId on = target_at(e, e.viewport.film_point(screen));
     const bool picture = is_one_of(extension, picture_files), table = !picture && takes_table(e, extension, on);
-    std::string text;
+    std::string text, onto;
     if (picture && becomes_sky(extension, on)) {
-        text = "becomes the sky";
+        text = name + " becomes the sky";
     } else if (picture || table) {
         e.drop_target = on;
         const scene::Material* material = material_of(e, on);
         const std::size_t users = material ? users_of(e.scene(), e.scene().instances[on].material) : 0;
-        text = !material ? "there is no material for it"
+        if (material) onto = material->name;
+        text = !material ? "There is no material for " + name
                : users > 1
-                   ? fmt::format("onto \"{}\", the material of {} objects", material->name, users)
-                   : fmt::format("onto \"{}\", the material of {}", material->name, e.scene().instances[on].name);
+                   ? fmt::format("{} onto \"{}\", the material of {} objects", name, onto, users)
+                   : fmt::format("{} onto \"{}\", the material of {}", name, onto, e.scene().instances[on].name);
     } else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && e.scene().instances.live() > 0) {
         e.drop_target = on;
-        text = on ? "to stand on " + e.scene().instances[on].name : "into the scene";
+        text = on ? fmt::format("{}, to stand on {}", name, e.scene().instances[on].name) : name + ", into the scene";
     } else {
-        text = "is opened";
+        text = name + " is opened";
     }
-    if (ImGui::BeginTooltip()) { // beside the name of what is dragged
+    // Instead of the source's, see accept_asset(); not beyond the window's right edge.
+    const bool right = screen.x > ImGui::GetMainViewport()->GetCenter().x;
+    ImGui::SetNextWindowPos({screen.x + (right ? -8.f : 16.f), screen.y + 12}, ImGuiCond_Always,
+                            {right ? 1.f : 0.f, 0});
+    if (ImGui::BeginTooltip()) {
         ImGui::TextUnformatted(text.c_str());
+        e.mark("drop.preview");
+        if (!onto.empty()) e.mark("drop.onto." + onto);
         ImGui::EndTooltip();
     }
-    e.mark("drop.preview", screen);
 }
 
 void ask_scope(Editor& e, const std::vector<InstanceId>& objects, const std::string& what,

@@ -20,7 +20,9 @@ namespace restage::tests {
 
 class Headless {
   public:
-    explicit Headless(const std::string& scene, float scale = 1, ImVec2 size = {1500, 1000}) {
+    // `config`: where preferences and the list of assets are; none = nothing is remembered.
+    explicit Headless(const std::string& scene, float scale = 1, ImVec2 size = {1500, 1000},
+                      const std::filesystem::path& config = {}) {
         const plugin::SearchPath plugins{restage::test::build_dir() / "lib/restage/plugins", true};
         registry_.scan({&plugins, 1});
         ImGui::CreateContext();
@@ -45,8 +47,9 @@ class Headless {
         renderer.tracer = "embree";
         renderer.stand_ins = true;
         renderer.shader_dir = restage::test::source_dir() / "shaders";
-        editor_ = std::make_unique<editor::Editor>(registry_, log_, notices_,
-                                                   editor::EditorOptions{.renderer = renderer, .wake = [] {}});
+        editor_ = std::make_unique<editor::Editor>(
+            registry_, log_, notices_,
+            editor::EditorOptions{.renderer = renderer, .wake = [] {}, .config_dir = config});
         editor_->view.resolution = 0.02f; // the picture is no matter here
         editor_->open(restage::test::source_dir() / "scenes" / scene);
         const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(120);
@@ -68,6 +71,8 @@ class Headless {
 
     editor::Editor& editor() { return *editor_; }
     const scene::Scene& scene() const { return editor_->scene(); }
+    const plugin::Registry& registry() const { return registry_; }
+    Log& log() { return log_; }
     std::size_t step() const { return editor_->session().history().position(); }
 
     // Plays what a user does. Fails the test case when a check in it fails.

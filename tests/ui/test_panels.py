@@ -4,12 +4,14 @@ images found again in the file browser, objects dragged between groups; and the 
 import json
 import pathlib
 
+import numpy as np
 import pytest
 
 from test_files import modal, type_path
 from test_viewport import CHAIR, DEMO, difference, names
 
 FLOOR = ("picture", 0.12, 0.93)
+HOVER = np.float32([0.55, 0.78, 0.98])  # colors::hover
 SCENE = """LookAt 0 1 4  0 0.5 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 640 "integer yresolution" 360
@@ -33,6 +35,11 @@ def editor(launch):
 
 def tab(editor, name):
     editor.click("tab." + name)
+
+
+def outlined(editor):
+    """The pixels of the picture that have the colour of what is hovered, as rows and columns; outlines are thin lines."""
+    return np.nonzero(np.abs(editor.picture() - HOVER).max(2) < 0.02)
 
 
 def test_the_eyedropper_takes_a_material_from_the_picture(editor):
@@ -60,13 +67,34 @@ def test_assets_are_dragged_into_the_picture(editor):
     seen = editor.picture()
     tab(editor, "Assets")
 
-    def drag(asset, where):
+    def search(asset):
         editor.click("assets.search")
         editor.key("ctrl+a")
         editor.type(asset)
+
+    def drag(asset, where):
+        search(asset)
         editor.drag("asset." + asset, where)
 
-    drag("oak", FLOOR)
+    # While it is held, what it would go onto is outlined, and its material named beside the mouse.
+    search("oak")
+    editor.move("asset.oak")
+    editor.desk.xdotool("mousedown", 1)
+    editor.move(("picture", 0.5, 0.8))
+    editor.move(CHAIR)
+    editor.wait(lambda s: "drop.onto.Cushion wool" in s["marks"], "the cushion's material to be named")
+    editor.wait(lambda _: len(outlined(editor)[0]) > 50, "the cushion's outline")
+    rows, columns = outlined(editor)
+    height, width = editor.picture().shape[:2]
+    assert np.ptp(columns) < 0.25 * width and abs(np.median(columns) / width - CHAIR[1]) < 0.1
+    editor.move(FLOOR)
+    state = editor.wait(lambda s: "drop.onto.Oak floor" in s["marks"], "the floor's material to be named")
+    x0, y0, x1, y1 = (int(v) for v in state["marks"]["drop.onto.Oak floor"])
+    assert x0 >= 0 and x1 <= editor.size[0] and x1 - x0 > 100
+    editor.wait(lambda _: np.ptp(outlined(editor)[1]) > 0.8 * width, "the floor's outline")
+    note = editor.desk.screenshot()[y0:y1, x0:x1]
+    assert note.max() > 180 and note.std() > 20, "the words are not on the screen"
+    editor.desk.xdotool("mouseup", 1)
     asked = editor.wait(lambda s: s["modal"] or s["history"]["position"] == 1, "the texture, or the question for which")
     if asked["modal"]:
         editor.click("scope.all")

@@ -33,6 +33,7 @@ fs::path own_config(const Editor& e) {
 }
 
 void load(Editor& e, AssetsState& state) {
+    if (state.loaded) return;
     state.loaded = true;
     state.entries.clear();
     state.folders.clear();
@@ -159,6 +160,11 @@ void add_folder(Editor& e, const fs::path& folder) {
 
 } // namespace
 
+std::vector<std::string> assets_of(Editor& e, AssetKind kind) {
+    load(e, e.panel_state->assets);
+    return e.panel_state->assets.files_of(kind);
+}
+
 const AssetsState::Thumbnail& thumbnail_of(Editor& e, const std::string& file) {
     AssetsState& state = e.panel_state->assets;
     AssetsState::Thumbnail& thumbnail = state.thumbnails[file];
@@ -169,7 +175,8 @@ const AssetsState::Thumbnail& thumbnail_of(Editor& e, const std::string& file) {
 void accept_asset(Editor& e) {
     if (!ImGui::BeginDragDropTarget()) return;
     if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(
-            "restage.path", ImGuiDragDropFlags_AcceptBeforeDelivery | ImGuiDragDropFlags_AcceptNoDrawDefaultRect)) {
+            "restage.path", ImGuiDragDropFlags_AcceptBeforeDelivery | ImGuiDragDropFlags_AcceptNoDrawDefaultRect |
+                                ImGuiDragDropFlags_AcceptNoPreviewTooltip)) {
         const std::filesystem::path path(static_cast<const char*>(payload->Data));
         const ImVec2 at = ImGui::GetIO().MousePos;
         if (payload->IsDelivery())
@@ -182,7 +189,7 @@ void accept_asset(Editor& e) {
 
 void draw_assets(Editor& e) {
     AssetsState& state = e.panel_state->assets;
-    if (!state.loaded) load(e, state);
+    load(e, state);
     const float scale = ImGui::GetStyle().FontScaleMain;
     ImGui::SetNextItemWidth(100 * scale);
     ImGui::Combo("##kind", &state.kind, kind_names, IM_ARRAYSIZE(kind_names));

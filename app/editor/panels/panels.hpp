@@ -25,6 +25,8 @@ void draw_help(Editor& editor);
 // The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
 // a scene.
 void accept_asset(Editor& editor);
+// What is at hand of a kind, whether the panel was seen or not.
+std::vector<std::string> assets_of(Editor& editor, AssetKind kind);
 // A small picture of that file; it is read when first asked for.
 const AssetsState::Thumbnail& thumbnail_of(Editor& editor, const std::string& file);
 // Notes the error of the live picture, whether the panel is seen or not; once a frame.

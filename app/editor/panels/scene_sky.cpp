@@ -49,7 +49,7 @@ std::vector<std::string> known_skies(Editor& e) {
     const auto add = [&](const std::string& path) {
         if (!path.empty() && std::find(known.begin(), known.end(), path) == known.end()) known.push_back(path);
     };
-    for (const std::string& path : e.panel_state->assets.files_of(AssetKind::sky)) {
+    for (const std::string& path : assets_of(e, AssetKind::sky)) {
         const auto small = e.panel_state->assets.thumbnails.find(path);
         const bool seen = small != e.panel_state->assets.thumbnails.end();
         if (seen && small->second.failed) continue;
@@ -104,11 +104,13 @@ void image_row(Editor& e, const Environment& sky) {
                 e.mark("sky.choose." + names[i]);
                 ImDrawList* draw = ImGui::GetWindowDrawList();
                 const AssetsState::Thumbnail& small = thumbnail_of(e, known[i]);
-                if (small.texture && small.texture->ready())
+                if (small.texture && small.texture->ready()) {
                     draw->AddImage(small.texture->ref(), {at.x, at.y + 1}, {at.x + wide, at.y + high - 1});
-                else
+                    e.mark("sky.thumbnail." + names[i], at, {at.x + wide, at.y + high});
+                } else {
                     draw->AddRectFilled({at.x, at.y + 1}, {at.x + wide, at.y + high - 1},
                                         ImGui::GetColorU32(ImGuiCol_FrameBg));
+                }
                 draw->AddText(
                     {at.x + wide + ImGui::GetStyle().ItemSpacing.x, at.y + (high - ImGui::GetTextLineHeight()) / 2},
                     ImGui::GetColorU32(ImGuiCol_Text), names[i].c_str());
