@@ -57,7 +57,8 @@ class Compiler {
     bool image(const Texture& t) {
         const scene::Image* image = scene_.images.find(t.image);
         if (!image || !image->data) {
-            constant({0.5f, 0.5f, 0.5f}); // reported by the importer
+            const auto grey = t.params.color("average", {0.5f, 0.5f, 0.5f}); // reported by the importer
+            constant({grey[0], grey[1], grey[2]});
             return true;
         }
         TextureOp op{};

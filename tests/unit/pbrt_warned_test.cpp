@@ -81,6 +81,7 @@ TEST_CASE("pbrt-v3: what it warns of is reported, and reading goes on", "[pbrt]"
          "Texture \"a\" \"color\" \"constant\"\nTexture \"a\" \"color\" \"constant\"\nShape \"sphere\"\n",
          "is defined again", 5, 1},
         {"camera late", "Camera \"perspective\"\nShape \"sphere\"\n", "before WorldBegin", 4, 1},
+        {"spot", "LightSource \"spot\" \"point from\" [0 0 1]\nShape \"sphere\"\n", "the same point", 4, 2},
         {"world twice", "WorldBegin\nShape \"sphere\"\n", "a second one", 4, 1},
         {"look at", "LookAt 0 0 0  0 0 0  0 1 0\nShape \"sphere\"\n", "LookAt", 4, 1},
         {"instance inside", "ObjectBegin \"a\"\nObjectInstance \"a\"\nObjectEnd\nShape \"sphere\"\n",
@@ -266,4 +267,184 @@ TEST_CASE("pbrt: subsurface materials have their colour", "[pbrt]") {
         loaded(v3_head, "Texture \"a\" \"spectrum\" \"checkerboard\"\nMaterial \"kdsubsurface\" \"texture Kd\" \"a\"");
     CHECK(textured.materials[0].type == "uber");
     CHECK(textured.materials[0].values.at("kd").ref != 0);
+}
+
+TEST_CASE("pbrt-v3: a value of another type is no value", "[pbrt]") {
+    Recorder r;
+    REQUIRE(r.load_text(v3_head + "LightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 3\n"
+                                  "Material \"matte\" \"float Kd\" .9 \"rgb sigma\" [50 50 50]\n"
+                                  "Shape \"sphere\" \"integer radius\" 3\n"
+                                  "Material \"matte\" \"colour Kd\" [.9 .9 .9]\nShape \"sphere\"\n"
+                                  "Material \"glass\" \"spectrum eta\" [400 2 700 2]\nShape \"sphere\"\nWorldEnd\n") ==
+            1);
+    INFO(r.all_reports());
+    CHECK(r.environments.at(0).scale[2] == 3);
+    CHECK(r.materials.at(0).values.at("reflectance").v[0] == 0.5f);
+    CHECK(r.materials.at(0).values.at("sigma").v[0] == 0);
+    CHECK(r.meshes.at(0).positions.at(2) == Catch::Approx(-1).epsilon(0.01)); // a sphere of radius 1
+    CHECK(r.materials.at(1).values.at("reflectance").v[0] == 0.5f);
+    CHECK(r.materials.at(2).values.at("eta").v[0] == 1.5f);
+    for (const char* part : {"\"float scale\" has a value of the wrong kind", "\"float Kd\"", "\"rgb sigma\"",
+                             "\"integer radius\"", "\"colour Kd\"", "\"spectrum eta\""})
+        CHECK(r.reports(part));
+}
+
+TEST_CASE("pbrt: parameters that pbrt does not know are warned of, those that it does are kept", "[pbrt]") {
+    for (const std::string& head : {v3_head, v4_head}) {
+        Recorder r;
+        const std::string end = head == v3_head ? "WorldEnd\n" : "";
+        REQUIRE(r.load_text(head +
+                            "Shape \"sphere\" \"float raduis\" 3\nLightSource \"point\" \"integer nsamples\" 4\n" +
+                            end) == 1);
+        INFO(r.all_reports());
+        const auto fate = [&](const char* part) {
+            for (const auto& line : r.lines)
+                if ((line.what + line.note).find(part) != std::string::npos) return line.fate;
+            return -1;
+        };
+        CHECK(fate("raduis") == RESTAGE_APPROXIMATED);
+        CHECK(fate("nsamples") == RESTAGE_KEPT);
+    }
+    Recorder depth;
+    REQUIRE(depth.load_text("Film \"image\"\nIntegrator \"path\" \"float maxdepth\" 9 \"float rrthreshold\" 1\n"
+                            "Sampler \"random\" \"integer pixelsample\" 9\nWorldBegin\nWorldEnd\n") == 1);
+    CHECK(depth.settings.max_depth == 5);
+    CHECK(depth.reports("\"float maxdepth\" has a value of the wrong kind"));
+    CHECK(depth.reports("pixelsample"));
+    CHECK_FALSE(depth.reports("rrthreshold"));
+    Recorder v4; // pbrt stops there; what is meant is clear
+    REQUIRE(v4.load_text(v4_head + "Shape \"sphere\" \"integer radius\" 3\n") == 1);
+    CHECK(v4.meshes.at(0).positions.at(2) == Catch::Approx(-3).epsilon(0.01));
+    CHECK(v4.reports("should be \"float radius\""));
+}
+
+TEST_CASE("pbrt-v3: stand-ins are pbrt's own", "[pbrt]") {
+    Recorder r;
+    REQUIRE(r.load_text(v3_head +
+                        "Material \"gypsum\" \"rgb Kd\" [.9 .8 .7]\nShape \"sphere\"\n"
+                        "MakeNamedMaterial \"a\" \"rgb Kd\" [.9 .9 .9]\nNamedMaterial \"a\"\nShape \"sphere\"\n"
+                        "Material \"matte\" \"spectrum Kd\" \"no.spd\"\nShape \"sphere\"\n"
+                        "LightSource \"point\" \"spectrum I\" \"no.spd\"\n"
+                        "Texture \"p\" \"color\" \"imagemap\" \"string filename\" \"no.png\"\n"
+                        "Texture \"e\" \"color\" \"imagemap\" \"string filename\" \"no.exr\" \"float scale\" 3\n"
+                        "WorldEnd\n") == 1);
+    INFO(r.all_reports());
+    CHECK(r.materials.at(0).values.at("reflectance").v[2] == 0.7f); // matte with what it says
+    CHECK(r.materials.at(1).type == "interface"); // no "string type"
+    CHECK(r.reports("no \"string type\""));
+    CHECK(r.materials.at(2).values.at("reflectance").v[0] == 0); // black
+    CHECK(r.raw_lights.at(0).value[0] == 0);
+    // A grey of 0.5 in place of the texels, which are decoded and scaled.
+    CHECK(r.textures.at(0).values.at("average").v[0] == Catch::Approx(0.21404).epsilon(1e-4));
+    CHECK(r.textures.at(1).values.at("average").v[0] == Catch::Approx(1.5));
+}
+
+TEST_CASE("pbrt: quadrics of which nothing is left do not stop the file", "[pbrt]") {
+    for (const std::string& head : {v3_head, v4_head})
+        for (const char* shape :
+             {"\"sphere\" \"float radius\" 0", "\"sphere\" \"float radius\" -1", "\"sphere\" \"float phimax\" 0",
+              "\"sphere\" \"float zmin\" .5 \"float zmax\" .5", "\"disk\" \"float innerradius\" 2",
+              "\"cylinder\" \"float zmin\" 1", "\"cylinder\" \"float radius\" 0"}) {
+            INFO(shape);
+            Recorder r;
+            REQUIRE(r.load_text(head + "Shape " + shape + "\nShape \"sphere\"\n" +
+                                (head == v3_head ? "WorldEnd\n" : "")) == 1);
+            CHECK(r.instances.size() == 2);
+            CHECK(placeholders(r) == 1);
+            CHECK(r.reports("its place is kept"));
+        }
+}
+
+TEST_CASE("pbrt-v3: blocks out of place", "[pbrt]") {
+    Recorder early; // VERIFY_WORLD: left out
+    REQUIRE(early.load_text("Film \"image\"\nAttributeBegin\nReverseOrientation\nTransformBegin\n"
+                            "Texture \"t\" \"color\" \"constant\"\nMakeNamedMaterial \"m\" \"string type\" \"mirror\"\n"
+                            "WorldBegin\nShape \"sphere\"\nWorldEnd\n") == 1);
+    INFO(early.all_reports());
+    CHECK((early.instances.at(0).raw.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION) == 0);
+    CHECK(early.textures.empty());
+    CHECK(early.reports("AttributeBegin: it must come after WorldBegin"));
+    CHECK(early.reports("ReverseOrientation: it must come after WorldBegin"));
+    Recorder nested; // the second object is open when the first ObjectEnd comes; what follows is in the world
+    REQUIRE(nested.load_text(v3_head + "ObjectBegin \"a\"\nShape \"sphere\"\nObjectBegin \"b\"\nTranslate 1 0 0\n"
+                                       "Shape \"disk\"\nObjectEnd\nShape \"cylinder\"\nObjectEnd\nObjectEnd\n"
+                                       "ObjectInstance \"b\"\nWorldEnd\n") == 1);
+    INFO(nested.all_reports());
+    REQUIRE(nested.instances.size() == 2);
+    CHECK(nested.instances[0].raw.object_to_world[12] == 0); // the cylinder
+    CHECK(nested.instances[1].raw.object_to_world[12] == 1); // the disk
+    CHECK(nested.reports("ObjectBegin \"b\": inside an object"));
+    CHECK(nested.reports("ObjectEnd: without an ObjectBegin"));
+}
+
+TEST_CASE("pbrt: windows that cannot be", "[pbrt]") {
+    const std::string film = "Film \"image\" \"float cropwindow\" [0 1 0]\n";
+    Recorder v3;
+    REQUIRE(v3.load_text(film + "Camera \"perspective\" \"float screenwindow\" [-1 1 -1]\nWorldBegin\nWorldEnd\n") ==
+            1);
+    CHECK(v3.film.crop[3] == 1);
+    CHECK(v3.raw_cameras.at(0).screen_window[1] == 0);
+    CHECK(v3.reports("cropwindow"));
+    CHECK(v3.reports("screenwindow"));
+    Recorder v4;
+    REQUIRE(v4.load_text("Film \"rgb\"\nCamera \"perspective\" \"float screenwindow\" [-1 1 -1]\nWorldBegin\n") == 1);
+    CHECK(v4.raw_cameras.at(0).screen_window[1] == 0);
+    for (const std::string& head : {std::string("Film \"image\"\n"), std::string("Film \"rgb\"\n")}) {
+        Recorder mirrored; // x1 < x0: the picture is mirrored, as by a Scale -1 1 1 before everything
+        REQUIRE(mirrored.load_text(head + "Camera \"perspective\" \"float screenwindow\" [2 -1 -1 1]\nWorldBegin\n" +
+                                   (head == "Film \"image\"\n" ? "WorldEnd\n" : "")) == 1);
+        const RestageCamera& c = mirrored.raw_cameras.at(0);
+        CHECK(c.camera_to_world[0] == -1);
+        CHECK(c.screen_window[0] == -2);
+        CHECK(c.screen_window[1] == 1);
+    }
+}
+
+TEST_CASE("pbrt-v4: textures may be defined after they are used", "[pbrt]") {
+    const std::string
+        use = "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\" \"texture alpha\" \"a\"\n",
+        define =
+            "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [.1 .2 .3]\n"
+            "Texture \"a\" \"float\" \"constant\" \"float value\" .5\n";
+    Recorder v4;
+    REQUIRE(v4.load_text(v4_head + use + define) == 1);
+    INFO(v4.all_reports());
+    CHECK(v4.textures.size() == 2);
+    CHECK(v4.materials.at(0).values.at("reflectance").ref != 0);
+    CHECK(v4.instances.at(0).raw.alpha_texture != 0);
+    CHECK_FALSE(v4.reports("no texture"));
+    CHECK_FALSE(v4.reports("again"));
+    Recorder circle;
+    REQUIRE(circle.load_text(v4_head + "Texture \"a\" \"spectrum\" \"scale\" \"texture tex\" \"b\"\n"
+                                       "Texture \"b\" \"spectrum\" \"scale\" \"texture tex\" \"a\"\n") == 1);
+    CHECK(circle.reports("no texture has that name"));
+    std::string chain = v4_head;
+    for (int i = 0; i < 3000; ++i)
+        chain += "Texture \"" + std::to_string(i) + "\" \"spectrum\" \"scale\" \"texture tex\" \"" +
+                 std::to_string(i + 1) + "\"\n";
+    Recorder deep;
+    CHECK(deep.load_text(chain) == 0); // refused, not a stack that ends
+    CHECK(deep.error.set);
+}
+
+TEST_CASE("pbrt: files that nothing here reads are reported where they are missing", "[pbrt]") {
+    Recorder v4;
+    REQUIRE(v4.load_text(v4_head + "Material \"measured\" \"string filename\" \"gone.bsdf\"\n"
+                                   "AreaLightSource \"diffuse\" \"string filename\" \"gone.png\"\n"
+                                   "Shape \"sphere\"\n") == 1);
+    CHECK(v4.reports("file \"gone.bsdf\": there is no such file"));
+    CHECK(v4.reports("file \"gone.png\": there is no such file"));
+    Recorder v3;
+    REQUIRE(v3.load_text(v3_head +
+                         "Material \"fourier\" \"string bsdffile\" \"gone.bsdf\"\nShape \"sphere\"\nWorldEnd\n") == 1);
+    CHECK(v3.reports("file \"gone.bsdf\": there is no such file"));
+}
+
+TEST_CASE("pbrt: what a thing in motion loses is said", "[pbrt]") {
+    Recorder r;
+    REQUIRE(r.load_text(v4_head + "ActiveTransform EndTime\nTranslate 1 0 0\nActiveTransform All\nShape \"sphere\"\n"
+                                  "Texture \"f\" \"float\" \"fbm\"\n") == 1);
+    CHECK(
+        r.reports("Shape in motion: stands still where it is when the shutter opens; its motion is not written back"));
+    CHECK(r.reports("Texture in motion"));
 }

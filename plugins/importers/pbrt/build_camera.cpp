@@ -50,11 +50,18 @@ void Builder::camera(const Directive& d) {
     if (!(out.lens_radius >= 0) || !(out.focal_distance > 0) || !(out.frame_aspect >= 0))
         throw ImportError{
             d.at, what + ": lensradius must not be negative, focaldistance and frameaspectratio must be positive"};
-    if (const std::vector<double>* window = d.params.numbers("screenwindow")) {
-        if (window->size() != 4 || !((*window)[0] < (*window)[1]) || !((*window)[2] < (*window)[3]))
-            throw ImportError{d.at, what + ": screenwindow needs x0 < x1 and y0 < y1"};
-        for (std::size_t i = 0; i < 4; ++i)
-            out.screen_window[i] = static_cast<float>((*window)[i]);
+    if (const std::vector<double>* window = d.params.numbers("screenwindow"); window && window->size() != 4) {
+        import_.warned(d.at, what, "screenwindow needs four numbers x0 x1 y0 y1; it is left out, as pbrt does");
+    } else if (window) {
+        if ((*window)[0] == (*window)[1] || (*window)[2] == (*window)[3])
+            throw ImportError{d.at, what + ": screenwindow is empty; x0 and x1, and y0 and y1, must differ"};
+        for (std::size_t axis = 0; axis < 2; ++axis) { // upside down: the same window of a mirrored camera
+            const double low = (*window)[2 * axis], high = (*window)[2 * axis + 1], sign = low < high ? 1 : -1;
+            out.screen_window[2 * axis] = static_cast<float>(sign * low);
+            out.screen_window[2 * axis + 1] = static_cast<float>(sign * high);
+            for (std::size_t row = 0; row < 4 && sign < 0; ++row)
+                out.camera_to_world[4 * axis + row] *= -1;
+        }
     }
     for (const char* name : {"shutteropen", "shutterclose"})
         d.params.find(name); // the film asks for them
@@ -86,7 +93,12 @@ void Builder::film_and_settings() {
     out.width = static_cast<std::uint32_t>(width);
     out.height = static_cast<std::uint32_t>(height);
     out.crop[1] = out.crop[3] = 1;
-    if (const std::vector<double>* crop = p.numbers("cropwindow")) {
+    const std::vector<double>* crop = p.numbers("cropwindow");
+    if (crop && crop->size() != 4 && import_.v3()) { // film.cpp
+        import_.warned(film.at, "Film", "cropwindow needs four numbers x0 x1 y0 y1; it is left out, as pbrt does");
+        crop = nullptr;
+    }
+    if (crop) {
         if (crop->size() != 4) throw ImportError{film.at, "Film: cropwindow needs four numbers x0 x1 y0 y1"};
         for (std::size_t i = 0; i < 4; ++i)
             out.crop[i] = static_cast<float>(std::clamp((*crop)[i], 0.0, 1.0));
@@ -166,7 +178,11 @@ void Builder::film_and_settings() {
     for (const char* name :
          {"maxcomponentvalue", "maxsampleluminance", "sensor", "whitebalance", "diagonal", "savefp16"})
         if (p.has(name)) kept += "Film " + to_text(*p.find(name)) + "\n";
-    if (film_ && film.name != "rgb" && film.name != "image") {
+    const bool film_in_pbrt =
+        film.name == "image" || (!import_.v3() && (film.name == "gbuffer" || film.name == "spectral"));
+    if (film_ && film.name != "rgb" && !film_in_pbrt) {
+        import_.warned(film.at, "Film " + quote(film.name), "there is no such film in pbrt; an RGB film stands for it");
+    } else if (film_ && film.name != "rgb" && film.name != "image") {
         kept += "Film " + quote(film.name) + "\n";
         import_.approximated(film.at, "Film " + quote(film.name), "an RGB film stands for it");
     }
@@ -207,6 +223,8 @@ void Builder::film_and_settings() {
             import_.warned(sampler_->at, "Sampler " + quote(sampler_->name),
                            std::string(import_.format()) + " has none of that name; another is written");
     }
+    for (const Directive* part : {integrator_, sampler_})
+        if (part) import_.keep_unused(part->params, part->word, true); // all of it is written back
     settings.text = import_.text("", kept.c_str());
     import_.out.settings(import_.out.ctx, &settings);
     if (!camera_exterior_.empty() && camera_)

@@ -13,7 +13,7 @@ namespace restage::pbrt {
 
 double Builder::light_scale(const Directive& d, Rgb& color) {
     if (!d.params.has("scale")) return 1;
-    if (d.params.find("scale")->type == "float") return d.params.number("scale", 1);
+    if (!import_.v3() && d.params.find("scale")->type == "float") return d.params.number("scale", 1);
     color = color * import_.color(d.params, "scale", Role::light, {1, 1, 1});
     return 1;
 }
@@ -56,8 +56,12 @@ void Builder::light(const Directive& d) {
     const auto from = d.params.triple("from", {0, 0, 0}), to = d.params.triple("to", {0, 0, 1});
     const Vec3 origin{from[0], from[1], from[2]}, direction = Vec3{to[0], to[1], to[2]} - origin;
     const bool aims = d.name == "spot" || is_distant, is_placed = aims || d.name == "point";
-    if (aims && !(length(direction) > 0))
-        throw ImportError{d.at, what + ": \"from\" and \"to\" are the same point; move one"};
+    if (aims && !(length(direction) > 0)) { // no direction: pbrt goes on with one that is no number
+        d.params.mark_all_used();
+        import_.lost(d.at, what, "\"from\" and \"to\" are the same point; it does not shine, its place is kept");
+        placeholder(d, d.name + " light", what + " " + to_text(d.params, " "));
+        return;
+    }
     if (d.name == "spot" || d.name == "projection") {
         out.kind = RESTAGE_LIGHT_SPOT;
         if (is_placed) to_world = to_world * translation(origin);

@@ -22,7 +22,7 @@ RestageHandle Builder::default_material(const Directive&) {
 // Index of refraction of a dielectric: one number. A dispersive spectrum is reduced to its mean weighted with the eye's
 // response; pbrt-v4 would split colours, which RGB cannot.
 void Builder::put_index(Values& values, const char* id, const Directive& d, const char* name, double otherwise) {
-    if (const auto spectrum = import_.spectrum(d.params, name)) {
+    if (const auto spectrum = import_.v3() ? std::nullopt : import_.spectrum(d.params, name)) { // v3: a float there
         const double low = spectrum->front(), high = spectrum->back();
         if (std::abs(low - high) > 1e-4)
             import_.approximated(
@@ -189,6 +189,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
         for (const Param& param : d.params.params)
             if (param.name != "type") exact_ += "=* " + to_text(param) + "\n";
         d.params.mark_all_used();
+        missing_files_of(d, what);
     }
     if (plugin == "interface")
         exact_.clear();
@@ -262,8 +263,9 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
     } else if (type == "measured") {
         note = is_rgl(d) ? "data of RGL (.bsdf) is not read, only MERL's (.binary); a grey diffuse one stands for it"
                          : "no plugin provides measured; a grey diffuse one stands for it";
-    } else if (const RestageHandle texture = find_texture(d, "Kd", false)) {
-        values.texture("reflectance", RESTAGE_COLOR, texture);
+    } else if (import_.v3()) { // api.cpp, MakeMaterial
+        note = "there is no such material in pbrt; matte with its parameters stands for it, as in pbrt";
+        material_v3(d, "matte", values, plugin);
     }
     if (plugin == "diffuse" && values.size() == 0) values.color("reflectance", color);
     const bool dropped = type == "fourier";

@@ -8,7 +8,8 @@ namespace restage::pbrt {
 // Files that a thing kept verbatim names, and that are not there.
 void Builder::missing_files_of(const Directive& d, const std::string& what) {
     for (const Param& param : d.params.params) {
-        if (param.type != "string" || !param.name.ends_with("filename") || param.strings.size() != 1) continue;
+        const bool is_file = param.name.ends_with("filename") || param.name == "bsdffile";
+        if (param.type != "string" || !is_file || param.strings.size() != 1) continue;
         const std::string path = import_.resolve(param.strings[0], param.at).string();
         std::error_code code;
         if (!std::filesystem::is_regular_file(path, code))

@@ -41,7 +41,12 @@ void Builder::pop(const Directive& directive, bool only_transform) {
     if (import_.v3() && !matches(*top.opened) && directive.verb != Verb::object_end &&
         top.opened->verb != Verb::object_begin && top.opened->verb != Verb::import_begin)
         return pop_v3(directive);
-    if (!matches(*top.opened))
+    const bool of_import = top.opened->verb == Verb::import_begin || directive.verb == Verb::import_end;
+    if (!matches(*top.opened) && import_.v3() && !of_import) // ObjectBegin and ObjectEnd are also an attribute block
+        import_.warned(directive.at, directive.word,
+                       "closes the " + top.opened->word + " of line " + std::to_string(top.opened->at.line) +
+                           "; the Begins and Ends do not match, and pbrt goes on");
+    else if (!matches(*top.opened))
         throw ImportError{directive.at, directive.word + " closes the " + top.opened->word + " of line " +
                                             std::to_string(top.opened->at.line) + "; the Begins and Ends do not match"};
     auto names = state_.names;

@@ -28,8 +28,10 @@ std::string shape_line(const Directive& d, bool v3) {
     return line;
 }
 
-// Which broken shapes pbrt leaves out with a message, and goes on. The others end it.
+// Which broken shapes pbrt leaves out with a message, and goes on, or hits nowhere. The others end it.
 bool goes_on_without(const std::string& shape, bool v3) {
+    for (const char* quadric : {"sphere", "disk", "cylinder", "cone", "paraboloid", "hyperboloid"})
+        if (shape == quadric) return true;
     return shape == "trianglemesh" || shape == "bilinearmesh" || shape == "curve" ||
            (v3 && (shape == "plymesh" || shape == "loopsubdiv"));
 }
@@ -269,6 +271,7 @@ void Builder::place(RestageInstance instance, const std::string& name, const std
 }
 
 void Builder::end_object() {
+    if (open_object_.empty()) return;
     flush_curves();
     Object& object = objects_[open_object_];
     if (object.instances.size() == 1 && !object.named_by_itself && !is_generic_name(open_object_))
@@ -333,9 +336,11 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
     instance.emission[2] = static_cast<float>(radiance.b);
     std::string exact = exact_light(d, "emission", "L", instance.emission, scale);
     const bool picture = d.params.find("filename") != nullptr;
-    if (picture)
+    if (picture) {
         import_.approximated(d.at, "AreaLightSource with a picture",
                              "emits evenly, with the strength of a white picture; written back as it is");
+        missing_files_of(d, "AreaLightSource");
+    }
     if (picture || (power > 0 && !has_area)) { // all of it, as long as the colour is this
         exact = "=emission";
         for (const float x : instance.emission)

@@ -3,6 +3,7 @@
 #include "builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <span>
 
@@ -29,6 +30,18 @@ RestageHandle Builder::find_texture(const Directive& d, const char* name, bool i
                          "it could not be made; the default stands for it");
         return found->second;
     }
+    if (const auto later = later_textures_.find({texture, is_float}); later != later_textures_.end()) {
+        const Directive& made = *later->second;
+        later_textures_.erase(later);
+        constexpr int deepest_textures = 100;
+        if (texture_depth_ >= deepest_textures)
+            throw ImportError{d.at, "textures name each other more than 100 deep; flatten them"};
+        ++texture_depth_;
+        this->texture(made);
+        --texture_depth_;
+        made_textures_.insert({texture, is_float});
+        return find_texture(d, name, is_float);
+    }
     const auto& other = is_float ? state_.names->color_textures : state_.names->float_textures;
     const bool wrong_kind = other.count(texture) > 0;
     import_.lost(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
@@ -45,7 +58,9 @@ Argument Builder::float_argument(const Directive& d, const char* name, double ot
     double value = otherwise;
     if (out.texture == 0 && d.params.has(name) && d.params.find(name)->type != "texture") {
         const Param& param = *d.params.find(name);
-        if (param.type == "spectrum" || param.type == "rgb" || param.type == "color" || param.type == "blackbody")
+        const bool is_color =
+            param.type == "spectrum" || param.type == "rgb" || param.type == "color" || param.type == "blackbody";
+        if (is_color && !import_.v3()) // pbrt-v3 looks for a float
             value = luminance(
                 import_.color(d.params, name, Role::unbounded).value_or(Rgb{otherwise, otherwise, otherwise}));
         else
@@ -116,6 +131,12 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
                        .encoding = static_cast<std::uint32_t>(encoding),
                        .gamma = gamma};
     handle = import_.out.image(import_.out.ctx, &image);
+    if (!as_written.empty()) { // pbrt-v3 puts a texel of 0.5 in its place, and decodes it (imagemap.cpp, GetTexture)
+        constexpr double decoded = 0.21404114; // of sRGB
+        missing_texels_[handle] = encoding == RESTAGE_SRGB    ? decoded
+                                  : encoding == RESTAGE_GAMMA ? std::pow(0.5, static_cast<double>(gamma))
+                                                              : 0.5;
+    }
     return handle;
 }
 
@@ -249,6 +270,10 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         if (out.image == 0) return 0;
         values.number("scale", d.params.number("scale", 1));
         values.boolean("invert", d.params.boolean("invert", false));
+        if (const auto grey = missing_texels_.find(out.image); import_.v3() && grey != missing_texels_.end()) {
+            const double shown = grey->second * d.params.number("scale", 1);
+            values.color("average", {shown, shown, shown});
+        }
         const std::string wrap = d.params.string("wrap", "repeat");
         const char* modes[] = {"repeat", "black", "clamp"};
         const auto mode = std::find(std::begin(modes), std::end(modes), wrap);
@@ -303,7 +328,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         if (!kept.empty()) kept += '\n';
         missing_files_of(d, what);
     }
-    if (placed && !(state_.ctm[0] == Matrix{})) { // of no version
+    if (placed && !(ctm(d) == Matrix{})) { // of no version
         kept += "Transform [";
         for (const double m : state_.ctm[0].m)
             kept += " " + shortest(m);

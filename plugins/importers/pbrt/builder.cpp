@@ -34,6 +34,8 @@ bool Builder::run(SceneFile& scene) {
             (!directive.params.has("plugin") || is_for_plugin(directive)))
             later_materials_.emplace(directive.name, &directive);
         if (directive.verb == Verb::make_named_medium) later_media_.emplace(directive.name, &directive);
+        if (directive.verb == Verb::texture)
+            later_textures_.emplace(std::pair(directive.name, directive.second == "float"), &directive);
     }
     for (const Directive& directive : scene.directives)
         if (directive.verb == Verb::film) film_ = &directive; // a camera before it may ask for its size
@@ -98,10 +100,13 @@ bool Builder::in_world(const Directive& directive) {
     throw ImportError{directive.at, directive.word + " must come after WorldBegin"};
 }
 
+// As in_world, of what may stand before WorldBegin here in v4.
+bool Builder::in_world_v3(const Directive& d) { return !import_.v3() || d.ours || in_world(d); }
+
 const Matrix& Builder::ctm(const Directive& directive) {
     if (!(state_.ctm[0] == state_.ctm[1]))
         import_.approximated(directive.at, directive.word + " in motion",
-                             "stands still where it is when the shutter opens");
+                             "stands still where it is when the shutter opens; its motion is not written back");
     return state_.ctm[0];
 }
 
@@ -196,6 +201,7 @@ void Builder::step(Directive& d) {
             state_.active = d.name == "All" ? 3 : d.name == "StartTime" ? 1 : 2;
             break;
         case Verb::reverse_orientation:
+            if (!in_world_v3(d)) break;
             state_.reverse_orientation = !state_.reverse_orientation;
             break;
         case Verb::color_space:
@@ -245,21 +251,26 @@ void Builder::step(Directive& d) {
         case Verb::attribute_begin:
         case Verb::transform_begin:
         case Verb::import_begin:
+            if (d.verb != Verb::import_begin && !in_world_v3(d)) break;
             push(d);
             if (!block_label_.empty()) state_.label = std::exchange(block_label_, {});
             if (!block_name_.empty()) state_.name = std::exchange(block_name_, {});
             break;
         case Verb::attribute_end:
         case Verb::import_end:
+            if (d.verb != Verb::import_end && !in_world_v3(d)) break;
             pop(d, false);
             break;
         case Verb::transform_end:
+            if (!in_world_v3(d)) break;
             pop(d, import_.v3());
             break;
         case Verb::object_begin:
-            if (!in_world(d)) {
-                push(d);
-                break;
+            if (!in_world(d)) break;
+            if (!open_object_.empty() && import_.v3()) { // api.cpp, pbrtObjectBegin: the new one is open now
+                import_.warned(d.at, "ObjectBegin " + quote(d.name),
+                               "inside an object; what follows is of this one, as in pbrt");
+                end_object();
             }
             if (!open_object_.empty())
                 throw ImportError{
@@ -270,6 +281,11 @@ void Builder::step(Directive& d) {
             objects_[open_object_] = {};
             break;
         case Verb::object_end:
+            if (!in_world(d)) break;
+            if (open_object_.empty() && import_.v3()) { // it closes the block all the same
+                import_.warned(d.at, d.word, "without an ObjectBegin before it");
+                if (stack_.empty()) break;
+            }
             pop(d, false);
             if (!open_object_.empty()) end_object();
             break;
@@ -290,10 +306,15 @@ void Builder::step(Directive& d) {
             medium(d);
             break;
         case Verb::texture:
+            if (!in_world_v3(d)) break;
+            if (later_textures_.erase({d.name, d.second == "float"}) == 0 &&
+                made_textures_.erase({d.name, d.second == "float"}) > 0)
+                break; // made ahead
             add_attributes(d, "texture");
             texture(d);
             break;
         case Verb::make_named_material: {
+            if (!in_world_v3(d)) break;
             add_attributes(d, "material");
             if (d.params.has("plugin")) {
                 if (!is_for_plugin(d)) break; // pbrt's own of that name follows
@@ -309,12 +330,16 @@ void Builder::step(Directive& d) {
             }
             if (import_.v3() && state_.names->materials.count(d.name))
                 import_.warned(d.at, "material " + quote(d.name), "is defined again; from here on this one counts");
-            const RestageHandle handle = material(d, d.name, d.params.string("type", import_.v3() ? "matte" : ""));
+            if (import_.v3() && !d.params.has("type") && !d.params.has("plugin"))
+                import_.warned(d.at, "material " + quote(d.name),
+                               "it has no \"string type\"; it is no surface, as in pbrt");
+            const RestageHandle handle = material(d, d.name, d.params.string("type", ""));
             writable_names().materials[d.name] = handle;
             writable_names().material_sources[d.name] = &d;
             break;
         }
         case Verb::named_material:
+            if (!in_world_v3(d)) break;
             if (import_.v3() && !state_.names->materials.count(d.name) && !files_are_missing_) {
                 import_.warned(d.at, "NamedMaterial " + quote(d.name),
                                "no material has that name; the one before goes on");

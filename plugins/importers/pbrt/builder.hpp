@@ -54,6 +54,7 @@ class Builder {
     Names& writable_names();
     const Matrix& ctm(const Directive& directive); // at shutter opening; motion is reported
     bool in_world(const Directive& directive); // v3: false where it must be left out
+    bool in_world_v3(const Directive& directive);
     void missing_file(const Directive& directive);
 
     // build_scopes.cpp
@@ -161,6 +162,10 @@ class Builder {
     int material_depth_ = 0;                                  // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
     std::map<std::string, const Directive*> later_media_; // v4: MediumInterface may come first
+    std::map<std::pair<std::string, bool>, const Directive*> later_textures_; // v4: by name and "is of floats"
+    std::set<std::pair<std::string, bool>> made_textures_; // ahead of their line
+    int texture_depth_ = 0; // of textures made ahead
+    std::map<RestageHandle, double> missing_texels_; // images that are not there: what pbrt-v3 has in their place
     bool files_are_missing_ = false; // of Include and Import: what they define is kept by its name
     std::set<RestageHandle> interfaces_; // materials without a surface
     std::set<RestageHandle> zero_textures_; // constants of 0: pbrt-v4 knows lamps of such an alpha

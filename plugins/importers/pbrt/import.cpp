@@ -63,13 +63,21 @@ void Import::flush_report() {
     folded_.clear();
 }
 
-std::string Import::keep_unused(const ParamList& params, const std::string& what) {
+std::string Import::keep_unused(const ParamList& params, const std::string& what, bool quiet) {
     std::string verbatim;
     params.each_unused([&](const Param& param) {
         const std::string name = "parameter \"" + param.type + " " + param.name + "\" ";
+        if (!param.should_be.empty()) {
+            warned(param.at, what,
+                   name + "should be \"" + param.should_be + " " + param.name +
+                       "\": pbrt stops there; its value is taken");
+            return;
+        }
         if (param.misfit)
             warned(param.at, what, name + "has a value of the wrong kind; the default stands for it");
-        else
+        else if (!is_pbrt_parameter(param.name))
+            warned(param.at, what, name + "is none that pbrt has; written back as it is");
+        else if (!quiet)
             kept(param.at, what, name + "means nothing to the renderer; written back as it is");
         (verbatim += to_text(param)) += '\n';
     });
@@ -116,9 +124,15 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
     std::optional<Spectrum>& out_spectrum = spectra_[path];
     std::string reason;
     auto bytes = FileBytes::open(path, reason);
+    // pbrt-v3 goes on with a black one (paramset.cpp, AddSampledSpectrumFiles).
+    const char* stand_in = v3() ? "; it is black" : "; the default stands for it";
+    const auto black = [&] {
+        if (v3()) out_spectrum = from_pairs({360, 0, 830, 0}, Ends::constant);
+        return out_spectrum;
+    };
     if (!bytes) {
-        lost(at, "spectrum " + quote(name), reason + ": " + path + "; the default stands for it");
-        return std::nullopt;
+        lost(at, "spectrum " + quote(name), reason + ": " + path + stand_in);
+        return black();
     }
     Sources own; // messages name the spectrum file itself
     own.add(path, std::move(*bytes));
@@ -129,6 +143,7 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
         double value = 0;
         while (lexer.number(value))
             pairs.push_back(value);
+        if (v3()) mend_pairs(at, "spectrum " + quote(name), pairs);
         if (lexer.peek().kind == TokenKind::end_of_file)
             out_spectrum = from_pairs(pairs, v3() ? Ends::constant : Ends::zero);
         else
@@ -136,30 +151,31 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
     } catch (const ImportError& error) {
         reason = "line " + std::to_string(error.at.line) + ": " + error.message;
     }
-    if (!out_spectrum)
-        lost(at, "spectrum " + quote(name),
-             (reason.empty() ? std::string("wavelengths must rise and each needs a value") : reason) + ": " + path +
-                 "; the default stands for it");
-    return out_spectrum;
+    if (out_spectrum) return out_spectrum;
+    lost(at, "spectrum " + quote(name),
+         (reason.empty() ? std::string("wavelengths must rise and each needs a value") : reason) + ": " + path +
+             stand_in);
+    return black();
 }
 
 // pbrt-v3 leaves out a last number without a partner, and sorts (paramset.cpp, spectrum.cpp).
-void Import::mend_pairs(const Param& param, std::vector<double>& numbers) {
-    const std::string what = "\"spectrum " + param.name + "\"";
+void Import::mend_pairs(Location at, const std::string& what, std::vector<double>& numbers) {
     if (numbers.size() % 2 != 0) {
         numbers.pop_back();
-        warned(param.at, what, "an odd number of values is given; the last one is left out");
+        warned(at, what, "an odd number of values is given; the last one is left out");
     }
     std::vector<std::pair<double, double>> pairs;
     for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
         pairs.emplace_back(numbers[i], numbers[i + 1]);
     const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
-    if (std::is_sorted(pairs.begin(), pairs.end(), before)) return;
-    warned(param.at, what, "its wavelengths do not rise; they are sorted");
-    std::stable_sort(pairs.begin(), pairs.end(), before);
+    if (!std::is_sorted(pairs.begin(), pairs.end(), before)) {
+        warned(at, what, "its wavelengths do not rise; they are sorted");
+        std::stable_sort(pairs.begin(), pairs.end(), before);
+    }
     numbers.clear();
     for (const auto& [wavelength, value] : pairs)
-        numbers.insert(numbers.end(), {wavelength, value});
+        if (numbers.empty() || wavelength > numbers[numbers.size() - 2])
+            numbers.insert(numbers.end(), {wavelength, value});
 }
 
 std::optional<Spectrum> Import::spectrum(const Param& param) {
@@ -168,7 +184,7 @@ std::optional<Spectrum> Import::spectrum(const Param& param) {
         return read_spectrum(param.strings[0], param.at);
     }
     std::vector<double> numbers = param.numbers;
-    if (v3()) mend_pairs(param, numbers);
+    if (v3()) mend_pairs(param.at, "\"spectrum " + param.name + "\"", numbers);
     auto out_spectrum = from_pairs(numbers, v3() ? Ends::constant : Ends::zero);
     if (!out_spectrum)
         throw ImportError{
@@ -204,7 +220,8 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
         const bool spectrum_type = param->type == "spectrum";
         const bool rgb = param->type == "rgb" || param->type == "color" || param->type == "xyz";
         const std::size_t needed = rgb ? 3 : 1;
-        if (!spectrum_type && param->numbers.size() < needed) {
+        const bool is_color = spectrum_type || rgb || param->type == "blackbody";
+        if (!is_color || (!spectrum_type && param->numbers.size() < needed)) {
             param->used = false;
             param->misfit = true;
             return std::nullopt;

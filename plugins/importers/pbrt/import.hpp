@@ -60,8 +60,9 @@ class Import {
     void dropped(Location at, std::string what, std::string note) { report(RESTAGE_DROPPED, at, what, note); }
     void flush_report();
 
-    // Parameters nobody asked for: reported as kept, and returned as verbatim lines.
-    std::string keep_unused(const ParamList& params, const std::string& what);
+    // Parameters nobody asked for, and values of the wrong kind: reported, and returned as verbatim lines. `quiet`: not
+    // those that only pbrt understands.
+    std::string keep_unused(const ParamList& params, const std::string& what, bool quiet = false);
 
     // Where the scene means: beside the main file, else beside the file that says it. Absolute; may not exist.
     std::filesystem::path resolve(const std::string& name, Location at) const;
@@ -82,7 +83,7 @@ class Import {
 
   private:
     std::optional<Spectrum> spectrum(const Param& param);
-    void mend_pairs(const Param& param, std::vector<double>& numbers);
+    void mend_pairs(Location at, const std::string& what, std::vector<double>& numbers);
     std::optional<Spectrum> read_spectrum(const std::string& name, Location at);
     Rgb limited(Rgb color, const Param& param, Role role);
 

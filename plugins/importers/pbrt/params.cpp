@@ -9,7 +9,7 @@ namespace restage::pbrt {
 namespace {
 
 [[noreturn]] void wrong(const Param& param, const std::string& expected) {
-    throw ImportError{param.at, "parameter \"" + param.type + " " + param.name + "\" should be " + expected};
+    throw ImportError{param.at, "parameter \"" + param.type + " " + param.name + "\" should be " + expected, true};
 }
 
 std::string expected_number(const Param& param) {
@@ -44,6 +44,13 @@ bool ParamList::taken(const Param& param, bool fits, const std::string& expected
     return false;
 }
 
+bool ParamList::typed(const Param& param, std::string_view type) const {
+    if (param.type == type) return true;
+    if (lenient) return taken(param, false, "");
+    param.should_be = type;
+    return true;
+}
+
 bool ParamList::has(std::string_view name) const {
     for (const Param& param : params)
         if (param.name == name) return true;
@@ -52,12 +59,14 @@ bool ParamList::has(std::string_view name) const {
 
 double ParamList::number(std::string_view name, double otherwise) const {
     const Param* param = find(name);
-    return param && taken(*param, param->numbers.size() == 1, expected_number(*param)) ? param->numbers[0] : otherwise;
+    if (!param || !typed(*param, "float")) return otherwise;
+    return taken(*param, param->numbers.size() == 1, expected_number(*param)) ? param->numbers[0] : otherwise;
 }
 
 int ParamList::integer(std::string_view name, int otherwise) const {
     const Param* param = find(name);
-    if (!param || !taken(*param, param->numbers.size() == 1, expected_number(*param))) return otherwise;
+    if (!param || !typed(*param, "integer") || !taken(*param, param->numbers.size() == 1, expected_number(*param)))
+        return otherwise;
     const double value = param->numbers[0];
     if (!taken(*param, value == std::floor(value) && std::abs(value) <= 2147483647.0, "a whole number of 32 bits"))
         return otherwise;
@@ -66,13 +75,14 @@ int ParamList::integer(std::string_view name, int otherwise) const {
 
 bool ParamList::boolean(std::string_view name, bool otherwise) const {
     const Param* param = find(name);
-    if (!param || !taken(*param, param->bools.size() == 1, "true or false")) return otherwise;
+    if (!param || !typed(*param, "bool") || !taken(*param, param->bools.size() == 1, "true or false")) return otherwise;
     return param->bools[0] != 0;
 }
 
 std::string ParamList::string(std::string_view name, std::string otherwise) const {
     const Param* param = find(name);
-    if (!param || !taken(*param, param->strings.size() == 1, "one \"string\"")) return otherwise;
+    if (!param || !typed(*param, "string") || !taken(*param, param->strings.size() == 1, "one \"string\""))
+        return otherwise;
     return param->strings[0];
 }
 
@@ -127,7 +137,34 @@ void ParamList::mark_all_used() const {
 
 void ParamList::each_unused(const std::function<void(const Param&)>& visit) const {
     for (const Param& param : params)
-        if ((!param.used && !param.from_attribute) || param.misfit) visit(param);
+        if ((!param.used && !param.from_attribute) || param.misfit || !param.should_be.empty()) visit(param);
+}
+
+bool is_pbrt_parameter(std::string_view name) {
+    static constexpr std::string_view names =
+        " B C I Kd Kr Ks Kt L Le Lescale N P Pw Pz S aamode albedo alpha amount anisotropic aperture "
+        "aperturediameter basis beta_m beta_n bootstrapsamples bsdffile bumpmap chains clearcoat clearcoatgloss "
+        "color conductor.eta conductor.k conductor.roughness conductor.uroughness conductor.vroughness coneangle "
+        "conedeltaangle coordinatesystem cossample cropwindow degree density diagonal difftrans dimension "
+        "dimensions dir discarddegenerateUVs displacement edgelength emissionfilename emptybonus encoding eta "
+        "eumelanin exposuretime faceIndices filename filter flatness focaldistance focusdistance fov "
+        "frameaspectratio frequency from g gamma halffov height illuminance imagewritefrequency imagingratio "
+        "index indices innerradius inside interface.eta interface.roughness interface.uroughness "
+        "interface.vroughness intersectcost invert iso iterations jitter k lambdamax lambdamin "
+        "largestepprobability lensfile lensradius levels lightsampler lightsamplestrategy majorantgridres "
+        "mapname mapping materials maxanisotropy maxcomponentvalue maxdepth maxdistance maxnodeprims maxprims "
+        "maxsampleluminance metallic mfp mutationsperpixel name namedmaterial1 namedmaterial2 nbuckets nlevels "
+        "normalmap nsamples nu numiterations nv nx ny nz octaves opacity outside p0 p1 p2 pheomelanin phimax "
+        "photonsperiteration pixelbounds pixelsamples portal power preset radius randomization reflect "
+        "reflectance regularize remaproughness roughness rrthreshold samplebsdf samplelights samplepixelcenter "
+        "samples savefp16 scale scatterdistance scheme screenwindow seed sensor shadowalpha sheen sheentint "
+        "shutterclose shutteropen sigma sigma_a sigma_prime_s sigma_s simpleweighting spectrans speculartint "
+        "splitdepth splitmethod st strategy tau temperature temperaturecutoff temperatureoffset temperaturescale "
+        "tex tex1 tex2 thickness thin to transmit transmittance traversalcost trilinear twosided type u0 u1 "
+        "udelta uknots uorder uroughness uscale uv v0 v00 v01 v1 v10 v11 v2 value variation vdelta "
+        "visualizestrategies visualizeweights vknots vorder vroughness vscale whitebalance width width0 width1 "
+        "wispiness wrap xradius xresolution xsamples xwidth yradius yresolution ysamples ywidth zmax zmin ";
+    return names.find(' ' + std::string(name) + ' ') != names.npos;
 }
 
 std::string shortest(double value) {

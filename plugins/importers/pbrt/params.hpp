@@ -22,12 +22,14 @@ struct Param {
     bool from_attribute = false; // an `Attribute` default: may go unused
     mutable bool used = false;
     mutable bool misfit = false; // asked for, but of the wrong kind: the default was taken
+    mutable std::string should_be; // v4: its value was taken, though pbrt has this type for it, and stops
 };
 
 class ParamList {
   public:
     std::vector<Param> params;
-    // As pbrt-v3 takes them: a value of the wrong kind is no value (it stays unused, marked `misfit`), not an error.
+    // As pbrt-v3 takes them: a value of the wrong kind or type is none (it stays unused, marked `misfit`), not an
+    // error.
     bool lenient = false;
 
     // The parameter of that name (the last one given), marked as used; nullptr if absent.
@@ -45,12 +47,17 @@ class ParamList {
     // Integers in [lowest, highest]; throws naming the first that is not.
     std::vector<std::uint32_t> indices(std::string_view name, std::size_t bound) const;
 
+    // For a parameter that was found: is it of that type? Lenient: if not, it is absent. Else it is noted.
+    bool typed(const Param& param, std::string_view type) const;
     // For a parameter that was found: `fits`, or it is an error, or (lenient) taken for absent.
     bool taken(const Param& param, bool fits, const std::string& expected) const;
     void mark_all_used() const;
     // Each parameter that nobody asked for, Attribute defaults excepted.
     void each_unused(const std::function<void(const Param&)>& visit) const;
 };
+
+// Does any thing of pbrt-v3 or v4 have a parameter of that name?
+bool is_pbrt_parameter(std::string_view name);
 
 // `"float radius" [ 1 ]`, numbers in the shortest form that reads back the same.
 std::string to_text(const Param& param);
