@@ -165,7 +165,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
                 light.kind = LIGHT_POINT;
                 power.push_back(4 * pi * luminance(item.value));
                 break;
-            case RESTAGE_LIGHT_SPOT: { // pbrt 4ed, eq. 12.5
+            case RESTAGE_LIGHT_SPOT: { // pbrt 4ed, 12.2.1
                 light.kind = LIGHT_SPOT;
                 light.b = axis;
                 const double total = std::cos(glm::radians(double(item.cone_angle)));

@@ -113,12 +113,15 @@ std::string Exporter::own_picture(const OwnPicture& picture, const std::string& 
     return file;
 }
 
-std::string Exporter::environment_file(const RestageEnvironment& e) {
+std::string Exporter::environment_file(const RestageEnvironment& e, const std::array<float, 3>& tint) {
     RestageImage image{};
     if (!in_.image(in_.ctx, e.image, &image) || !image.pixels || image.width == 0) return "";
     const bool to_octahedral = !v3();
-    const std::string file = own_picture(resampled(image, to_octahedral, 2),
-                                         std::string(e.text.name) + (to_octahedral ? "_octahedral" : "_equirect"));
+    OwnPicture picture = resampled(image, to_octahedral, 2);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+        picture.pixels[i] *= tint[i % 3];
+    const std::string file =
+        own_picture(picture, std::string(e.text.name) + (to_octahedral ? "_octahedral" : "_equirect"));
     approximated(std::string("environment \"") + e.text.name + "\"",
                  std::string("its picture was resampled to ") +
                      (to_octahedral ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");

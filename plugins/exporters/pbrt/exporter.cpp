@@ -44,6 +44,7 @@ void Exporter::report(RestageFate fate, const std::string& what, const std::stri
 Kept Exporter::kept(const RestageText& text, const std::string& what) {
     Kept out;
     const bool ours = std::string_view(text.verbatim_format) == format();
+    const bool of_pbrt = std::string_view(text.verbatim_format).starts_with("pbrt-"); // the other version
     for (const std::string& line : lines(text.verbatim)) {
         if (line[0] == '=') { // "=eta ...": only where it is understood; elsewhere the value itself is written
             const std::size_t space = std::min(line.find(' '), line.size());
@@ -57,11 +58,17 @@ Kept Exporter::kept(const RestageText& text, const std::string& what) {
                                        " had as spectra, or in its own way, is written as this scene shows it");
             continue;
         }
-        (ours ? out.lines : out.foreign).push_back(line);
+        if (ours) {
+            out.lines.push_back(line);
+            continue;
+        }
+        const auto same = of_pbrt ? in_other_words(line, v3()) : std::nullopt;
+        if (!same) out.foreign.push_back(line);
+        if (same && !same->empty()) out.lines.push_back(*same);
     }
-    if (!out.foreign.empty())
-        dropped(what, std::string("what was kept of ") + text.verbatim_format + " has no meaning in " + format() +
-                          "; it is written as comments");
+    for (const std::string& line : out.foreign)
+        dropped(what, line + " of " + text.verbatim_format + " has no meaning in " + format() +
+                          "; it is written as a comment");
     return out;
 }
 
@@ -93,6 +100,7 @@ std::string Exporter::finished(Params& params) {
         std::error_code code;
         return path.is_absolute() && std::filesystem::is_regular_file(path, code) ? place_file(text) : text;
     });
+    params.retype(v3());
     return params.text();
 }
 

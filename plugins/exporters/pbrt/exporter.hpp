@@ -47,6 +47,10 @@ struct Kept {
     std::vector<std::string> foreign;              // of another format: comments
 };
 
+// A kept line of one version in the words of the other; "" = it says how, not what, and nothing is lost; nullopt = the
+// other has nothing of the kind.
+std::optional<std::string> in_other_words(const std::string& line, bool to_v3);
+
 struct OwnPicture { // made by the export; RGB, row 0 is the top
     std::uint32_t width = 0, height = 0;
     std::vector<float> pixels;
@@ -115,8 +119,8 @@ class Exporter {
     void lights();
     void light(RestageHandle);
     void environment();
-    std::string environment_file(
-        const RestageEnvironment&); // its picture in the other mapping, "" = there are no pixels
+    // Its picture in the other mapping, times a colour; "" = there are no pixels.
+    std::string environment_file(const RestageEnvironment&, const std::array<float, 3>& tint);
     std::string own_picture(const OwnPicture&, const std::string& name); // its file
 
     // write_picture_lights.cpp: goniometric and projection

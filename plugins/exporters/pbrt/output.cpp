@@ -53,6 +53,9 @@ std::string Output::unique_file(const std::string& folder, const std::string& st
 fs::path Output::stage(const std::string& relative) {
     const fs::path target = folder_ / relative;
     std::error_code code;
+    if (const fs::file_status kind = fs::status(target, code); fs::exists(kind) && !fs::is_regular_file(kind))
+        throw ExportError(target.string(), fs::is_directory(kind) ? "is a folder, not a regular file"
+                                                                  : "is a pipe or a device, not a regular file");
     if (const fs::path parent = target.parent_path(); !fs::exists(parent, code)) {
         fs::create_directory(parent, code);
         if (code) throw ExportError(parent.string(), "cannot be created: " + code.message());

@@ -163,6 +163,9 @@ void Params::retype(bool for_v3) {
             e.type = for_v3 ? "point" : "point3";
         else if (e.type == "vector" || e.type == "vector3")
             e.type = for_v3 ? "vector" : "vector3";
+        else if (e.type == "bool")
+            e.value = e.value.find("true") != e.value.npos ? (for_v3 ? "\"true\"" : "true")
+                                                           : (for_v3 ? "\"false\"" : "false");
 }
 
 bool Params::has(std::string_view name) const {

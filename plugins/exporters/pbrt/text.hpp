@@ -32,7 +32,7 @@ class Params {
     Params& add_raw(std::string_view parameters); // one or more, as kept verbatim; names that are there already win
     void remove(std::string_view name);
     void remove_all_of(const Params& others); // by name
-    void retype(bool for_v3); // point and vector for v3, point3 and vector3 for v4
+    void retype(bool for_v3); // point, vector and "true" for v3, point3, vector3 and true for v4
     bool has(std::string_view name) const;
     // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no relative names of files.
     bool stands_alone() const;

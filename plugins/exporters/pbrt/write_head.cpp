@@ -49,7 +49,7 @@ double Exporter::shutter_time() const {
     RestageCamera camera{};
     const RestageHandle active = in_.active_camera(in_.ctx);
     if (v3() || !active || !in_.camera(in_.ctx, active, &camera) ||
-        std::string_view(camera.text.verbatim_format) != format())
+        !std::string_view(camera.text.verbatim_format).starts_with("pbrt-"))
         return 1;
     Params params;
     for (const std::string& line : lines(camera.text.verbatim))
@@ -141,6 +141,7 @@ void Exporter::film(const Kept& k, double time) {
     add_kept_params(params, k, "Film");
     std::string type = v3() ? "image" : "rgb";
     if (const auto line = find_line(k, "Film")) type = line->name;
+    params.retype(v3());
     text_ += "Film " + quote(type) + " " + params.text() + "\n";
 }
 
@@ -192,6 +193,8 @@ void Exporter::sampler_and_integrator(const Kept& k) {
     integrator.add_raw(i.rest);
     integrator.remove("maxdepth");
     integrator.add_int("maxdepth", settings.max_depth);
+    for (Params* part : {&sampler, &integrator})
+        part->retype(v3());
     text_ += "Sampler " + quote(s.name) + " " + sampler.text() + "\n";
     text_ += "Integrator " + quote(i.name) + " " + integrator.text() + "\n";
 }

@@ -104,7 +104,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         return "translucent";
     }
     if (type == "diffusetransmission") { // exactly translucent's diffuse part
-        unlike("written as translucent with a white diffuse and no glossy part, which is the same");
+        lossy_ = true; // another material here, though the same picture
         color("reflectance", "reflect", 0.25f);
         color("transmittance", "transmit", 0.25f);
         p.add_rgb("Kd", {1, 1, 1}).add_rgb("Ks", {0, 0, 0});

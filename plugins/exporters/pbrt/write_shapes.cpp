@@ -351,6 +351,7 @@ std::string Exporter::shape_line(const std::string& type, Params& params, const 
         params.add_float("alpha", i.alpha);
     for (const std::string& line : k.lines)
         params.add_raw(line);
+    params.retype(v3());
     return "Shape " + quote(type) + " " + params.text();
 }
 

@@ -134,6 +134,11 @@ void Exporter::put_scale_texture(Params& params, const RestageTexture& t, const 
         const auto c = values.color(id, {1, 1, 1});
         return c[0] == c[1] && c[1] == c[2];
     };
+    if (!is_float && !values.ref("tex") && !values.ref("scale")) {
+        const auto a = values.color("tex", {1, 1, 1}), b = values.color("scale", {1, 1, 1});
+        params.add_rgb("tex", {a[0] * b[0], a[1] * b[1], a[2] * b[2]}).add_float("scale", 1.f);
+        return;
+    }
     const char *tex = "tex", *scale = "scale";
     if (!scalar(scale) && scalar(tex)) std::swap(tex, scale); // a product: the order does not matter
     if (!scalar(scale))

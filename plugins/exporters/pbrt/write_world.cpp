@@ -48,7 +48,9 @@ void Exporter::environment() {
     if (e.image && e.mapping == (v3() ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL)) {
         file = image_file(e.image);
     } else if (e.image) {
-        file = environment_file(e);
+        const bool grey = scale[0] == scale[1] && scale[1] == scale[2];
+        file = environment_file(e, v3() || grey ? std::array<float, 3>{1, 1, 1} : scale);
+        if (!v3() && !grey && !file.empty()) scale = {1, 1, 1};
         if (file.empty())
             dropped(what,
                     v3() ? "pbrt-v3 reads equirectangular pictures, this one is octahedral; a constant stands for it"
