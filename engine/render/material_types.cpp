@@ -91,7 +91,7 @@ std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1& table, const
         if (line.type != RESTAGE_COLOR || line.max != 1) continue;
         if (emission && std::string_view(emission->radiance) == line.id) continue;
         const scene::Value* set = params.find(line.id);
-        color = set ? *set : scene::default_value(line);
+        color = set && !set->texture ? *set : scene::default_value(line); // beside a texture the number says nothing
         break;
     }
     std::array<std::uint32_t, 3> words{};

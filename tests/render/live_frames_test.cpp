@@ -8,6 +8,7 @@
 #include "render/scene_builder.hpp"
 #include "session/live_view.hpp"
 #include "session/pictures.hpp"
+#include "temporary_folder.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +16,8 @@
 #include <cstdlib>
 #include <functional>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
 
 using namespace restage;
@@ -117,6 +120,12 @@ class Recorder {
         const std::lock_guard lock(mutex_);
         const FramePtr now = live.best(true);
         if (now && (frames_.empty() || frames_.back() != now)) frames_.push_back(now);
+        compiled_.insert(live.status().compiling);
+    }
+    // That this was being compiled, when there was news.
+    bool said(const std::string& type) {
+        const std::lock_guard lock(mutex_);
+        return compiled_.contains(type);
     }
     std::vector<FramePtr> frames() {
         look();
@@ -146,6 +155,7 @@ class Recorder {
     std::atomic<Recorder*> self_ = nullptr;
     std::mutex mutex_;
     std::vector<FramePtr> frames_;
+    std::set<std::string> compiled_;
 
   public:
     LiveView live; // last: its threads call look() until it is gone
@@ -358,6 +368,60 @@ TEST_CASE("live frames: another document begins with clay, and nothing of the ol
         });
         CHECK(material == -1); // nothing of it is black
     }
+}
+
+// Of a type that nothing had yet, in a document that is open: the shader is compiled while the picture goes on.
+TEST_CASE("live frames: a new type of material is seen in its colour at once, and the status says what compiles") {
+    const test::TemporaryFolder cache; // nothing is compiled yet
+    Recorder r({.cache_dir = cache.path()});
+    Room room;
+    r.live.show(room.scene, view);
+    r.wait([&](const Frame& f) { return !f.clay && f.divider == 1; });
+    scene::Material wax{.name = "wax", .type = "coateddiffuse"};
+    double most_red = 0.5; // of the mean colour, where the ball is seen
+    SECTION("of one colour") {
+        wax.params.set("reflectance", scene::Value::color(0.05f, 0.8f, 0.05f));
+        most_red = 0.4;
+    }
+    SECTION("textured") { // what stands beside a texture is no colour
+        const auto green = room.image(1, 1, 3, {0.05f, 0.8f, 0.05f});
+        const auto texture = room.scene.textures.next();
+        room.scene.textures.set(texture, scene::Texture{.name = "green", .type = "imagemap", .image = green},
+                                ++room.scene.clock);
+        scene::Value value = scene::Value::color(0, 0, 0);
+        value.texture = texture;
+        wax.params.set("reflectance", value);
+    }
+    room.scene.materials.set(room.red, wax, ++room.scene.clock);
+    const auto asked = r.live.show(room.scene, view);
+    const FramePtr last = r.wait([&](const Frame& f) {
+        const auto status = r.live.status();
+        return f.request == asked && status.state == ViewState::done && status.compiling.empty() &&
+               f.seconds >= r.live.frame()->seconds; // of the latest samples
+    });
+    const auto colour = [&](const Frame& frame) {
+        glm::dvec3 sum(0);
+        double n = 0;
+        for (std::size_t k = 0; k < frame.image.color.size(); ++k)
+            if (frame.image.instance_id[k] == room.ball.value) {
+                sum += glm::dvec3(frame.image.color[k]);
+                ++n;
+            }
+        return sum / std::max(n, 1.0);
+    };
+    CHECK(r.said("coateddiffuse"));
+    const glm::dvec3 right = colour(*last);
+    CHECK(right.g > 2 * right.r);
+    std::size_t meanwhile = 0;
+    for (const FramePtr& frame : r.frames()) {
+        if (frame->request != asked) continue;
+        const glm::dvec3 seen = colour(*frame);
+        INFO(seen.r << " " << seen.g << " " << seen.b << " of " << frame->image.samples << " samples");
+        CHECK(seen.g > 0.3 * right.g); // never black
+        CHECK(seen.r < most_red * (seen.r + seen.g + seen.b)); // nor red, as it was
+        ++meanwhile;
+    }
+    CHECK(meanwhile >= 2);
 }
 
 TEST_CASE("live frames: a lost device is opened again, once") {

@@ -254,7 +254,7 @@ glm::vec3 swatch_color(const Editor& e, const scene::Material& material) {
     for (const RestageParam& line : table_of(plugin)) {
         if (line.type != RESTAGE_COLOR || line.max != 1) continue;
         const scene::Value* set = material.params.find(line.id);
-        const scene::Value v = set ? *set : scene::default_value(line);
+        const scene::Value v = set && !set->texture ? *set : scene::default_value(line);
         for (int i = 0; i < 3; ++i)
             seen[i] = std::pow(std::clamp(v.v[std::size_t(i)], 0.f, 1.f), 1 / 2.2f);
         break;
