@@ -172,6 +172,17 @@ def test_a_table_is_chosen_and_refused_in_red(launch, tmp_path):
     editor.wait(lambda s: "material.filename.problem" not in s["marks"] and s["history"]["position"] == 1, "undo")
 
 
+def choose_denoiser(editor, name):
+    """In the rows of "Rendering", which may be folded; "" = the built-in one."""
+    editor.click("tab.Scene")
+    if "render.denoiser" not in editor.state()["marks"]:
+        editor.reveal("scene.render")
+        editor.click("scene.render")
+    editor.reveal("render.denoiser")
+    editor.click("render.denoiser")
+    editor.click("render.denoiser." + name)
+
+
 def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
     """Built-in by default; a plugin's by its name, at once and after a restart; one that is gone is said to be."""
     plugin = tmp_path / "copier"
@@ -184,13 +195,7 @@ def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
     editor = launch("--plugin-path", plugin, file)
     editor.settled(samples=1)
     editor.wait(by("oidn"), "the built-in denoiser")
-    editor.click("tab.Scene")
-    if "render.denoiser" not in editor.state()["marks"]:
-        editor.reveal("scene.render")
-        editor.click("scene.render")
-    editor.reveal("render.denoiser")
-    editor.click("render.denoiser")
-    editor.click("render.denoiser.copy")
+    choose_denoiser(editor, "copy")
     editor.wait(by("copy"), "the plugin's")
     assert not editor.state()["modified"], "it is no part of the document"
     editor.kill()
@@ -200,11 +205,5 @@ def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
     editor = launch(file)  # without it: pictures are shown as they are, and the toolbar says why
     editor.wait(lambda s: s["view"]["samples"] >= 4, "a picture", 90)
     assert editor.state()["view"]["denoiser"] == "" and "copy" in editor.state()["view"]["denoiser_missing"]
-    editor.click("tab.Scene")
-    if "render.denoiser" not in editor.state()["marks"]:
-        editor.reveal("scene.render")
-        editor.click("scene.render")
-    editor.reveal("render.denoiser")
-    editor.click("render.denoiser")
-    editor.click("render.denoiser.")
+    choose_denoiser(editor, "")
     editor.wait(by("oidn"), "the built-in one again")
