@@ -121,8 +121,8 @@ Result<> check_exceptions(const json& object, const std::string& file) {
         const std::string where = what + "[" + std::to_string(i) + "]";
         if (!one.is_object()) return fail(where + " must be an object { \"step\", \"limit\", \"why\" }");
         if (const auto key = unknown_key(one, keys)) return fail(where + ": " + unknown_key_text(*key, keys));
-        RESTAGE_TRY(const std::string step, text_of(one, "step", where));
-        RESTAGE_TRY(const std::string why, text_of(one, "why", where));
+        for (const char* key : {"step", "why"})
+            RESTAGE_CHECK(text_of(one, key, where));
         if (!one.contains("limit") || !one["limit"].is_number()) return fail(where + ": \"limit\" must be a number");
     }
     return {};
