@@ -171,11 +171,20 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
 #else
     const auto process = static_cast<unsigned long>(getpid());
 #endif
-    fs::path temporary = path;
+    std::error_code code;
+    const fs::file_status kind = fs::status(path, code); // what a link leads to
+    if (fs::exists(kind) && !fs::is_regular_file(kind)) // a rename would take its place
+        return fail(path.string() + ": is " +
+                    (fs::is_directory(kind) ? "a folder"
+                     : fs::is_fifo(kind)    ? "a pipe"
+                                            : "a device") +
+                    ", not a regular file");
+    const fs::path target = fs::is_symlink(path, code) && fs::exists(kind) ? fs::canonical(path, code) : path;
+    fs::path temporary = target;
     temporary += ".tmp-" + std::to_string(process) + "-" + std::to_string(counter++);
     std::FILE* file = open_file(temporary, "wbx");
     if (!file) return fail(path.string() + ": cannot be written: " + reason(errno));
-    return AtomicFile(path, std::move(temporary), file);
+    return AtomicFile(target, std::move(temporary), file);
 }
 
 Result<> AtomicFile::write(std::string_view bytes) {

@@ -81,6 +81,27 @@ TEST_CASE("file errors name the file and the reason", "[base]") {
     CHECK(files_in(folder) == 0);
 }
 
+TEST_CASE("writing replaces no pipe and no device, and what a link leads to instead of the link", "[base]") {
+    const test::TemporaryFolder folder;
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK(write_file_atomic(folder / "pipe", "x").error().message ==
+          (folder / "pipe").string() + ": is a pipe, not a regular file");
+    CHECK(fs::is_fifo(folder / "pipe"));
+    fs::create_symlink("/dev/null", folder / "null");
+    CHECK(write_file_atomic(folder / "null", "x").error().message ==
+          (folder / "null").string() + ": is a device, not a regular file");
+    CHECK(fs::is_symlink(folder / "null"));
+    fs::create_directory(folder / "elsewhere");
+    REQUIRE(write_file_atomic(folder / "elsewhere" / "file", "old"));
+    fs::create_symlink(fs::path("elsewhere") / "file", folder / "link");
+    REQUIRE(write_file_atomic(folder / "link", "new"));
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(read_file(folder / "elsewhere" / "file").value() == "new");
+    fs::create_symlink("nowhere", folder / "dangling");
+    REQUIRE(write_file_atomic(folder / "dangling", "x"));
+    CHECK(read_file(folder / "dangling").value() == "x");
+}
+
 TEST_CASE("what is no regular file is refused at once, and so is what is too large", "[base]") {
     const test::TemporaryFolder folder;
     const fs::path pipe = folder / "pipe.png";
