@@ -32,34 +32,41 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     auto* spp = command.add_option("--spp", o.spp, "Samples a pixel (default: what the scene says)")
                     ->check(CLI::Range(1u, 1u << 24));
     auto* time =
-        command.add_option("--time", o.seconds, "Render for S seconds")->check(CLI::PositiveNumber)->excludes(spp);
-    command.add_option("--error", o.error, "Render until the relative standard error is below E, for example 0.02")
+        command.add_option("--time", o.seconds, "Render for so long [s]")->check(CLI::PositiveNumber)->excludes(spp);
+    command.add_option("--error", o.error, "Render until the relative standard error is below this, for example 0.02")
         ->check(CLI::PositiveNumber)
         ->excludes(spp)
         ->excludes(time);
-    command.add_option("--size", o.size, "Film size WxH [pixel] (default: what the scene says)");
+    command.add_option("--size", o.size, "Film size WxH [pixel], for example 640x360 (default: what the scene says)");
     command.add_option("--camera", o.camera, "Camera by its name or number, from 1, as `restage info` lists them");
     command.add_flag(
         "--studio", o.studio,
         "Light it with a neutral studio; where that does not reach what the camera sees, with a lamp there");
-    command.add_option("--denoise", o.denoise, "Denoise the result; quality fast, balanced or high (default high)")
+    command.add_option("--denoise", o.denoise, "Denoise the result; --denoise alone is high quality")
         ->expected(0, 1)
         ->default_str("high")
         ->check(CLI::IsMember({"fast", "balanced", "high"}));
     command.add_option("--denoiser", o.denoiser,
                        "Denoise by this denoiser: its type or the id of its plugin (default: the one that came with "
                        "Restage); implies --denoise");
-    command.add_option("--max-depth", o.max_depth, "Longest path (default: what the scene says)")
+    command.add_option("--max-depth", o.max_depth, "Most bounces of a path (default: what the scene says)")
         ->check(CLI::Range(0, 65534));
-    command.add_option("--russian-roulette", o.roulette, "on or off")->check(CLI::IsMember({"on", "off"}));
+    command
+        .add_option("--russian-roulette", o.roulette,
+                    "End paths that carry little light early, without bias: on or off (default: what the scene says)")
+        ->check(CLI::IsMember({"on", "off"}));
     command
         .add_option("--clamp-direct", o.clamp_direct,
-                    "Largest contribution of light seen directly or after no bounce (biased; 0 = off)")
-        ->check(CLI::NonNegativeNumber);
-    command.add_option("--clamp-indirect", o.clamp_indirect, "Largest contribution after a bounce (biased; 0 = off)")
+                    "Largest contribution of light seen directly or after no bounce (biased; 0 = off; default: what "
+                    "the scene says)")
         ->check(CLI::NonNegativeNumber);
     command
-        .add_option("--ray-epsilon", o.ray_epsilon, "Offset of ray origins [scene units] (0 = by error bounds, better)")
+        .add_option("--clamp-indirect", o.clamp_indirect,
+                    "Largest contribution after a bounce (biased; 0 = off; default: what the scene says)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--ray-epsilon", o.ray_epsilon,
+                    "Offset of ray origins [scene units] (0 = by error bounds, better; default: what the scene says)")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--strategy", o.strategy, "How light is found: mis, light or bsdf (for study)")
         ->check(CLI::IsMember({"mis", "light", "bsdf"}))
@@ -67,7 +74,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--seed", o.renderer.seed, "Seed of the random numbers")->capture_default_str();
     command.add_option("--tracer", o.renderer.tracer, "embree or vulkan (default: by device)")
         ->check(CLI::IsMember({"embree", "vulkan"}));
-    command.add_option("--device", o.renderer.device, "Vulkan device: its number or part of its name");
+    command.add_option("--device", o.renderer.device,
+                       "Vulkan device: its number from 0 or part of its name (default: the best one)");
     command.add_option("--threads", o.renderer.threads, "Threads of the embree tracer (0 = all)")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
@@ -109,8 +117,8 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
                dropped = imported.report.count(RESTAGE_DROPPED);
     if (approximated + dropped > 0)
-        context.log.warning(fmt::format("{}: {} things approximated, {} dropped; `restage info` lists them", path,
-                                        approximated, dropped));
+        context.log.warning(
+            fmt::format("{}: {} approximated, {} dropped; `restage info` lists them", path, approximated, dropped));
     return imported;
 }
 
@@ -173,9 +181,9 @@ Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scen
     auto settings = scene.settings.value;
     if (o.max_depth >= 0) settings.max_depth = std::uint32_t(o.max_depth);
     if (!o.roulette.empty()) settings.russian_roulette = o.roulette == "on";
-    if (o.clamp_direct > 0) settings.clamp_direct = o.clamp_direct;
-    if (o.clamp_indirect > 0) settings.clamp_indirect = o.clamp_indirect;
-    if (o.ray_epsilon > 0) settings.ray_epsilon = o.ray_epsilon;
+    settings.clamp_direct = o.clamp_direct.value_or(settings.clamp_direct);
+    settings.clamp_indirect = o.clamp_indirect.value_or(settings.clamp_indirect);
+    settings.ray_epsilon = o.ray_epsilon.value_or(settings.ray_epsilon);
     if (!(settings == scene.settings.value)) scene.settings = {settings, ++scene.clock};
     return {};
 }

@@ -28,8 +28,8 @@ struct RenderOptions {
     std::string strategy = "mis";
     int max_depth = -1;
     std::string roulette; // "", on, off
-    float clamp_direct = 0, clamp_indirect = 0; // biased
-    float ray_epsilon = 0; // 0 = error bounds
+    std::optional<float> clamp_direct, clamp_indirect; // biased; none = what the scene says
+    std::optional<float> ray_epsilon; // 0 = error bounds
     std::string camera; // its name or number; "" = the active one
     bool studio = false; // light it with one
 };

@@ -3,10 +3,12 @@
 
 #include "base/file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <random>
+#include <string_view>
 #ifdef _WIN32
 #include <fcntl.h>
 #include <io.h>
@@ -55,9 +57,23 @@ Result<TemporaryFile> scene_from_stdin(const std::string& extension) {
     return TemporaryFile(path);
 }
 
+Result<> check_file_path(const std::string& path) {
+    if (path.empty() || path == "-") return {};
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code code;
+    if (!folder.empty() && !fs::is_directory(folder, code))
+        return fail(path + ": there is no folder " + folder.string() + "; make it first, or write elsewhere");
+    if (const auto there = fs::status(path, code); fs::exists(there) && !fs::is_regular_file(there))
+        return fail(path + ": is there already, and no file that can be replaced");
+    return {};
+}
+
 Result<Output> Output::create(const std::string& text) {
     if (text != "-" && !text.ends_with(":-")) return Output(text);
     const std::string format = text == "-" ? "exr" : text.substr(0, text.size() - 2);
+    static constexpr std::string_view known[] = {"exr", "png", "jpg", "jpeg", "pfm", "hdr"};
+    if (std::find(std::begin(known), std::end(known), format) == std::end(known))
+        return fail("-o " + text + ": stdout takes exr:-, png:-, jpg:-, pfm:- or hdr:-; - alone is exr:-");
     std::error_code error;
     const fs::path folder = fs::temp_directory_path(error);
     if (error) return fail("-o " + text + ": there is no temporary folder: " + error.message());

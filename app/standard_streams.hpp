@@ -27,6 +27,9 @@ class TemporaryFile {
 // All of stdin as a file of this extension in the current folder, so that the scene's own relative paths hold there.
 Result<TemporaryFile> scene_from_stdin(const std::string& extension);
 
+// Before hours are spent: can a file be written there at all? "-" and "" can.
+Result<> check_file_path(const std::string& path);
+
 // Where a picture is written. "-" and "exr:-" are stdout, "png:-" stdout in another format; else it is a path.
 class Output {
   public:

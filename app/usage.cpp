@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "usage.hpp"
 
+#include "commands/commands.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <regex>
 #include <system_error>
+#include <vector>
 
 namespace restage::app {
 
+void add_example(CLI::App& command, const char* example) {
+    command.footer(std::string("Example: ") + example + "\n" + command.get_footer());
+}
+
 void forbid_empty_values(CLI::App& program) {
-    for (CLI::App* command : program.get_subcommands(nullptr))
+    std::vector<CLI::App*> commands = program.get_subcommands(nullptr);
+    commands.push_back(&program);
+    for (CLI::App* command : commands)
         for (CLI::Option* option : command->get_options()) {
             if (option->get_expected_min() == 0 || option->get_items_expected_max() == 0) continue; // a flag
             const bool number = option->get_type_name().find("FLOAT") != std::string::npos;
@@ -44,6 +53,8 @@ std::string usage_sentence(const CLI::App& program, const CLI::Error& error) {
     rewrite("Value (\\S*) not in range \\[0 - 1\\.7\\S*\\]", "$1 is no number of 0 or more");
     rewrite("Value (\\S*) not in range \\[(\\S*) - (\\S*)\\]", "$1 is no number from $2 to $3");
     rewrite("^(\\S+): (\\S+) not in \\{(.*)\\}$", "$1: \"$2\" is none of $3");
+    rewrite("^(\\S+): 1 required \\S+ missing$", "$1 takes a value");
+    rewrite("^(\\S+): At Most 1 required but received \\d+$", "$1 is given more than once");
     rewrite("^(\\S+): At least (\\d+) required but received (\\d+)$", "$1 takes $2 values, and got $3");
     if (std::regex_match(text, m, std::regex("Could not convert: (\\S+) = (.*)"))) {
         const CLI::Option* option = chosen.empty() ? nullptr : chosen.front()->get_option_no_throw(m[1]);

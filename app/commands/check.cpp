@@ -3,13 +3,16 @@
 #include "check/report.hpp"
 #include "check/supervise.hpp"
 #include "commands.hpp"
+#include "standard_streams.hpp"
 
 #include "base/file.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace restage::app {
 namespace {
@@ -22,16 +25,36 @@ struct Options {
     bool in_process = false;
 };
 
+// What is wrong with the files to write, before minutes are spent.
+Result<> check_outputs(const Options& o) {
+    const std::pair<const char*, const std::string*> all[] = {
+        {"--json", &o.json}, {"--junit", &o.junit}, {"--markdown", &o.markdown}};
+    for (const auto& [option, file] : all)
+        if (auto good = check_file_path(*file); !good) return fail(option, good.error());
+    for (const auto& a : all)
+        for (const auto& b : all)
+            if (&a < &b && !a.second->empty() && *a.second == *b.second)
+                return fail(std::string(a.first) + ", " + b.first + ": both would be written to " + *a.second);
+    return {};
+}
+
+Result<> write_report(const std::string& file, const std::string& text) {
+    if (file != "-") return write_file_atomic(file, text);
+    std::fputs(text.c_str(), stdout);
+    return {};
+}
+
 Result<int> run(const Options& o, Context& context) {
     if (o.in_process) {
         check::check_in_process(o.plugins.empty() ? "" : o.plugins[0], o.check);
         return exit_ok;
     }
+    RESTAGE_CHECK(check_outputs(o));
     RESTAGE_TRY(const auto program, executable_path());
     RESTAGE_TRY(const auto folders, check::find_plugins(program, o.plugins));
     std::vector<check::PluginReport> reports;
     bool passed = true;
-    const bool text = o.json != "-";
+    const bool text = o.json != "-" && o.junit != "-" && o.markdown != "-";
     for (const auto& folder : folders) {
         check::Supervision s;
         s.program = program, s.folder = folder, s.options = o.check;
@@ -59,14 +82,16 @@ Result<int> run(const Options& o, Context& context) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const auto& r : reports)
             all.push_back(check::to_json(r));
-        const std::string out = all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-        if (o.json == "-")
-            std::fputs(out.c_str(), stdout);
-        else
-            RESTAGE_CHECK(write_file_atomic(o.json, out));
+        RESTAGE_CHECK(
+            write_report(o.json, all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"));
     }
-    if (!o.junit.empty()) RESTAGE_CHECK(write_file_atomic(o.junit, check::junit(reports)));
-    if (!o.markdown.empty()) RESTAGE_CHECK(write_file_atomic(o.markdown, check::markdown(reports)));
+    if (!o.junit.empty()) RESTAGE_CHECK(write_report(o.junit, check::junit(reports)));
+    if (!o.markdown.empty()) RESTAGE_CHECK(write_report(o.markdown, check::markdown(reports)));
+    const bool taken = std::ranges::any_of(reports, [&](const check::PluginReport& r) {
+        return std::ranges::any_of(r.steps, [&](const auto& s) { return s.step == o.check.only; });
+    });
+    if (!o.check.only.empty() && !taken && passed)
+        return fail("--only " + o.check.only + ": no plugin that was checked is of a kind that takes this step");
     return passed ? exit_ok : exit_failed;
 }
 
@@ -75,26 +100,35 @@ Result<int> run(const Options& o, Context& context) {
 void add_check(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command = program.add_subcommand("check", "Test plugins: do they do what they promise?");
-    command->add_option("PLUGIN", o->plugins, "Folder with a plugin.json, id, or what it provides (default: all)");
-    command->add_option("--json", o->json, "Write the reports as JSON (- = stdout, and no text)")->type_name("FILE");
-    command->add_option("--junit", o->junit, "Write them as JUnit XML, for CI")->type_name("FILE");
-    command->add_option("--markdown", o->markdown, "Write them as a table in Markdown")->type_name("FILE");
-    command->add_option("--pictures", o->check.pictures, "Write a page of pictures of each material")
+    command->add_option(
+        "PLUGIN", o->plugins,
+        "Folder with a plugin.json, id of a plugin, or name of what it provides, for example diffuse (default: "
+        "all plugins)");
+    command->add_option("--json", o->json, "Write the reports as JSON (- = stdout, instead of text)")
+        ->type_name("FILE");
+    command->add_option("--junit", o->junit, "Write them as JUnit XML, for CI (- = stdout)")->type_name("FILE");
+    command->add_option("--markdown", o->markdown, "Write them as a table in Markdown (- = stdout)")->type_name("FILE");
+    command
+        ->add_option("--pictures", o->check.pictures,
+                     "Write a page of pictures of each material, as HTML, into this folder")
         ->type_name("FOLDER");
-    command->add_option("--seed", o->check.seed, "Seed of all random numbers; replays a failure")
+    command->add_option("--seed", o->check.seed, "Seed of all random numbers: that of a report replays its failure")
         ->capture_default_str();
     std::vector<std::string> names;
     for (const auto* steps : {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(),
                               &check::importer_steps(), &check::exporter_steps()})
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
-    command->add_option("--only", o->check.only, "One step alone")->check(CLI::IsMember(names))->type_name("STEP");
+    command->add_option("--only", o->check.only, "Take this step alone (manifest and load come with it)")
+        ->check(CLI::IsMember(names))
+        ->type_name("STEP");
     command->add_flag("--quick", o->check.quick, "A few seconds a plugin: fewer configurations and samples");
     command->add_option("--time-limit", o->time_limit, "Longest time without an answer from the plugin or the GPU [s]")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(0.001, 86400.0))
         ->capture_default_str();
     command->add_flag("--in-process", o->in_process)->group(""); // what we start ourselves
     command->add_option("--skip", o->check.skip)->group("");
+    add_example(*command, "restage check my-plugins/velvet --quick");
     command->callback([&context, o] { context.choose([&context, o] { return run(*o, context); }); });
 }
 

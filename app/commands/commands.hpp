@@ -27,6 +27,9 @@ void add_import_child(CLI::App& program, Context& context);
 bool is_scene_file(const std::string& path);
 Result<int> compare_scenes(Context& context, const std::string& a, const std::string& b, bool json);
 
+// What `restage COMMAND --help` ends with, before what it inherits.
+void add_example(CLI::App& command, const char* example);
+
 // In the order `restage --help` shows them.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
     add_edit,    add_demo,    add_render, add_merge,      add_info,         add_convert,

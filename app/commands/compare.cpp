@@ -5,14 +5,18 @@
 #include "io/exr.hpp"
 #include "io/image_compare.hpp"
 #include "io/image_file.hpp"
+#include "session/picture.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace restage::app {
 
@@ -25,6 +29,10 @@ struct Options {
     std::string diff, z_map;
     io::CompareOptions compare;
     std::optional<double> max_flip, min_blocks;
+    bool for_pictures() const {
+        return !halves.empty() || !diff.empty() || !z_map.empty() || max_flip || min_blocks || compare.clip != 0 ||
+               compare.exposure != 0;
+    }
 };
 
 Result<scene::PixelData> load(const std::string& path, Log& log) {
@@ -143,10 +151,13 @@ nlohmann::ordered_json to_json(const Options& options, const io::Comparison& c, 
 
 std::string to_text(const io::Comparison& c, const std::optional<io::ZTest>& z) {
     const auto row = [](const char* name, double a, double b) {
-        return fmt::format("{:<12}{:>12.6g}{:>12.6g}{:>10}\n", name, a, b,
-                           b > 0 ? fmt::format("{:+.2f} %", 100 * (a / b - 1)) : "");
+        const double percent = 100 * (a / b - 1);
+        return fmt::format("{:<12}{:>12.6g}{:>12.6g}{:>12}\n", name, a, b,
+                           !(b > 0)        ? ""
+                           : percent < 1e4 ? fmt::format("{:+.2f} %", percent)
+                                           : fmt::format("{:+.2e} %", percent));
     };
-    std::string text = fmt::format("{:<12}{:>12}{:>12}{:>10}\n", "mean", "A", "B", "A to B");
+    std::string text = fmt::format("{:<12}{:>12}{:>12}{:>12}\n", "mean", "A", "B", "A to B");
     static constexpr const char* names[] = {"  red", "  green", "  blue"};
     for (std::size_t i = 0; i < 3; ++i)
         text += row(names[i], c.mean_a[i], c.mean_b[i]);
@@ -164,7 +175,30 @@ std::string to_text(const io::Comparison& c, const std::optional<io::ZTest>& z) 
     return text;
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code code;
+    return a == b || std::filesystem::equivalent(a, b, code);
+}
+
+// What is wrong with the files to write, before anything is read.
+Result<> check_outputs(const Options& o) {
+    std::vector<std::string> inputs = o.halves;
+    inputs.push_back(o.a);
+    if (!o.b.empty()) inputs.push_back(o.b);
+    for (const auto& [option, path] : {std::pair("--diff", &o.diff), std::pair("--z-map", &o.z_map)}) {
+        if (path->empty()) continue;
+        const std::string who = std::string(option) + " " + *path;
+        if (!path->ends_with(".png")) return fail(who + ": is written as PNG; end its name with .png");
+        if (auto good = session::check_picture_path(*path); !good) return fail(option, good.error());
+        for (const std::string& input : inputs)
+            if (same_file(*path, input)) return fail(who + ": would be written over a picture that is compared");
+    }
+    if (!o.diff.empty() && o.diff == o.z_map) return fail("--diff, --z-map: " + o.diff + " would be written twice");
+    return {};
+}
+
 Result<int> run(const Options& options, Log& log) {
+    RESTAGE_CHECK(check_outputs(options));
     RESTAGE_TRY(const scene::PixelData a, load(options.a, log));
     RESTAGE_TRY(const io::Estimate estimate_a, load_estimate(options.a, a));
     RESTAGE_TRY(const Reference b, load_reference(options, log));
@@ -175,13 +209,13 @@ Result<int> run(const Options& options, Log& log) {
     if (!estimate_a.luminance.empty() && !b.estimate.luminance.empty()) {
         RESTAGE_TRY(z, io::z_test(estimate_a, b.estimate));
     }
+    for (const auto& [option, asked] :
+         {std::pair("--z-map", !options.z_map.empty()), std::pair("--min-blocks", options.min_blocks.has_value())})
+        if (asked && !z)
+            return fail(std::string(option) +
+                        ": no z-test without standard errors in both pictures (a layer 'stderr')");
     if (!options.diff.empty()) RESTAGE_CHECK(io::write_png(options.diff, io::difference_image(a, b.image)));
-    if (!options.z_map.empty()) {
-        if (!z) return fail("--z-map: no z-test without standard errors in both pictures (a layer 'stderr')");
-        RESTAGE_CHECK(io::write_png(options.z_map, z_picture(*z)));
-    }
-    if (options.min_blocks && !z)
-        return fail("--min-blocks: no z-test without standard errors in both pictures (a layer 'stderr')");
+    if (!options.z_map.empty()) RESTAGE_CHECK(io::write_png(options.z_map, z_picture(*z)));
     const std::string why = verdict(options, *comparison, z);
     const std::string out = options.json ? to_json(options, *comparison, z).dump(2) + "\n" : to_text(*comparison, z);
     std::fputs(out.c_str(), stdout);
@@ -195,15 +229,19 @@ Result<int> run(const Options& options, Log& log) {
 void add_compare(CLI::App& program, Context& context) {
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand(
-        "compare", "Measure how far picture A is from reference B, or say what differs between two scenes");
-    command->add_option("A", options->a, "Picture (EXR, HDR, PFM; PNG, JPG, TGA, BMP as sRGB), or a scene or project")
+        "compare",
+        "Measure how far picture A is from reference B, or say what differs between two scenes; exit code 1 = they "
+        "differ");
+    command
+        ->add_option("A", options->a,
+                     "Picture (EXR, HDR, PFM; PNG, JPG, WebP, TGA, BMP as sRGB), or a scene or project")
         ->required();
-    auto* b = command->add_option("B", options->b, "Reference");
+    auto* b = command->add_option("B", options->b, "Reference: a picture of the same size, or the other scene");
     auto* halves = command->add_option("--reference-halves", options->halves,
                                        "Two independent halves instead of B: their mean is the reference, their "
                                        "difference its noise");
     halves->expected(2)->type_name("B1 B2")->excludes(b);
-    command->add_flag("--json", options->json, "Print JSON");
+    command->add_flag("--json", options->json, "Print the result as JSON");
     command
         ->add_option("--diff", options->diff,
                      "Write the relative difference of luminance: red where A is brighter, blue where darker")
@@ -214,22 +252,39 @@ void add_compare(CLI::App& program, Context& context) {
         ->type_name("PNG");
     command
         ->add_option("--clip", options->compare.clip,
-                     "Share of the brightest texels that is clipped in both alike (0.001 against fireflies)")
+                     "Share of the brightest pixels that is clipped in both alike, for example 0.001 against fireflies "
+                     "(default: 0)")
         ->check(CLI::Range(0.f, 1.f));
-    command->add_option("--max-flip", options->max_flip, "Fail (exit code 1) when FLIP is more than this, 0 to 1")
+    command
+        ->add_option(
+            "--max-flip", options->max_flip,
+            "Fail (exit code 1) when FLIP, the difference people would see, is more than this, for example 0.05")
         ->check(CLI::Range(0.0, 1.0));
     command
-        ->add_option("--min-blocks", options->min_blocks,
-                     "Fail when a smaller share of the blocks, 0 to 1, passes the z-test; without it, a z-test of all "
-                     "blocks together that fails is exit code 1")
+        ->add_option(
+            "--min-blocks", options->min_blocks,
+            "Fail when a smaller share of the 8x8 blocks passes the z-test, for example 0.99 (default: the test "
+            "of all blocks together decides)")
         ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--exposure", options->compare.exposure, "Stops, before FLIP looks at the pictures");
+    command
+        ->add_option("--exposure", options->compare.exposure,
+                     "Brighten both before FLIP looks at them [stops] (default: 0)")
+        ->check(CLI::Range(-64.f, 64.f));
+    add_example(*command, "restage compare new.exr reference.exr --diff where.png");
     command->callback([options, b, halves, &context] {
         if (b->count() + halves->count() == 0) throw CLI::RequiredError("B or --reference-halves");
         context.choose([options, &context] {
-            return is_scene_file(options->a) && is_scene_file(options->b)
-                       ? compare_scenes(context, options->a, options->b, options->json)
-                       : run(*options, context.log);
+            const bool scenes = is_scene_file(options->a);
+            if (!options->b.empty() && scenes != is_scene_file(options->b))
+                return Result<int>(fail(options->a + ", " + options->b +
+                                        ": one is a scene, the other is none; two "
+                                        "pictures can be compared, or two scenes"));
+            if (!scenes) return run(*options, context.log);
+            if (options->for_pictures())
+                return Result<int>(
+                    fail("of two scenes only what differs is said: --reference-halves, --diff, --z-map, "
+                         "--clip, --max-flip, --min-blocks and --exposure are for pictures"));
+            return compare_scenes(context, options->a, options->b, options->json);
         });
     });
 }

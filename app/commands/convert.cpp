@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage convert IN OUT: a scene, or a picture, from one format to another.
 #include "commands.hpp"
+#include "io/exr.hpp"
 #include "io/image_file.hpp"
 #include "io/strict.hpp"
 #include "rendering.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -24,25 +26,46 @@ struct Options {
 bool is_picture(const std::string& path) {
     static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm",
                                                  ".hdr", ".tga", ".bmp", ".webp"};
-    const std::string extension = std::filesystem::path(path).extension().string();
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
     return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
+// Layers of an EXR beside the picture itself, which conversion does not take along.
+std::string other_layers(const std::string& path) {
+    const auto image = io::read_exr(path);
+    std::string names;
+    for (const io::ExrLayer& layer : image ? image->layers : std::vector<io::ExrLayer>())
+        if (!layer.name.empty()) names += (names.empty() ? "" : ", ") + layer.name;
+    return names;
+}
+
 Result<int> convert_picture(Context& context, const Options& o) {
+    if (!o.format.empty() || !o.assignments.empty() || o.strict)
+        return fail("--format, --set and --strict are for scenes, not for pictures");
+    if (!is_picture(o.output)) return fail(o.output + ": a picture is written as .exr, .png, .jpg, .pfm or .hdr");
     RESTAGE_CHECK(check_picture_path(o.output));
-    if (!o.format.empty() || !o.assignments.empty()) return fail("--format and --set are for scenes, not for pictures");
     std::string warning;
     RESTAGE_TRY(scene::PixelData image, io::read_image(o.input, RESTAGE_SRGB, 2.2f, &warning));
     if (!warning.empty()) context.log.warning(warning);
     for (std::size_t i = 0; i < image.values.size(); ++i)
         if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is no light
     RESTAGE_CHECK(io::write_image(o.output, image));
+    if (const std::string others = other_layers(o.input); !others.empty())
+        context.log.warning(fmt::format("{}: the layers {} of {} are not in it", o.output, others, o.input));
     context.log.info(fmt::format("{}: written", o.output));
     return int(exit_ok);
 }
 
 Result<int> run(Context& context, const Options& o) {
+    std::error_code code;
+    if (std::filesystem::equivalent(o.input, o.output, code))
+        return fail(o.output + ": is the file that is read; what a format cannot hold would be lost, write elsewhere");
     if (is_picture(o.input)) return convert_picture(context, o);
+    if (o.exposure != 0) return fail("--exposure is for pictures; the exposure of a scene is that of its film");
+    if (is_picture(o.output) && o.format.empty())
+        return fail(o.output + ": a scene becomes a picture with `restage render`");
     RESTAGE_TRY(const auto exporter, io::find_exporter(o.output, o.format, context.registry()));
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
@@ -54,8 +77,7 @@ Result<int> run(Context& context, const Options& o) {
         if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
     const auto approximated = report.count(RESTAGE_APPROXIMATED), dropped = report.count(RESTAGE_DROPPED);
     if (approximated + dropped > 0)
-        context.log.warning(
-            fmt::format("{}: written with {} things approximated, {} dropped", o.output, approximated, dropped));
+        context.log.warning(fmt::format("{}: written; {} approximated, {} dropped", o.output, approximated, dropped));
     else
         context.log.info(fmt::format("{}: written", o.output));
     return int(exit_ok);
@@ -66,16 +88,29 @@ Result<int> run(Context& context, const Options& o) {
 void add_convert(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command = program.add_subcommand("convert", "Read a scene or a picture and write it in another format");
-    command->add_option("IN", o->input, "Scene or picture to read")->required();
-    command->add_option("OUT", o->output, "Scene or picture to write")->required();
-    command->add_option("--format", o->format, "Format to write (default: by the extension)");
-    command->add_option("--set", o->assignments,
-                        "Option of the exporter, for example --set version=v3 (may be repeated)");
+    command->add_option("IN", o->input, "Scene, project or picture to read")->required();
+    command
+        ->add_option(
+            "OUT", o->output,
+            "File to write; its extension says the format: a scene becomes a .pbrt, a picture an .exr, .png, .jpg, "
+            ".pfm or .hdr")
+        ->required();
+    command->add_option("--format", o->format,
+                        "Format of a scene to write, as `restage plugins` lists them (default: by the extension)");
+    command
+        ->add_option("--set", o->assignments,
+                     "Option of the exporter: of pbrt, version=v4|v3, textures=copy|relative|absolute and "
+                     "meshes=write|reference (may be repeated)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
     command->add_flag("--strict", o->strict,
                       "Write nothing when the written file would not have all of IN. What is only rendered otherwise "
                       "than it is (a kind of texture, say), and written as it was, is no loss");
-    command->add_option("--exposure", o->exposure, "Of a picture: stops that are added")
+    command->add_option("--exposure", o->exposure, "Brighten a picture by so many stops (default: 0)")
         ->check(CLI::Range(-64.f, 64.f));
+    add_example(
+        *command,
+        "restage convert room.pbrt room-v3.pbrt --set version=v3; restage convert room.exr room.jpg --exposure 1");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

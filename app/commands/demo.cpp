@@ -159,12 +159,15 @@ void add_demo(CLI::App& program, Context& context) {
     o->spp = 32;
     o->size = "640x360";
     o->denoise = "high";
-    auto* command =
-        program.add_subcommand("demo", "Restage the bundled room: open, edit, render before and after, export");
+    auto* command = program.add_subcommand(
+        "demo",
+        "Restage the bundled room: open, edit, render before and after, export; with 32 samples a pixel, in "
+        "640x360 and denoised where nothing else is said");
     command->add_option("-o,--output", o->folder, "Folder for the pictures and the edited scene")
         ->capture_default_str();
     command->add_option("--scene", o->scene, "Another scene with the demo's objects");
     add_render_options(*command, *o);
+    add_example(*command, "restage demo -o demo --spp 8 --size 320x180");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage edit [SCENE]: the desktop editor. It is also what `restage SCENE` and `restage` alone do where there is a
 // display.
+#include "base/file.hpp"
 #include "commands.hpp"
 #include "editor/run_editor.hpp"
 #include "rendering.hpp"
@@ -13,23 +14,29 @@ void add_edit(CLI::App& program, Context& context) {
     auto o = std::make_shared<editor::RunOptions>();
     auto size = std::make_shared<std::string>();
     auto* command = program.add_subcommand("edit", "Open the desktop editor");
-    command->add_option("SCENE", o->scene, "Scene file")->check(CLI::ExistingFile);
-    command->add_option("--scale", o->scale, "Size of text and widgets (default: the monitor's)")
+    command->add_option("SCENE", o->scene, "Scene file or project");
+    command->add_option("--scale", o->scale, "Size of text and widgets, 1 = 100 % (default: the monitor's)")
         ->check(CLI::Range(0.5, 4.0));
-    command->add_option("--window", *size, "Size of the window WxH");
-    command->add_option("--config", o->config_dir, "Folder for layout, preferences and recovery files");
+    command->add_option("--window", *size, "Size of the window WxH [pixel], for example 1280x720");
+    command->add_option("--config", o->config_dir,
+                        "Folder for layout, preferences and recovery files (default: ~/.config/restage)");
     command->add_option("--probe", o->probe,
                         "For tests: write the editor's state as JSON to this file when it changes");
-    command->add_option("--autosave", o->autosave_seconds, "Write unsaved work aside so often [s]")
+    command->add_option("--autosave", o->autosave_seconds, "Keep a recovery copy of unsaved work, so often [s]")
         ->check(CLI::Range(0.2, 86400.0))
         ->capture_default_str();
     command->add_option("--tracer", o->renderer.tracer, "embree or vulkan (default: by device)")
         ->check(CLI::IsMember({"embree", "vulkan"}));
-    command->add_option("--device", o->renderer.device, "Vulkan device: its number or part of its name");
-    command->add_option("--threads", o->renderer.threads, "Threads of the embree tracer (0 = all)");
+    command->add_option("--device", o->renderer.device,
+                        "Vulkan device: its number from 0 or part of its name (default: the best one)");
+    command->add_option("--threads", o->renderer.threads, "Threads of the embree tracer (0 = all)")
+        ->check(CLI::Range(0u, 1024u))
+        ->capture_default_str();
     command->add_flag("--validation", o->renderer.validation, "Turn Vulkan's validation layers on");
+    add_example(*command, "restage edit room.pbrt");
     command->callback([&context, o, size] {
         context.choose([&context, o, size]() -> Result<int> {
+            if (!o->scene.empty()) RESTAGE_CHECK(RegularFile::open(o->scene));
             o->plugins = {.safe_mode = context.safe_mode, .paths = search_paths(context.plugin_paths)};
             RESTAGE_TRY(o->isolate, isolate_options(context));
             o->renderer.fault = device_fault();

@@ -137,10 +137,11 @@ void add_info(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command =
         program.add_subcommand("info", "Describe a scene, and what its import kept, approximated and dropped");
-    command->add_option("SCENE", o->scene, "Scene file")->required();
-    command->add_flag("--json", o->json, "As JSON");
+    command->add_option("SCENE", o->scene, "Scene file or project")->required();
+    command->add_flag("--json", o->json, "Print it as JSON");
     command->add_flag("--strict", o->strict, strict_help);
-    command->add_flag("--all", o->all, "List what was kept, too");
+    command->add_flag("--all", o->all, "List what was kept as well, not only what was approximated or dropped");
+    add_example(*command, "restage info room.pbrt --all");
     command->callback([&context, o] {
         context.choose([&context, o]() -> Result<int> {
             RESTAGE_TRY(const auto imported, open_scene(context, o->scene, o->strict));

@@ -46,14 +46,22 @@ void add_merge(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command =
         program.add_subcommand("merge", "Put parts of one render together: other seeds, or other samples of one");
-    command->add_option("PART", o->parts, "Pictures that `restage render` wrote as .exr")->required();
-    command->add_option("-o,--output", o->output, "Picture to write, as `restage render` does; - = stdout")->required();
-    command->add_option("--denoise", o->denoising.denoise, "Denoise it; quality fast, balanced or high (default high)")
+    command->add_option("PART", o->parts, "Pictures that `restage render` wrote as .exr, of one scene and size")
+        ->required();
+    command
+        ->add_option("-o,--output", o->output,
+                     "Picture to write: .exr, .png, .jpg, .pfm or .hdr; - = stdout as .exr, png:- as .png")
+        ->required();
+    command->add_option("--denoise", o->denoising.denoise, "Denoise it; --denoise alone is high quality")
         ->expected(0, 1)
         ->default_str("high")
         ->check(CLI::IsMember({"fast", "balanced", "high"}));
-    command->add_option("--denoiser", o->denoising.denoiser, "By this denoiser: its type or the id of its plugin");
-    command->add_option("--exposure", o->picture.exposure_stops, "Exposure of a .png or .jpg [stops]");
+    command->add_option("--denoiser", o->denoising.denoiser,
+                        "Denoise by this denoiser: its type or the id of its plugin (default: the one that came with "
+                        "Restage); implies --denoise");
+    command->add_option("--exposure", o->picture.exposure_stops, "Brighten a .png or .jpg [stops] (default: 0)")
+        ->check(CLI::Range(-64.f, 64.f));
+    add_example(*command, "restage merge part1.exr part2.exr -o whole.exr");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

@@ -96,6 +96,7 @@ void add_new_plugin(CLI::App& program, Context& context) {
     command->add_option("--id", o->id, "Id of the plugin, in reverse-DNS form (default: org.example.material.NAME)");
     command->add_option("--folder", o->folder,
                         "Folder to write it into; new or empty (default: NAME, in the current folder)");
+    add_example(*command, "restage new-plugin velvet; restage check velvet");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

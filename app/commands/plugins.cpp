@@ -61,8 +61,9 @@ void add_plugins(CLI::App& program, Context& context) {
     auto json = std::make_shared<bool>(false);
     auto id = std::make_shared<std::string>();
     auto* command = program.add_subcommand("plugins", "List plugins: what is loaded, from where, and why not");
-    command->add_flag("--json", *json, "As JSON");
-    command->add_option("--enable", *id, "Let a plugin that crashed be loaded again");
+    command->add_flag("--json", *json, "Print the list as JSON");
+    command->add_option("--enable", *id, "Let the plugin of this id, which crashed, be loaded again")->type_name("ID");
+    add_example(*command, "restage plugins");
     command->callback([&context, json, id] {
         context.choose([&context, json, id] { return id->empty() ? run(context, *json) : enable(context, *id); });
     });

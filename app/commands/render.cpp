@@ -5,6 +5,7 @@
 #include "frames.hpp"
 #include "progress.hpp"
 #include "rendering.hpp"
+#include "scene/projection.hpp"
 #include "scene/validate.hpp"
 #include "session/assign.hpp"
 #include "session/merge_pictures.hpp"
@@ -25,7 +26,7 @@ namespace {
 struct Options : RenderOptions {
     std::string scene, statistics;
     std::vector<std::string> outputs;
-    std::string format = "pbrt";          // of a scene on stdin
+    std::string format;                   // of a scene on stdin; "" = pbrt
     std::string frames;                   // "1-24"; "" = the one scene
     std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
     std::uint32_t first_sample = 0;
@@ -114,10 +115,14 @@ Result<void> go_on(Options& o, const session::StoredPicture& before, const scene
     if (auto same = session::same_render(what_is_rendered(o, scene), before.metadata); !same)
         return fail("--resume " + o.resume + " " + same.error().message);
     const scene::Film& film = scene.film.value;
-    if (film.crop == glm::vec4{0, 1, 0, 1} && (film.width != before.film.width || film.height != before.film.height))
-        return fail(fmt::format("--resume {}: has {}x{} pixels, not {}x{}; say --size {}x{}", o.resume,
-                                before.film.width, before.film.height, film.width, film.height, before.film.width,
-                                before.film.height));
+    const glm::uvec4 window = scene::crop_window(film);
+    const std::uint32_t width = window.y - window.x, height = window.w - window.z;
+    if (width != before.film.width || height != before.film.height)
+        return fail(fmt::format("--resume {}: has {}x{} pixels, not {}x{}; say {}", o.resume, before.film.width,
+                                before.film.height, width, height,
+                                width == film.width && height == film.height
+                                    ? fmt::format("--size {}x{}", before.film.width, before.film.height)
+                                    : "the --size and the --crop or --region that it was rendered with"));
     const std::uint32_t target = o.spp ? o.spp : scene.settings.value.samples ? scene.settings.value.samples : 64;
     for (const session::SampleRange& range : before.ranges)
         if (range.seed == o.renderer.seed) o.first_sample = std::max(o.first_sample, range.first + range.count);
@@ -176,7 +181,7 @@ using RendererPointer = std::unique_ptr<render::Renderer>;
 Result<int> render_frame(Context& context, Options o, RendererPointer& renderer) {
     std::optional<TemporaryFile> piped;
     if (o.scene == "-") {
-        RESTAGE_TRY(auto file, scene_from_stdin(o.format));
+        RESTAGE_TRY(auto file, scene_from_stdin(o.format.empty() ? "pbrt" : o.format));
         piped.emplace(std::move(file));
     }
     RESTAGE_TRY(auto imported, open_scene(context, piped ? piped->path().string() : o.scene, o.strict));
@@ -237,6 +242,7 @@ Result<void> check(Context& context, const Options& o) {
         RESTAGE_CHECK(check_picture_path(output.path()));
         to_stdout += output.to_stdout();
     }
+    if (auto good = check_file_path(o.statistics); !good) return fail("--statistics", good.error());
     std::vector<std::string> files = o.outputs;
     if (!o.statistics.empty()) files.push_back(o.statistics);
     std::sort(files.begin(), files.end());
@@ -246,6 +252,8 @@ Result<void> check(Context& context, const Options& o) {
     if (auto known = session::check_aovs(o.picture.aovs); !known) return fail("--aov", known.error());
     if (!o.denoise.empty() || !o.denoiser.empty())
         RESTAGE_CHECK(render::choose_denoiser(context.registry(), o.denoiser));
+    if (!o.format.empty() && o.scene != "-")
+        return fail("--format is for a scene on stdin (-); that of a file is told by the file");
     if (o.frames.empty()) return {};
     if (o.scene.find('#') == std::string::npos)
         return fail("--frames: the scene's name says with # where the number stands, for example shot.####.pbrt");
@@ -282,18 +290,20 @@ Result<int> run(Context& context, Options& o) {
 void add_render(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command = program.add_subcommand("render", "Path-trace a scene into a picture");
-    command->add_option("SCENE", o->scene, "Scene file; - = stdin")->required();
+    command->add_option("SCENE", o->scene, "Scene file or project; - = stdin")->required();
     command
         ->add_option("-o,--output", o->outputs,
                      "Picture: .exr (linear; standard error, guides and settings inside), .png or .jpg (8-bit sRGB), "
                      ".pfm or .hdr; - = stdout as .exr, png:- as .png; may be repeated")
         ->required()
         ->allow_extra_args(false);
-    command->add_option("--format", o->format, "Extension of a scene that comes on stdin")->capture_default_str();
+    command->add_option("--format", o->format,
+                        "Format of a scene that comes on stdin, as the extension of its files (default: pbrt)");
     command
-        ->add_option("--frames", o->frames,
-                     "Render these scenes one after another: 7, 1-24, 1-24x2 or 1-3,9 stand where SCENE and -o have "
-                     "####")
+        ->add_option(
+            "--frames", o->frames,
+            "Render one scene file a frame: 7, 1-24, 1-24x2 (every second) or 1-3,9; the number stands for the # in "
+            "SCENE and -o, for example shot.####.pbrt -o shot.####.png")
         ->type_name("FRAMES");
     command
         ->add_option("--set", o->assignments,
@@ -304,16 +314,21 @@ void add_render(CLI::App& program, Context& context) {
     auto* resume = command
                        ->add_option("--resume", o->resume,
                                     "Go on where this .exr ended: --spp counts its samples as well, --time does not")
-                       ->check(CLI::ExistingFile);
+                       ->type_name("EXR");
     command
-        ->add_option("--first-sample", o->first_sample,
-                     "Number of the first sample: parts of one seed that are rendered apart are together, by "
-                     "`restage merge`, what one render of them all gives")
+        ->add_option(
+            "--first-sample", o->first_sample,
+            "Number of the first sample of each pixel, to render in parts: parts of one seed without a sample in "
+            "common become, by `restage merge`, the render of them all")
         ->capture_default_str();
-    auto* crop = command->add_option("--crop", o->crop, "Render this part of the film only: shares from 0 to 1")
+    auto* crop = command
+                     ->add_option("--crop", o->crop,
+                                  "Render this part of the film only, in shares of it from the upper left corner: 0 "
+                                  "0.5 0 1 is the left half")
                      ->expected(4)
                      ->type_name("X0 X1 Y0 Y1");
-    command->add_option("--region", o->region, "The same in pixels, from the upper left corner")
+    command
+        ->add_option("--region", o->region, "Render this part of the film only, in pixels from the upper left corner")
         ->expected(4)
         ->type_name("X Y WIDTH HEIGHT")
         ->excludes(crop);
@@ -322,10 +337,13 @@ void add_render(CLI::App& program, Context& context) {
     command->add_flag("--strict", o->strict, strict_help);
     add_render_options(*command, *o);
     resume->excludes(command->get_option("--error"));
-    command->add_option("--aov", o->picture.aovs, "Layers of an .exr: stderr,albedo,normal,depth,id, or all, or none")
+    command
+        ->add_option("--aov", o->picture.aovs, "Layers of an .exr: all, none, or some of stderr,albedo,normal,depth,id")
         ->capture_default_str();
-    command->add_option("--exposure", o->picture.exposure_stops, "Exposure of a .png or .jpg [stops]")
+    command->add_option("--exposure", o->picture.exposure_stops, "Brighten a .png or .jpg [stops]")
+        ->check(CLI::Range(-64.f, 64.f))
         ->capture_default_str();
+    add_example(*command, "restage render room.pbrt -o room.exr -o room.png --spp 256 --denoise");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }
 

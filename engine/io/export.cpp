@@ -65,7 +65,10 @@ Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::
     if (!extension.empty()) extension.erase(0, 1);
     for (const auto& entry : registry.exporters())
         if (has_extension(*entry.table, extension)) return entry;
-    return fail(path + ": no exporter writes files called ." + extension + "; " + known);
+    return fail(path +
+                (extension.empty() ? ": has no extension that says the format; "
+                                   : ": no exporter writes files called ." + extension + "; ") +
+                known);
 }
 
 Result<> set_option(const RestageExporter1& exporter, const std::string& assignment, ParamSet& values) {

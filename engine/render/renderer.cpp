@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "render/clay.hpp"
+#include "scene/projection.hpp"
 #include "scene/validate.hpp"
 
 #include <fmt/format.h>
@@ -130,13 +131,9 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
     RESTAGE_CHECK(tracer_->update(*gpu_scene_, changes));
     if (clay_scene_) RESTAGE_CHECK(clay_scene_->update(*gpu_scene_, changes));
     if (changes.film || !film_) {
-        // The crop window in pixels; pbrt 4ed, 5.4.2, in floats as there: 0.2f of 30 is 6
         const scene::Film& f = scene.film.value;
-        const auto pixel = [](float x, std::uint32_t n) {
-            return std::uint32_t(std::clamp(std::ceil(x * float(n)), 0.f, float(n)));
-        };
-        const glm::uvec2 lower(pixel(f.crop.x, f.width), pixel(f.crop.z, f.height));
-        const glm::uvec2 upper(pixel(f.crop.y, f.width), pixel(f.crop.w, f.height));
+        const glm::uvec4 window = scene::crop_window(f);
+        const glm::uvec2 lower(window.x, window.z), upper(window.y, window.w);
         if (upper.x <= lower.x || upper.y <= lower.y)
             return fail(fmt::format("the film's crop window [{} {} {} {}] holds no pixel", f.crop.x, f.crop.y, f.crop.z,
                                     f.crop.w));

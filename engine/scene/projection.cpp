@@ -19,6 +19,13 @@ glm::dvec4 film_window(const Camera& camera, double aspect) {
     return {-height * aspect, height * aspect, -height, height};
 }
 
+glm::uvec4 crop_window(const Film& f) {
+    const auto pixel = [](float x, std::uint32_t n) {
+        return std::uint32_t(std::clamp(std::ceil(x * float(n)), 0.f, float(n)));
+    };
+    return {pixel(f.crop.x, f.width), pixel(f.crop.y, f.width), pixel(f.crop.z, f.height), pixel(f.crop.w, f.height)};
+}
+
 double camera_fov(const Camera& camera, double aspect) {
     if (!(camera.fit_aspect > 0) || camera.screen_window || camera.frame_aspect > 0 ||
         camera.projection != RESTAGE_PERSPECTIVE)

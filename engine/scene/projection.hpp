@@ -12,6 +12,10 @@ namespace restage::scene {
 // that of their fov.
 glm::dvec4 film_window(const Camera&, double aspect);
 
+// The film's crop window in pixels, x0 x1 y0 y1, y down; empty where x0 >= x1 or y0 >= y1. pbrt 4ed, 5.4.2, in floats
+// as there: 0.2f of 30 is 6.
+glm::uvec4 crop_window(const Film&);
+
 // fov as pbrt has it, of the shorter side of a film of that aspect [deg].
 double camera_fov(const Camera&, double aspect);
 

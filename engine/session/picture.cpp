@@ -27,6 +27,14 @@ std::vector<float> standard_errors(const render::FilmImage& film, float exposure
 } // namespace
 
 namespace {
+
+std::string extension_of(const std::string& path) { // in lower case
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension;
+}
+
 constexpr std::string_view layers[] = {"stderr", "albedo", "normal", "depth", "id"};
 } // namespace
 
@@ -46,12 +54,14 @@ Result<void> check_aovs(const std::string& aovs) {
 Result<void> check_picture_path(const std::string& path) {
     const std::filesystem::path p(path);
     static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr"};
-    if (std::find(std::begin(known), std::end(known), p.extension().string()) == std::end(known))
+    if (std::find(std::begin(known), std::end(known), extension_of(path)) == std::end(known))
         return fail(path + ": the extension says the format: .exr, .png, .jpg, .pfm or .hdr");
     const auto folder = p.has_parent_path() ? p.parent_path() : std::filesystem::path(".");
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
         return fail(path + ": there is no folder " + folder.string() + "; make it first, or write elsewhere");
+    if (const auto there = std::filesystem::status(p, error); exists(there) && !is_regular_file(there))
+        return fail(path + ": is there already, and no file that can be replaced");
     return {};
 }
 
@@ -66,11 +76,12 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
         return out;
     };
     const auto& color = picture.denoised ? *picture.denoised : film.color;
-    if (!path.ends_with(".exr")) {
+    const std::string extension = extension_of(path);
+    if (extension != ".exr") {
         scene::PixelData pixels{
             .width = film.width, .height = film.height, .channels = 3, .values = scaled(color, picture.exposure)};
-        if (path.ends_with(".png")) return io::write_png(path, pixels, o.exposure_stops);
-        if (path.ends_with(".jpg") || path.ends_with(".jpeg")) return io::write_jpg(path, pixels, o.exposure_stops);
+        if (extension == ".png") return io::write_png(path, pixels, o.exposure_stops);
+        if (extension == ".jpg" || extension == ".jpeg") return io::write_jpg(path, pixels, o.exposure_stops);
         return io::write_image(path, pixels);
     }
     const auto wanted = [&](const char* name) {

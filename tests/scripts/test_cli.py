@@ -26,6 +26,9 @@ def test_help_and_version_go_to_stdout_and_succeed():
     for args in (["--help"], ["render", "--help"], ["--version"]):
         done = restage(*args)
         assert done.returncode == 0 and done.stdout and not done.stderr
+    for command in re.findall(r"^  ([a-z-]+) {3,}[A-Z]", restage("--help").stdout.split("Subcommands:")[1], re.M):
+        text = restage(command, "--help").stdout
+        assert f"Example: restage {command}" in text and "Exit codes: 0 done" in text, command
 
 
 @pytest.mark.parametrize("args", [[], ["render"], ["render", "--nonsense"], ["nosuchcommand"],
@@ -44,6 +47,18 @@ def test_what_is_not_understood_is_a_usage_error(args):
     (["info", "nowhere.pbrt"], "nowhere.pbrt"),
     (["convert", CORNELL, "x.unknownformat"], "unknownformat"),
     (["convert", CORNELL, "x.pbrt", "--set", "version=v9"], "v9"),
+    (["convert", CORNELL, "x"], "no extension that says the format"),
+    (["convert", CORNELL, "x.png"], "a scene becomes a picture with `restage render`"),
+    (["convert", CORNELL, "x.pbrt", "--exposure", 1], "--exposure is for pictures"),
+    (["render", CORNELL, "-o", "x.png", "--format", "gltf"], "--format is for a scene on stdin"),
+    (["render", CORNELL, "-o", "x.png", "--resume", "nowhere.exr"], "nowhere.exr: cannot be opened"),
+    (["render", CORNELL, "-o", "x.png", "--statistics", "no/x.json"], "--statistics: no/x.json: there is no folder no"),
+    (["render", CORNELL, "-o", "gif:-"], "-o gif:-: stdout takes exr:-, png:-"),
+    (["edit", "nowhere.pbrt"], "nowhere.pbrt: cannot be opened"),
+    (["compare", CORNELL, "x.png"], "one is a scene, the other is none"),
+    (["compare", CORNELL, CORNELL, "--diff", "d.png"], "of two scenes only what differs is said"),
+    (["check", "diffuse", "--only", "manifest", "--json", "no/x.json"], "--json: no/x.json: there is no folder no"),
+    (["check", "diffuse", "--only", "manifest", "--json", "x", "--junit", "x"], "both would be written to x"),
 ])
 def test_what_cannot_be_done_says_why(args, says, tmp_path):
     done = restage(*args, cwd=tmp_path)
@@ -361,11 +376,13 @@ def test_a_camera_is_chosen_by_name_or_number(tmp_path):
     (["more.pbrt"], '"more.pbrt" is one argument too many'),
     (["--size", ""], "--size: the value is empty"), (["--camera", ""], "--camera: the value is empty"),
     (["--statistics", ""], "--statistics: the value is empty"), (["--frames", ""], "--frames: the value is empty"),
-    (["--error", "nan"], "nan is not a finite number"), (["--exposure", "inf"], "inf is not a finite number"),
+    (["--error", "nan"], "nan is not a finite number"), (["--exposure", "inf"], "inf is no number from -64 to 64"),
     (["--clamp-direct", "nan"], "nan is not a finite number"),
     (["--time", 0], "--time: 0 is no number above 0"), (["--clamp-direct", -1], "-1 is no number of 0 or more"),
     (["--spp", -1], "--spp: -1 is no number from 1 to 16777216"), (["--seed", -1], '--seed: "-1" is no whole number from 0 to 4294967295'),
     (["--threads", 100000], "--threads: 100000 is no number from 0 to 1024"), (["--tracer", "foo"], '--tracer: "foo" is none of embree,vulkan'),
+    (["--set"], "--set takes a value"), (["--size", "8x8", "--size", "9x9"], "--size is given more than once"),
+    (["--isolate-memory", "nan"], "nan is not a finite number"), (["--exposure", 65], "--exposure: 65 is no number from -64 to 64"),
     (["--crop", 0, 1, 0], "--crop takes 4 values, and got 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is no number"),
 ])
 def test_wrong_values_of_options_are_sentences(extra, says, tmp_path):
@@ -384,8 +401,55 @@ def test_what_cannot_be_resumed_is_told_before_rendering(tmp_path):
     common = ["--spp", 1, "--size", "16x12"]
     assert restage("render", CORNELL, "-o", "a.exr", *common, cwd=tmp_path).returncode == 0
     for scene, extra, says in ((CORNELL, ["--size", "20x12"], "has 16x12 pixels, not 20x12; say --size 16x12"),
+                               (CORNELL, ["--region", 0, 0, 8, 12], "has 16x12 pixels, not 8x12; say the --size and the --crop or --region"),
+                               (CORNELL, ["--size", "20x12", "--crop", 0, 0.5, 0, 1], "has 16x12 pixels, not 10x12; say the --size and the"),
                                (CORNELL, ["--set", "White.reflectance=0.1"], 'is of another render: its changes is "", not "White.reflectance=0.1"'),
                                (ROOT / "scenes/spheres/spheres.pbrt", [], 'its scene is "cornell.pbrt", not "spheres.pbrt"')):
         size = [] if "--size" in extra else ["--size", "16x12"]
         done = restage("render", scene, "-o", "r.exr", "--resume", "a.exr", "--spp", "16777216", *size, *extra, cwd=tmp_path)
         assert done.returncode == 1 and says in done.stderr and not (tmp_path / "r.exr").exists()
+
+
+def test_nothing_is_written_over_what_is_read_or_is_no_file(tmp_path):
+    """Inputs of the same command, pipes, devices; and what a link leads to is written, not put in the link's place."""
+    for name, seed in (("a", 1), ("b", 2)):
+        assert restage("render", CORNELL, "-o", tmp_path / f"{name}.exr", "--size", "16x12", "--spp", 2, "--seed", seed).returncode == 0
+    assert restage("convert", "a.exr", "a.PNG", cwd=tmp_path).returncode == 0 # as cameras name them
+    assert restage("convert", "a.PNG", "a.png", cwd=tmp_path).returncode == 0
+    os.mkfifo(tmp_path / "fifo.png")
+    (tmp_path / "null.png").symlink_to("/dev/null")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere/x.png").write_text("old")
+    (tmp_path / "link.png").symlink_to("elsewhere/x.png")
+
+    def files():
+        return {p.name: (p.lstat().st_ino, p.lstat().st_mtime_ns) for p in tmp_path.iterdir()}
+
+    before = files()
+    for args, says in (
+            (["compare", "a.png", "b.exr", "--diff", "./a.png"], "would be written over a picture that is compared"),
+            (["compare", "a.exr", "b.exr", "--diff", "d.png", "--z-map", "d.png"], "d.png would be written twice"),
+            (["compare", "a.exr", "b.exr", "--diff", "d.jpg"], "end its name with .png"),
+            (["compare", "a.png", "b.exr", "--diff", "d.png", "--z-map", "z.png"], "--z-map: no z-test"),
+            (["convert", "a.exr", "./a.exr"], "is the file that is read"),
+            (["convert", "a.exr", "x.png", "--strict"], "are for scenes"),
+            (["convert", "a.exr", "fifo.png"], "no file that can be replaced"),
+            (["convert", "a.exr", "null.png"], "no file that can be replaced"),
+            (["merge", "a.exr", "b.exr", "-o", "fifo.png"], "no file that can be replaced"),
+            (["check", "diffuse", "--only", "sizes"], "no plugin that was checked is of a kind that takes this step")):
+        done = restage(*args, cwd=tmp_path)
+        assert done.returncode == 1 and says in done.stderr, (args, done.stderr)
+    assert files() == before
+    done = restage("convert", "a.exr", "link.png", cwd=tmp_path)
+    assert done.returncode == 0 and "the layers albedo, depth, id, normal, stderr of a.exr are not in it" in done.stderr
+    assert (tmp_path / "link.png").is_symlink() and (tmp_path / "elsewhere/x.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_clamp_of_the_scene_is_switched_off_by_0(tmp_path):
+    (tmp_path / "dim.restage").write_text(json.dumps({"restage": 1, "base": {"file": str(CORNELL)}, "settings": {"clamp_indirect": 0.001}}))
+    means = []
+    for scene, extra in ((CORNELL, []), (tmp_path / "dim.restage", []), (tmp_path / "dim.restage", ["--clamp-indirect", 0])):
+        done = restage("render", scene, "-o", tmp_path / "x.exr", "--size", "16x12", "--spp", 4, *extra)
+        assert done.returncode == 0, done.stderr
+        means.append(exr_file.read(tmp_path / "x.exr")["G"].mean())
+    assert means[1] < 0.95 * means[0] and means[2] == pytest.approx(means[0], rel=1e-5)
