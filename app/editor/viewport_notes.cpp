@@ -3,6 +3,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "panels/scene_panel.hpp"
+#include "picture_note.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -96,6 +97,18 @@ void Viewport::draw_toolbar(Editor& e) {
         e.view.display.tone = session::ToneCurve(tone);
 }
 
+// Of the picture that is shown, not of the one that is being made.
+std::string picture_note(const session::Frame& shown, const std::string& compiling, bool beside_camera) {
+    const std::uint32_t samples = std::max(shown.image.samples, 1u);
+    std::string text = fmt::format("{} × {}, {} sample{} a pixel", shown.image.width, shown.image.height, samples,
+                                   samples == 1 ? "" : "s");
+    if (shown.relative_error < 1) text += fmt::format(", error {:.1f} %", shown.relative_error * 100);
+    if (shown.denoised) text += ", denoised";
+    if (beside_camera) text += ", seen from beside the camera";
+    if (!compiling.empty()) text += fmt::format("\n{} is being compiled; until then it is shown plain", compiling);
+    return text;
+}
+
 void Viewport::draw_status(Editor& e) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
@@ -104,14 +117,8 @@ void Viewport::draw_status(Editor& e) {
     std::string text;
     if (status.state == session::ViewState::failed)
         text = status.text;
-    else if (drawn_ && !drawn_->clay) {
-        const std::uint32_t samples = std::max(status.divider > 1 ? 1u : status.samples, 1u);
-        text = fmt::format("{} × {}, {} sample{} a pixel", drawn_->image.width, drawn_->image.height, samples,
-                           samples == 1 ? "" : "s");
-        if (drawn_->relative_error < 1) text += fmt::format(", error {:.1f} %", drawn_->relative_error * 100);
-        if (drawn_->denoised) text += ", denoised";
-        if (e.views.now()) text += ", seen from beside the camera";
-    }
+    else if (drawn_ && !drawn_->clay)
+        text = picture_note(*drawn_, status.compiling, e.views.now().has_value());
     if (!text.empty() && (e.view.show_overlays || status.state == session::ViewState::failed)) {
         const float wrap = std::max(size.x - 20 * scale, 60.f);
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
@@ -122,6 +129,7 @@ void Viewport::draw_status(Editor& e) {
         draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), a,
                       ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
                       text.c_str(), nullptr, wrap);
+        e.mark("picture.note", a, {a.x + extent.x, a.y + extent.y});
     }
 }
 

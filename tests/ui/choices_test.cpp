@@ -4,6 +4,7 @@
 
 #include "editor/assets.hpp"
 #include "editor/material_balls.hpp"
+#include "editor/picture_note.hpp"
 #include "editor/preferences.hpp"
 #include "session/display.hpp"
 #include "temporary_folder.hpp"
@@ -148,6 +149,17 @@ TEST_CASE("the steps of drags are set in the toolbar, used and remembered", "[ui
     });
     const editor::Preferences kept = editor::read_preferences(folder.path());
     CHECK((kept.snap_move == 0.3f && kept.snap_angle == 10));
+}
+
+TEST_CASE("the note at the picture's corner is of the picture that is shown", "[ui]") {
+    session::Frame shown{.divider = 4, .denoised = true};
+    shown.image.width = 160;
+    shown.image.height = 90;
+    shown.image.samples = 2;
+    shown.relative_error = 0.125;
+    CHECK(editor::picture_note(shown, "", false) == "160 × 90, 2 samples a pixel, error 12.5 %, denoised");
+    CHECK(editor::picture_note(shown, "velvet", false)
+              .ends_with("velvet is being compiled; until then it is shown plain"));
 }
 
 TEST_CASE("a dialog is in the middle of the window, and comes back to it when the window has another size", "[ui]") {

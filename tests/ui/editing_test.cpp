@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <span>
 
 using namespace restage;
 using tests::Headless;
@@ -279,6 +281,21 @@ TEST_CASE("what no font has is said, and fonts are asked what they have", "[ui]"
     CHECK(found.fonts.size() == 2);
     CHECK(std::ranges::find(found.missing, "Korean") == found.missing.end());
     CHECK(std::ranges::find(found.missing, "Japanese") != found.missing.end());
+
+    // Where the system keeps them; of several that have it, the plain one for many scripts.
+    const auto system = folder.path() / "fonts/truetype";
+    std::filesystem::create_directories(system);
+    for (const char* name : {"AnyMincho-Bold.otf", "PlainSansCJK-Bold.otf", "PlainSansCJK-Regular.otf"})
+        std::ofstream(system / name, std::ios::binary) << font_of(0x3040, 0x9fff, true);
+    const char* before = std::getenv("XDG_DATA_HOME");
+    const std::string kept = before ? before : "";
+    setenv("XDG_DATA_HOME", folder.path().c_str(), 1);
+    const auto system_folders = editor::system_font_folders();
+    before ? setenv("XDG_DATA_HOME", kept.c_str(), 1) : unsetenv("XDG_DATA_HOME");
+    REQUIRE(system_folders.front() == folder.path() / "fonts");
+    const auto cjk = editor::find_fallback_fonts(std::span(system_folders).first(1));
+    REQUIRE(cjk.fonts.size() == 1);
+    CHECK(cjk.fonts[0].file == system / "PlainSansCJK-Regular.otf");
 
     Headless h("cornell/cornell.pbrt"); // with Dear ImGui's own font only
     scene::Scene named = h.scene();
