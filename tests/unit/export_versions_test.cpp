@@ -153,3 +153,48 @@ TEST_CASE("a coloured scale of a sky's picture goes into the picture for pbrt-v4
     CHECK(std::abs(first[2] / first[0] - 4) < 0.01f);
     CHECK(std::abs(first[1] / first[0] - 2) < 0.01f);
 }
+
+TEST_CASE("shapes are written with the values that count", "[export]") {
+    Plugins plugins;
+    const std::string v3 = "Film \"image\"\nWorldBegin\n", v4 = "Film \"rgb\"\nWorldBegin\n";
+    const std::string wrong =
+        v3 + "Shape \"sphere\" \"integer radius\" 3\nShape \"sphere\" \"integer radius\" 3\nWorldEnd\n";
+    const auto other = converted(plugins, wrong, "v4");
+    INFO(other.text);
+    CHECK_THAT(other.text, !ContainsSubstring("Shape \"sphere\" \"integer radius\""));
+    CHECK_THAT(other.report, ContainsSubstring("\"integer radius\" [ 3 ]"));
+    const auto same = converted(plugins, wrong, "v3"); // both keep it, as pbrt warns of it
+    const auto first = same.text.find("\"integer radius\" [ 3 ]");
+    REQUIRE(first != std::string::npos);
+    CHECK(same.text.find("\"integer radius\" [ 3 ]", first + 1) != std::string::npos);
+    const auto twice = converted(plugins, v4 + "Shape \"sphere\" \"float radius\" 1 \"float radius\" 2\n", "v4");
+    CHECK_THAT(twice.text, ContainsSubstring("Shape \"sphere\" \"float radius\" [ 2 ]\n"));
+    const auto attribute =
+        converted(plugins, v4 + "Attribute \"shape\" \"float radius\" 1\nShape \"sphere\" \"float radius\" 2\n", "v4");
+    CHECK_THAT(attribute.text, ContainsSubstring("Shape \"sphere\" \"float radius\" [ 2 ]\n"));
+}
+
+TEST_CASE("files that are not there keep their names wherever they are named", "[export]") {
+    Plugins plugins;
+    const auto v4 =
+        converted(plugins,
+                  "Include \"gone.pbrt\"\nFilm \"rgb\"\nCamera \"realistic\" \"string lensfile\" \"gone.dat\"\n"
+                  "WorldBegin\n"
+                  "LightSource \"infinite\" \"spectrum L\" \"sky.spd\"\n"
+                  "LightSource \"point\" \"spectrum I\" \"lamp.spd\"\n"
+                  "MakeNamedMedium \"m\" \"string type\" \"nanovdb\" \"string filename\" \"gone.nvdb\"\n"
+                  "Material \"conductor\" \"spectrum eta\" \"eta.spd\" \"spectrum k\" \"k.spd\"\n"
+                  "MediumInterface \"m\" \"\"\n"
+                  "AreaLightSource \"diffuse\" \"string filename\" \"gone.exr\"\nShape \"sphere\"\n"
+                  "Material \"measured\" \"string filename\" \"gone.bsdf\"\nShape \"sphere\"\n",
+                  "v4");
+    INFO(v4.text);
+    INFO(v4.report);
+    for (const char* name :
+         {"gone.pbrt", "gone.dat", "sky.spd", "lamp.spd", "gone.nvdb", "eta.spd", "k.spd", "gone.exr", "gone.bsdf"}) {
+        INFO(name);
+        CHECK_THAT(v4.text, ContainsSubstring("\"" + std::string(name) + "\""));
+        CHECK_THAT(v4.report, ContainsSubstring(name));
+    }
+    CHECK_THAT(v4.report, !ContainsSubstring("colour space"));
+}

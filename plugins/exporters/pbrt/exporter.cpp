@@ -94,7 +94,15 @@ bool Exporter::put_exact(Params& params, const Kept& k, const char* id, const fl
     return false;
 }
 
-std::string Exporter::finished(Params& params) {
+void Exporter::tell_missing(const std::string& what, const std::string& file) {
+    if (told_missing_.insert(file).second) dropped(what, "its file is not there, it is named as it was: " + file);
+}
+
+std::string Exporter::finished(Params& params, const std::string& what) {
+    for (const std::string& file : params.files()) { // those that are there have absolute paths, or are of this export
+        std::error_code code;
+        if (!out_.has(file) && !std::filesystem::is_regular_file(file, code)) tell_missing(what, file);
+    }
     params.map_strings([&](const std::string& text) {
         const std::filesystem::path path(text);
         std::error_code code;

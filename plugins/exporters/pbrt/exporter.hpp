@@ -89,7 +89,8 @@ class Exporter {
 
     // What a light's colour was before it became RGB, if nobody has edited it since; else false.
     bool put_exact(Params&, const Kept&, const char* id, const float (&value)[3], const std::string& what);
-    std::string finished(Params&); // as text, with the files it names in place
+    std::string finished(Params&, const std::string& what); // as text, with the files it names in place
+    void tell_missing(const std::string& what, const std::string& file); // once
 
     // write_textures.cpp
     std::string image_file(RestageHandle image);
@@ -156,7 +157,7 @@ class Exporter {
     const Options options_;
     Output& out_;
     std::string text_;
-    std::set<std::string> reported_;
+    std::set<std::string> reported_, told_missing_;
     bool lossy_ = false; // something was approximated or dropped since it was set to false
     std::map<std::string, std::set<std::string>> names_; // by kind
     std::map<std::string, std::string> files_; // by path

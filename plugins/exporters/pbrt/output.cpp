@@ -50,6 +50,11 @@ std::string Output::unique_file(const std::string& folder, const std::string& st
     return name;
 }
 
+bool Output::has(const std::string& relative) const {
+    std::error_code code;
+    return taken_.contains(lower(relative)) || fs::is_regular_file(folder_ / relative, code);
+}
+
 fs::path Output::stage(const std::string& relative) {
     const fs::path target = folder_ / relative;
     std::error_code code;

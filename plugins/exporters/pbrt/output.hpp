@@ -25,6 +25,7 @@ class Output {
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
+    bool has(const std::string& relative) const; // will be, or is, beside the scene
     const std::filesystem::path& folder() const { return folder_; }
     // "models/chair.ply": a name nothing else of this export has, relative to the folder.
     std::string unique_file(const std::string& folder, const std::string& stem, const std::string& extension);

@@ -174,10 +174,20 @@ bool Params::has(std::string_view name) const {
 
 bool Params::stands_alone() const {
     return std::none_of(entries_.begin(), entries_.end(), [](const Entry& e) {
-        if (e.type == "rgb" || e.type == "color") return e.name != "scale"; // v3's, made from a number
-        return e.value.starts_with('"') && e.value.find_first_of("./\\") != std::string::npos &&
-               !std::filesystem::path(unquote(e.value)).is_absolute();
+        return (e.type == "rgb" || e.type == "color") && e.name != "scale"; // v3's, made from a number
     });
+}
+
+std::vector<std::string> Params::files() const {
+    std::vector<std::string> out;
+    for (const Entry& e : entries_) {
+        if (!e.value.starts_with('"')) continue;
+        const std::string text = unquote(e.value);
+        const bool named = e.name.ends_with("filename") || e.name.ends_with("file") || e.name == "mapname";
+        const bool spectrum = text.find_first_of("./\\") != std::string::npos; // no name of pbrt's own has these
+        if ((e.type == "string" && named && !text.empty()) || (e.type == "spectrum" && spectrum)) out.push_back(text);
+    }
+    return out;
 }
 
 std::string Params::value(std::string_view name) const {

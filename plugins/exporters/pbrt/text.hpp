@@ -34,8 +34,9 @@ class Params {
     void remove_all_of(const Params& others); // by name
     void retype(bool for_v3); // point, vector and "true" for v3, point3, vector3 and true for v4
     bool has(std::string_view name) const;
-    // Means the same anywhere: no colours, which depend on the ColorSpace around them, and no relative names of files.
+    // Means the same anywhere: no colours, which depend on the ColorSpace around them.
     bool stands_alone() const;
+    std::vector<std::string> files() const; // what names one: "string filename", "spectrum eta" of a file, ...
     std::string value(std::string_view name) const; // "" = absent
     std::string string(std::string_view name) const; // without its quotes; "" = absent
     void map_strings(const std::function<std::string(const std::string&)>&); // each value that is one string

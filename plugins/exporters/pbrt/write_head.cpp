@@ -34,7 +34,8 @@ void Exporter::head() {
         const std::string word = split_directive(line).word;
         if (word != "Film" && word != "PixelFilter" && word != "Integrator" && word != "SurfaceIntegrator" &&
             word != "Sampler")
-            text_ += line + "\n"; // Option, Accelerator, TransformTimes
+            text_ += line + "\n"; // Option, Accelerator, TransformTimes; Include and Import of files that are not there
+        if (word == "Include" || word == "Import") tell_missing("settings", split_directive(line).name);
     }
     if (const RestageHandle active = in_.active_camera(in_.ctx)) camera(active, true);
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_CAMERA); ++h)
@@ -119,7 +120,7 @@ void Exporter::camera(RestageHandle handle, bool active) {
             params.add_raw(line);
         }
     }
-    text_ += std::string(indent) + "Camera " + quote(type) + " " + finished(params) + "\n";
+    text_ += std::string(indent) + "Camera " + quote(type) + " " + finished(params, what) + "\n";
     if (around) text_ += "MediumInterface \"\" \"\"\n"; // else every shape would inherit the camera's
     if (active) return;
     text_ += "AttributeEnd\n";

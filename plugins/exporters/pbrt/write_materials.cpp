@@ -104,8 +104,9 @@ void Exporter::put_for_plugin(const std::string& name, const RestageMaterialDesc
         if ((v->type == RESTAGE_ENUM || v->type == RESTAGE_TABLE) && v->text && *v->text)
             params.add_string(v->id, v->text);
     }
-    put_common(params, values, std::string("material \"") + m.text.name + "\"");
-    const std::string text = "MakeNamedMaterial " + quote(name) + " " + finished(params) + "\n";
+    const std::string what = std::string("material \"") + m.text.name + "\"";
+    put_common(params, values, what);
+    const std::string text = "MakeNamedMaterial " + quote(name) + " " + finished(params, what) + "\n";
     const std::size_t start = text_.size();
     text_ += text;
     only_for_us(start);
@@ -135,8 +136,7 @@ std::string Exporter::material(RestageHandle handle) {
             Params original;
             original.add_raw(line);
             if (!original.stands_alone()) {
-                approximated(
-                    what, "its \"" + id + "\" was given by a file or in another colour space; its colour is written");
+                approximated(what, "its \"" + id + "\" was given in another colour space; its colour is written");
                 continue;
             }
             own.remove_all_of(original);
@@ -151,7 +151,7 @@ std::string Exporter::material(RestageHandle handle) {
     const std::string name = unique_name("material", m.text.name);
     if (stands_in) put_for_plugin(name, m);
     lossy_ = lossy_ || outside;
-    text_ += "MakeNamedMaterial " + quote(name) + " " + finished(params) + "\n";
+    text_ += "MakeNamedMaterial " + quote(name) + " " + finished(params, what) + "\n";
     return materials_[handle] = name;
 }
 

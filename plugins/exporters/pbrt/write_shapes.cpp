@@ -259,7 +259,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
             light.remove("L");
         }
         if (i.flags & RESTAGE_INSTANCE_TWO_SIDED) flag(light, "twosided", true);
-        text_ += deep + "AreaLightSource \"diffuse\" " + finished(light) + "\n";
+        text_ += deep + "AreaLightSource \"diffuse\" " + finished(light, what) + "\n";
     }
     text_ += deep + "NamedMaterial " + quote(material(i.material)) + "\n";
     for (const std::string& line : shape_text)

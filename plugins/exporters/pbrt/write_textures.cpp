@@ -66,7 +66,9 @@ std::string Exporter::image_file(RestageHandle handle) {
     for (const std::string& line : lines(image.text.verbatim))
         as_written.add_raw(line);
     as_written.map_strings([&](const std::string& name) { return file = name; });
-    return file.empty() ? file = image.path : file;
+    if (file.empty()) file = image.path;
+    told_missing_.insert(file);
+    return file;
 }
 
 // `"rgb tex" [..]`, `"float tex" ..` or `"texture tex" "name"`.
@@ -285,7 +287,7 @@ std::string Exporter::texture(RestageHandle handle) {
     const bool only_scalar = !v3() && !is_float && (written == "fbm" || written == "wrinkled" || written == "windy");
     const std::string scalar = only_scalar ? unique_name("texture", name + " scalar") : name;
     text_ += "Texture " + quote(scalar) + (is_float || only_scalar ? " \"float\" " : " \"spectrum\" ") +
-             quote(written) + " " + finished(params) + "\n";
+             quote(written) + " " + finished(params, what) + "\n";
     if (only_scalar) // v4 has them as scalars alone
         text_ += "Texture " + quote(name) + " \"spectrum\" \"scale\" \"rgb tex\" [ 1 1 1 ] \"texture scale\" [ " +
                  quote(scalar) + " ]\n";

@@ -16,7 +16,7 @@ std::string Exporter::medium(RestageHandle handle) {
         params.add_raw(line);
     if (!k.whole.empty()) {
         const std::string name = media_[handle] = unique_name("medium", m.text.name);
-        text_ += "MakeNamedMedium " + quote(name) + " " + finished(params) + "\n";
+        text_ += "MakeNamedMedium " + quote(name) + " " + finished(params, what) + "\n";
         return name;
     }
     params.add_string("type", "homogeneous");
@@ -79,7 +79,7 @@ void Exporter::environment() {
     mark("    ", "name", {e.text.name});
     comment(k.foreign, "    ");
     transform(e.light_to_world, "    ");
-    text_ += "    LightSource \"infinite\" " + finished(params) + "\nAttributeEnd\n";
+    text_ += "    LightSource \"infinite\" " + finished(params, what) + "\nAttributeEnd\n";
 }
 
 void Exporter::lights() {
@@ -135,7 +135,7 @@ void Exporter::light(RestageHandle handle) {
     mark("    ", "name", {light.text.name});
     comment(k.foreign, "    ");
     transform(light.light_to_world, "    ");
-    text_ += "    LightSource " + quote(type) + " " + finished(params) + "\nAttributeEnd\n";
+    text_ += "    LightSource " + quote(type) + " " + finished(params, what) + "\nAttributeEnd\n";
     if (light.flags & RESTAGE_LIGHT_HIDDEN) only_for_us(start); // pbrt would light the scene with it
 }
 

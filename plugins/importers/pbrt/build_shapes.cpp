@@ -118,16 +118,27 @@ RestageHandle Builder::ply_mesh(const Directive& d, const std::string& name, con
 RestageHandle Builder::mesh(const Directive& d, const std::string& name, const Mesh*& data) {
     if (d.name == "plymesh") return ply_mesh(d, name, data);
     Mesh mesh;
-    std::string primitive; // the shape's own line, for what is more than triangles
+    std::string key; // the shape's own line, for what is more than triangles
     const bool is_triangles = d.name == "trianglemesh";
-    if (!is_triangles) {
-        primitive = d.name;
+    const auto is_own = [&](const Param& param) {
+        return param.name != "alpha" && param.name != "shadowalpha" &&
+               !(import_.v3() && is_material_parameter(param.name));
+    };
+    const auto line = [&](bool all) { // or of those that count
+        std::string text = d.name;
         for (const Param& param : d.params.params)
-            if (param.name != "alpha" && param.name != "shadowalpha" &&
-                !(import_.v3() && is_material_parameter(param.name)))
-                (primitive += ' ') += to_text(param);
-        if (const auto known = mesh_cache_.find(primitive); known != mesh_cache_.end() && !state_.area_light) {
-            d.params.mark_all_used();
+            if (is_own(param) && (all || (param.used && !param.misfit))) (text += ' ') += to_text(param);
+        return text;
+    };
+    if (!is_triangles) {
+        key = line(true);
+        if (const auto known = mesh_cache_.find(key); known != mesh_cache_.end() && !state_.area_light) {
+            const auto& odd = odd_parameters_[key];
+            for (const Param& param : d.params.params) {
+                const auto found = odd.find(param.name);
+                param.used = found == odd.end();
+                param.misfit = found != odd.end() && found->second;
+            }
             return known->second;
         }
     }
@@ -145,7 +156,7 @@ RestageHandle Builder::mesh(const Directive& d, const std::string& name, const M
         mesh = make_nurbs(import_, d);
     } else {
         import_.lost(d.at, "Shape " + quote(d.name), "there is no such shape in pbrt; its place is kept");
-        if (state_.area_light) data = &(emitter_meshes_[primitive] = Mesh{});
+        if (state_.area_light) data = &(emitter_meshes_[key] = Mesh{});
         return missing_mesh(name, shape_line(d, import_.v3()));
     }
     if (const std::size_t repaired = repair_normals(mesh))
@@ -159,6 +170,9 @@ RestageHandle Builder::mesh(const Directive& d, const std::string& name, const M
         import_.dropped(d.at, "Shape " + quote(d.name), "it is empty");
         return 0;
     }
+    const std::string primitive = is_triangles ? "" : line(false);
+    for (const Param& param : d.params.params) // what does not count goes with the instance
+        if (is_own(param) && (!param.used || param.misfit)) odd_parameters_[key][param.name] = param.misfit;
     const RestageMesh out{.text = import_.text(name.c_str(), ""),
                           .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                           .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
@@ -172,11 +186,11 @@ RestageHandle Builder::mesh(const Directive& d, const std::string& name, const M
     if (is_triangles) {
         handle = import_.out.mesh(import_.out.ctx, &out);
     } else {
-        RestageHandle& cached = mesh_cache_[primitive];
+        RestageHandle& cached = mesh_cache_[key];
         if (cached == 0) cached = import_.out.mesh(import_.out.ctx, &out);
         handle = cached;
     }
-    if (state_.area_light) data = &(emitter_meshes_[primitive] = std::move(mesh));
+    if (state_.area_light) data = &(emitter_meshes_[key] = std::move(mesh));
     return handle;
 }
 

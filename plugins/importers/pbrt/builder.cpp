@@ -47,6 +47,7 @@ bool Builder::run(SceneFile& scene) {
                                   static_cast<float>(done) / static_cast<float>(scene.directives.size()), "reading"))
             return false;
         directive.params.lenient = import_.v3();
+        directive.params.keep_last();
         for (Param& param : directive.params.params)
             param.color_space = state_.color_space;
         if (directive.verb != Verb::shape && directive.verb != Verb::film)
@@ -122,6 +123,7 @@ void Builder::add_attributes(Directive& directive, const char* target) {
     // In front, so that what the directive says itself wins.
     auto& own = directive.params.params;
     own.insert(own.begin(), found->second.params.begin(), found->second.params.end());
+    directive.params.keep_last();
 }
 
 void Builder::option_step(Directive& d) {

@@ -189,6 +189,7 @@ class Builder {
     std::multimap<std::string, CurveGroup*> curves_by_state_;
     std::string open_object_;
     std::map<std::string, RestageHandle> mesh_cache_; // by what they are made from
+    std::map<std::string, std::map<std::string, bool>> odd_parameters_; // of those: not asked for, "and misfit"
     std::map<std::string, Mesh> emitter_meshes_;
     std::map<std::string, RestageHandle> images_, materials_by_content_;
     std::map<std::pair<RestageHandle, double>, RestageHandle> scaled_textures_;

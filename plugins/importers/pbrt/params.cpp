@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "params.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -17,6 +18,19 @@ std::string expected_number(const Param& param) {
 }
 
 } // namespace
+
+void ParamList::keep_last() {
+    for (std::size_t i = 0; i < params.size();) {
+        const auto again = [&](const Param& later) {
+            return later.name == params[i].name && later.type == params[i].type;
+        };
+        const auto at = params.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::any_of(at + 1, params.end(), again))
+            params.erase(at);
+        else
+            ++i;
+    }
+}
 
 const Param* ParamList::find(std::string_view name) const {
     for (auto it = params.rbegin(); it != params.rend(); ++it)

@@ -32,6 +32,7 @@ class ParamList {
     // error.
     bool lenient = false;
 
+    void keep_last(); // of those that are given twice
     // The parameter of that name (the last one given), marked as used; nullptr if absent.
     const Param* find(std::string_view name) const;
     const Param* find(std::string_view name, std::string_view type) const;
