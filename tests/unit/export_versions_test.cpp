@@ -198,3 +198,33 @@ TEST_CASE("files that are not there keep their names wherever they are named", "
     }
     CHECK_THAT(v4.report, !ContainsSubstring("colour space"));
 }
+
+TEST_CASE("lamps without a surface, and lamps of alpha 0, shine in the other version", "[export]") {
+    Plugins plugins;
+    const std::string lamp =
+        "AttributeBegin\nMaterial \"none\"\nAreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\nShape "
+        "\"sphere\"\nAttributeEnd\n";
+    const auto v4 = converted(plugins, "Film \"image\"\nWorldBegin\n" + lamp + "WorldEnd\n", "v4");
+    INFO(v4.text);
+    CHECK_THAT(v4.text, ContainsSubstring("AreaLightSource \"diffuse\" \"rgb L\" [ 5 5 5 ]"));
+    CHECK_THAT(v4.text, ContainsSubstring("Material \"diffuse\"\n        Shape \"sphere\" \"float alpha\" [ 0 ]") ||
+                            ContainsSubstring("Material \"diffuse\"\n    Shape \"sphere\" \"float alpha\" [ 0 ]"));
+    CHECK_THAT(v4.report, ContainsSubstring("shines, and is not seen"));
+    const auto zero =
+        converted(plugins,
+                  "Film \"rgb\"\nWorldBegin\nTexture \"a\" \"float\" \"constant\" \"float value\" 0\n"
+                  "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\nShape \"sphere\" \"texture alpha\" \"a\"\n",
+                  "v4");
+    CHECK(zero.report == "");
+}
+
+TEST_CASE("shadowalpha is written back", "[export]") {
+    Plugins plugins;
+    const auto v3 =
+        converted(plugins,
+                  "Film \"image\"\nWorldBegin\nShape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] \"integer "
+                  "indices\" [0 1 2] \"float shadowalpha\" 0\nWorldEnd\n",
+                  "v3");
+    CHECK(v3.report == "");
+    CHECK_THAT(v3.text, ContainsSubstring("\"float shadowalpha\" [ 0 ]"));
+}

@@ -448,3 +448,14 @@ TEST_CASE("pbrt: what a thing in motion loses is said", "[pbrt]") {
         r.reports("Shape in motion: stands still where it is when the shutter opens; its motion is not written back"));
     CHECK(r.reports("Texture in motion"));
 }
+
+TEST_CASE("pbrt: materials of the other version are taken, and named", "[pbrt]") {
+    Recorder v3, v4;
+    REQUIRE(v3.load_text(v3_head +
+                         "Material \"diffuse\" \"rgb reflectance\" [.9 .8 .7]\nShape \"sphere\"\nWorldEnd\n") == 1);
+    CHECK(v3.materials.at(0).values.at("reflectance").v[2] == 0.7f);
+    CHECK(v3.reports("pbrt-v3 has no material of that name"));
+    REQUIRE(v4.load_text(v4_head + "Material \"matte\" \"rgb Kd\" [.9 .8 .7]\nShape \"sphere\"\n") == 1);
+    CHECK(v4.materials.at(0).values.at("reflectance").v[2] == 0.7f);
+    CHECK(v4.reports("pbrt-v4 has no material of that name"));
+}

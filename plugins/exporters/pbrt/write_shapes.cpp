@@ -220,6 +220,19 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     in_.instance(in_.ctx, handle, &i);
     const std::string what = std::string("instance \"") + i.text.name + "\"", deep = std::string(indent) + "    ";
     const Kept k = kept(i.text, what);
+    RestageMaterialDesc surface{};
+    const bool none = in_.material(in_.ctx, i.material, &surface) && std::string_view(surface.type) == "interface";
+    // pbrt-v4 lets surfaces without a material not emit, but those of alpha 0 do, which let rays pass as well.
+    const bool lamp_of_nothing = !v3() && none && (i.flags & RESTAGE_INSTANCE_EMITS) && !i.has_medium_interface;
+    if (lamp_of_nothing) {
+        i.alpha = 0;
+        i.alpha_texture = 0;
+        i.flags = (i.flags | RESTAGE_INSTANCE_EMITS_UNSEEN) & ~std::uint32_t{RESTAGE_INSTANCE_ALPHA_MASK};
+        approximated(
+            std::string("the light of \"") + i.text.name + "\"",
+            "pbrt-v4 lets surfaces without a material not emit: one of alpha 0 is written, which shines, and is "
+            "not seen");
+    }
     const auto shape_text = shape_lines(i.mesh, i, k); // may write files and textures first
     const bool many = shape_text.size() > 1; // then the name is the block's
     if (many) mark(indent, "name", {i.text.name});
@@ -246,8 +259,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (i.has_medium_interface)
         text_ += deep + "MediumInterface " + quote(medium(i.interior)) + " " + quote(medium(i.exterior)) + "\n";
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
-        RestageMaterialDesc of{};
-        if (!v3() && in_.material(in_.ctx, i.material, &of) && std::string_view(of.type) == "interface")
+        if (!v3() && none && !lamp_of_nothing)
             report(RESTAGE_DROPPED, std::string("the light of \"") + i.text.name + "\"",
                    "pbrt-v4 lets surfaces without a material not emit");
         Params light;
@@ -261,7 +273,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
         if (i.flags & RESTAGE_INSTANCE_TWO_SIDED) flag(light, "twosided", true);
         text_ += deep + "AreaLightSource \"diffuse\" " + finished(light, what) + "\n";
     }
-    text_ += deep + "NamedMaterial " + quote(material(i.material)) + "\n";
+    text_ += deep + (lamp_of_nothing ? "Material \"diffuse\"" : "NamedMaterial " + quote(material(i.material))) + "\n";
     for (const std::string& line : shape_text)
         text_ += deep + line + "\n";
     text_ += std::string(indent) + block + "End\n";
@@ -307,7 +319,11 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
     }
     if (mask && i.alpha_texture)
         approximated(what, "a mask becomes a share: pbrt-v4 lets rays pass where alpha is between 0 and 1");
-    if (lamp && unseen && !(i.alpha_texture == 0 && i.alpha <= 0) && !(mask && whole))
+    RestageTexture t{};
+    const bool zero = i.alpha_texture ? in_.texture(in_.ctx, i.alpha_texture, &t) &&
+                                            std::string_view(t.type) == "constant" && average(i.alpha_texture)[0] <= 0
+                                      : i.alpha <= 0;
+    if (lamp && unseen && !zero && !(mask && whole))
         approximated(what, "pbrt-v4's lamps do not shine where alpha makes holes");
     if (lamp && !unseen && !i.alpha_texture && i.alpha <= 0)
         approximated(what, "a lamp of alpha 0 shines in pbrt-v4, unseen");

@@ -175,14 +175,20 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     std::string plugin, verbatim;
     exact_.clear();
     d.params.find("type");
+    const auto other_version = [&](const char* note) {
+        import_.warned(d.at, what + " (" + type + ")", std::string(note) + "; it is taken as the other version's");
+    };
     if (is_for_plugin(d)) {
         material_of_plugin(d, d.params.string("plugin", ""), values, plugin);
     } else if (type.empty() || type == "none" || type == "interface") {
         plugin = "interface";
         if (!anonymous && type.empty() && !import_.v3() && !d.params.has("type"))
             import_.approximated(d.at, what, "it has no \"string type\"; taken as interface");
-    } else if (!material_v4(d, type, values, plugin) && !material_v3(d, type, values, plugin) &&
-               !material_of_plugin(d, type, values, plugin)) {
+    } else if (material_v4(d, type, values, plugin)) {
+        if (import_.v3() && type != "mix") other_version("pbrt-v3 has no material of that name, and takes matte");
+    } else if (material_v3(d, type, values, plugin)) {
+        if (!import_.v3()) other_version("pbrt-v4 has no material of that name, and stops");
+    } else if (!material_of_plugin(d, type, values, plugin)) {
         approximated_material(d, type, values, plugin);
         // The whole of it goes back out as it came, unless it is edited ("=*": instead of all that would be written).
         exact_ = "=* \"string type\" [ " + quote(type) + " ]\n";

@@ -250,8 +250,9 @@ RestageInstance Builder::instance_of(const Directive& d, const Matrix& to_world)
         instance.alpha = static_cast<float>(std::clamp(alpha.value.r, 0.0, 1.0));
         if (import_.v3()) instance.flags |= RESTAGE_INSTANCE_ALPHA_MASK;
     }
-    if (d.params.find("shadowalpha"))
-        import_.dropped(d.at, "\"shadowalpha\" of Shape " + quote(d.name), "shadows use \"alpha\"");
+    if (d.params.has("shadowalpha"))
+        import_.approximated(d.at, "\"shadowalpha\" of Shape " + quote(d.name),
+                             "shadows use \"alpha\"; written back as it is");
     // Which side is outside. The host transforms the object-space normal by the inverse transpose, which keeps it
     // outside under a mirror, and negates it for REVERSE_ORIENTATION. pbrt takes cross(e1, e2) in world space and flips
     // it if ReverseOrientation xor (the transform swaps handedness); but a world-space cross product has flipped once
