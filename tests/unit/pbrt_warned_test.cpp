@@ -459,3 +459,29 @@ TEST_CASE("pbrt: materials of the other version are taken, and named", "[pbrt]")
     CHECK(v4.materials.at(0).values.at("reflectance").v[2] == 0.7f);
     CHECK(v4.reports("pbrt-v4 has no material of that name"));
 }
+
+TEST_CASE("pbrt-v4: objects may be defined after they are placed", "[pbrt]") {
+    const std::string
+        place = "AttributeBegin\nTranslate 1 2 3\nObjectInstance \"a\"\nAttributeEnd\n",
+        define = "Translate 9 9 9\nObjectBegin \"a\"\nIdentity\nTranslate 0 0 1\nShape \"sphere\"\nObjectEnd\n";
+    Recorder v4;
+    REQUIRE(v4.load_text(v4_head + place + define + "ObjectInstance \"a\"\nObjectInstance \"b\"\n") == 1);
+    INFO(v4.all_reports());
+    REQUIRE(v4.instances.size() == 3);
+    CHECK(placeholders(v4) == 1); // of b
+    CHECK(v4.instances[2].raw.object_to_world[12] == 1);
+    CHECK(v4.instances[2].raw.object_to_world[14] == 4);
+    Recorder v3;
+    REQUIRE(v3.load_text(v3_head + place + define + "WorldEnd\n") == 1);
+    CHECK(v3.reports("no ObjectBegin has that name"));
+}
+
+TEST_CASE("pbrt-v4: options that change the picture, and attributes of nothing", "[pbrt]") {
+    Recorder r;
+    REQUIRE(r.load_text("Option \"bool forcediffuse\" true\nOption \"bool disablepixeljitter\" false\n" + v4_head +
+                        "Attribute \"lamp\" \"rgb L\" [2 2 2]\nShape \"sphere\"\n") == 1);
+    INFO(r.all_reports());
+    CHECK(r.reports("Option \"bool forcediffuse\": it is not followed"));
+    CHECK_FALSE(r.reports("\"bool disablepixeljitter\": it is not followed"));
+    CHECK(r.reports("Attribute \"lamp\": pbrt has attributes of"));
+}

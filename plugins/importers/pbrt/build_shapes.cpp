@@ -379,6 +379,10 @@ void Builder::object_instance(const Directive& d) {
     if (!open_object_.empty())
         throw ImportError{d.at, "ObjectInstance inside ObjectBegin; pbrt does not nest objects: move it out"};
     const auto found = objects_.find(d.name.empty() ? " " : d.name);
+    if (found == objects_.end() && later_objects_.count(d.name)) { // v4 looks when it has read the file
+        late_instances_.push_back({&d, state_, next_});
+        return;
+    }
     if (found == objects_.end()) {
         import_.lost(d.at, "ObjectInstance " + quote(d.name), "no ObjectBegin has that name; its place is kept");
         placeholder(d, d.name, "ObjectInstance " + quote(d.name));

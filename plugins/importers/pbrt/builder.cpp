@@ -33,6 +33,7 @@ bool Builder::run(SceneFile& scene) {
         if (directive.verb == Verb::make_named_material &&
             (!directive.params.has("plugin") || is_for_plugin(directive)))
             later_materials_.emplace(directive.name, &directive);
+        if (directive.verb == Verb::object_begin) later_objects_.insert(directive.name);
         if (directive.verb == Verb::make_named_medium) later_media_.emplace(directive.name, &directive);
         if (directive.verb == Verb::texture)
             later_textures_.emplace(std::pair(directive.name, directive.second == "float"), &directive);
@@ -77,6 +78,12 @@ void Builder::finish(const SceneFile& scene) {
     if (import_.v3() && !scene.has_world_end)
         import_.warned(scene.end, "WorldEnd", "missing; the file may have been cut short");
     flush_curves();
+    later_objects_.clear();
+    for (Late& late : std::exchange(late_instances_, {})) {
+        state_ = std::move(late.state);
+        next_ = std::move(late.next);
+        object_instance(*late.directive);
+    }
     film_and_settings();
     flush_environment();
 }
@@ -159,7 +166,11 @@ void Builder::option_step(Directive& d) {
             break;
         case Verb::option:
             option_lines_ += "Option " + quote(d.name) + " " + d.second + "\n";
-            import_.kept(d.at, "Option " + quote(d.name), "pbrt's own; written back as it is");
+            if (d.second == "true" && (d.name.ends_with("forcediffuse") || d.name.ends_with("disablepixeljitter") ||
+                                       d.name.ends_with("disabletexturefiltering")))
+                import_.approximated(d.at, "Option " + quote(d.name), "it is not followed; written back as it is");
+            else
+                import_.kept(d.at, "Option " + quote(d.name), "pbrt's own; written back as it is");
             break;
         default: // Accelerator, TransformTimes: nothing the picture shows
             if (d.verb == Verb::accelerator && !pbrt_has(d.verb, d.name, import_.v3())) {
@@ -214,6 +225,10 @@ void Builder::step(Directive& d) {
                                "pbrt knows srgb, dci-p3, rec2020, aces2065-1; the one before goes on");
             break;
         case Verb::attribute:
+            if (d.name != "shape" && d.name != "light" && d.name != "material" && d.name != "medium" &&
+                d.name != "texture")
+                import_.warned(d.at, "Attribute " + quote(d.name),
+                               "pbrt has attributes of shape, light, material, medium and texture only, and stops");
             for (Param& param : d.params.params) {
                 param.from_attribute = true;
                 state_.attributes[d.name].params.push_back(param);

@@ -204,6 +204,13 @@ class Builder {
         bool alone = false;
         bool material_shines = false; // an area light that is written for other programs
     } next_;
+    struct Late { // an ObjectInstance before its ObjectBegin
+        const Directive* directive;
+        State state;
+        Next next;
+    };
+    std::vector<Late> late_instances_;
+    std::set<std::string> later_objects_; // v4: all that the file defines
     std::string block_label_, block_name_; // for the block that begins
     bool own_name_ = false; // of the last shape: not after its material or object
     std::map<std::string, RestageHandle> groups_; // by path
