@@ -94,6 +94,7 @@ Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Con
 }
 
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict) {
+    if (path == "-") return fail("-: a scene on stdin is read by `restage render` only; name a file");
     catch_interrupts();
     ProgressBar bar(context.quiet);
     session::ReadOptions read{.progress = [&](float done, std::string_view what) {

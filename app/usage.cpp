@@ -53,7 +53,7 @@ std::string usage_sentence(const CLI::App& program, const CLI::Error& error) {
     rewrite("Value (\\S*) not in range \\[0 - 1\\.7\\S*\\]", "$1 is no number of 0 or more");
     rewrite("Value (\\S*) not in range \\[(\\S*) - (\\S*)\\]", "$1 is no number from $2 to $3");
     rewrite("^(\\S+): (\\S+) not in \\{(.*)\\}$", "$1: \"$2\" is none of $3");
-    rewrite("^(\\S+): 1 required \\S+ missing$", "$1 takes a value");
+    rewrite("^(\\S+): 1 required .* missing$", "$1 takes a value");
     rewrite("^(\\S+): At Most 1 required but received \\d+$", "$1 is given more than once");
     rewrite("^(\\S+): At least (\\d+) required but received (\\d+)$", "$1 takes $2 values, and got $3");
     if (std::regex_match(text, m, std::regex("Could not convert: (\\S+) = (.*)"))) {

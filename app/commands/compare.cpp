@@ -180,8 +180,8 @@ bool same_file(const std::string& a, const std::string& b) {
     return a == b || std::filesystem::equivalent(a, b, code);
 }
 
-// What is wrong with the files to write, before anything is read.
-Result<> check_outputs(const Options& o) {
+// What is wrong with the files that are named, before anything is read.
+Result<> check_files(const Options& o) {
     std::vector<std::string> inputs = o.halves;
     inputs.push_back(o.a);
     if (!o.b.empty()) inputs.push_back(o.b);
@@ -193,12 +193,15 @@ Result<> check_outputs(const Options& o) {
         for (const std::string& input : inputs)
             if (same_file(*path, input)) return fail(who + ": would be written over a picture that is compared");
     }
+    if (o.halves.size() == 2 && same_file(o.halves[0], o.halves[1]))
+        return fail("--reference-halves: " + o.halves[0] +
+                    " twice: the noise would be none; name two renders of other seeds");
     if (!o.diff.empty() && o.diff == o.z_map) return fail("--diff, --z-map: " + o.diff + " would be written twice");
     return {};
 }
 
 Result<int> run(const Options& options, Log& log) {
-    RESTAGE_CHECK(check_outputs(options));
+    RESTAGE_CHECK(check_files(options));
     RESTAGE_TRY(const scene::PixelData a, load(options.a, log));
     RESTAGE_TRY(const io::Estimate estimate_a, load_estimate(options.a, a));
     RESTAGE_TRY(const Reference b, load_reference(options, log));

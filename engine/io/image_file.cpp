@@ -81,8 +81,11 @@ std::string replace_non_finite(std::vector<float>& values) {
             ++infinite;
         }
     }
-    if (nan + infinite == 0) return {};
-    return fmt::format("{} values are NaN and became 0, {} are infinite and became {}", nan, infinite, largest_half);
+    std::string text;
+    if (nan > 0) text = fmt::format("{} values are NaN and became 0", nan);
+    if (infinite > 0)
+        text += fmt::format("{}{} values are infinite and became {}", nan > 0 ? ", " : "", infinite, largest_half);
+    return text;
 }
 
 } // namespace

@@ -45,6 +45,8 @@ def test_what_is_not_understood_is_a_usage_error(args):
     (["render", CORNELL, "-o", "x.png", "--size", "12"], "WxH"),
     (["render", CORNELL, "-o", "x.png", "--device", "no such device"], "no such device"),
     (["info", "nowhere.pbrt"], "nowhere.pbrt"),
+    (["info", "-"], "-: a scene on stdin is read by `restage render` only"),
+    (["convert", "-", "x.pbrt"], "-: a scene on stdin is read by `restage render` only"),
     (["convert", CORNELL, "x.unknownformat"], "unknownformat"),
     (["convert", CORNELL, "x.pbrt", "--set", "version=v9"], "v9"),
     (["convert", CORNELL, "x"], "no extension that says the format"),
@@ -381,7 +383,7 @@ def test_a_camera_is_chosen_by_name_or_number(tmp_path):
     (["--time", 0], "--time: 0 is no number above 0"), (["--clamp-direct", -1], "-1 is no number of 0 or more"),
     (["--spp", -1], "--spp: -1 is no number from 1 to 16777216"), (["--seed", -1], '--seed: "-1" is no whole number from 0 to 4294967295'),
     (["--threads", 100000], "--threads: 100000 is no number from 0 to 1024"), (["--tracer", "foo"], '--tracer: "foo" is none of embree,vulkan'),
-    (["--set"], "--set takes a value"), (["--size", "8x8", "--size", "9x9"], "--size is given more than once"),
+    (["--set"], "--set takes a value"), (["--exposure"], "--exposure takes a value"), (["--size", "8x8", "--size", "9x9"], "--size is given more than once"),
     (["--isolate-memory", "nan"], "nan is not a finite number"), (["--exposure", 65], "--exposure: 65 is no number from -64 to 64"),
     (["--crop", 0, 1, 0], "--crop takes 4 values, and got 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is no number"),
 ])
@@ -429,6 +431,7 @@ def test_nothing_is_written_over_what_is_read_or_is_no_file(tmp_path):
     for args, says in (
             (["compare", "a.png", "b.exr", "--diff", "./a.png"], "would be written over a picture that is compared"),
             (["compare", "a.exr", "b.exr", "--diff", "d.png", "--z-map", "d.png"], "d.png would be written twice"),
+            (["compare", "a.exr", "--reference-halves", "b.exr", "./b.exr"], "b.exr twice: the noise would be none"),
             (["compare", "a.exr", "b.exr", "--diff", "d.jpg"], "end its name with .png"),
             (["compare", "a.png", "b.exr", "--diff", "d.png", "--z-map", "z.png"], "--z-map: no z-test"),
             (["convert", "a.exr", "./a.exr"], "is the file that is read"),

@@ -274,8 +274,14 @@ TEST_CASE("image_file: NaN and infinity are replaced and counted") {
     const auto back = io::read_image(folder / "a.pfm", RESTAGE_LINEAR, 1, &warning);
     REQUIRE(back);
     CHECK(back->values == std::vector<float>{1, 0, 65504, -65504, 2});
-    CHECK(warning.find("a.pfm: 1 values are NaN") != std::string::npos);
-    CHECK(warning.find("2 are infinite") != std::string::npos);
+    const std::string file = std::string(folder / "a.pfm") + ": ";
+    CHECK(warning == file + "1 values are NaN and became 0, 2 values are infinite and became 65504");
+    REQUIRE(io::write_pfm(folder / "a.pfm", {.width = 2, .height = 1, .channels = 1, .values = {std::nanf(""), 2}}));
+    REQUIRE(io::read_image(folder / "a.pfm", RESTAGE_LINEAR, 1, &warning));
+    CHECK(warning == file + "1 values are NaN and became 0");
+    REQUIRE(io::write_pfm(folder / "a.pfm", {.width = 2, .height = 1, .channels = 1, .values = {inf, 2}}));
+    REQUIRE(io::read_image(folder / "a.pfm", RESTAGE_LINEAR, 1, &warning));
+    CHECK(warning == file + "1 values are infinite and became 65504");
     REQUIRE(io::read_image(data_image("rgb8.png"), RESTAGE_LINEAR, 1, &warning));
     CHECK(warning.empty());
 }
