@@ -228,3 +228,13 @@ TEST_CASE("shadowalpha is written back", "[export]") {
     CHECK(v3.report == "");
     CHECK_THAT(v3.text, ContainsSubstring("\"float shadowalpha\" [ 0 ]"));
 }
+
+TEST_CASE("a texture of an unknown class without parameters is written back", "[export]") {
+    Plugins plugins;
+    const auto v3 = converted(plugins,
+                              "Film \"image\"\nWorldBegin\nTexture \"t\" \"color\" \"fractal\"\nMaterial \"matte\" "
+                              "\"texture Kd\" \"t\"\nShape \"sphere\"\nWorldEnd\n",
+                              "v3");
+    CHECK_THAT(v3.text, ContainsSubstring("Texture \"t\" \"spectrum\" \"fractal\""));
+    CHECK(v3.report == "");
+}

@@ -273,7 +273,8 @@ std::string Exporter::texture(RestageHandle handle) {
         put_argument(params, values, "tex1", "tex1", is_float, 1);
         put_argument(params, values, "tex2", "tex2", is_float, 0);
         put_mapping(params, values, what);
-    } else if (!put_procedural(params, t, values, what, written) && k.lines.empty()) {
+    } else if (!put_procedural(params, t, values, what, written) && k.lines.empty() &&
+               std::string_view(t.text.verbatim_format) != format()) {
         written = "constant"; // of the other version: its average is the best there is
         approximated(what + " (" + type + ")", std::string(format()) + " has no such texture; its average is written");
         put_argument(params, values, "average", "value", is_float, 0.5f);
