@@ -125,7 +125,7 @@ void PlyRows::skip(const PlyProperty& property) {
 }
 
 const char* PlyRows::plain(const PlyElement& element) {
-    if (!is_plain(element)) return nullptr;
+    if (!is_plain(element) || element.count == 0) return nullptr;
     const char* rows = bytes_.data() + position_;
     last_ = position_;
     position_ += element.count * element.stride; // check_count has seen that they are there

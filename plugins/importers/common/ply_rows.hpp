@@ -27,7 +27,7 @@ class PlyRows {
 
     // Rows of a binary element without lists lie at equal distances: plain() gives them all, and goes behind them.
     bool is_plain(const PlyElement& element) const { return !ascii_ && !element.has_lists; }
-    const char* plain(const PlyElement&); // null: it is not so
+    const char* plain(const PlyElement&); // null: it is not so, or there are none
     bool skip_plain(const PlyElement& element) { return plain(element) != nullptr; }
     bool swaps() const { return swap_; } // the file's byte order is not this machine's
     double load(PlyType, const char* from) const;

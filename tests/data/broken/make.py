@@ -53,6 +53,7 @@ put("ply/type-unknown.ply", ply(xyz=XYZ.replace("float y", "quaternion y")) + PO
 put("ply/line-unknown.ply", ply(before="elephant vertex 3\n") + POINTS, "elephant")
 put("ply/no-z.ply", ply(xyz="property float x\nproperty float y\n") + "0 0\n1 0\n0 1\n3 0 1 2\n", "no x, y and z")
 put("ply/no-vertices.ply", "ply\nformat ascii 1.0\nelement face 1\n" + FACES + "end_header\n3 0 1 2\n", "no vertices")
+put("ply/zero-vertices.ply", binary("little", b"\3" + struct.pack("<3i", 0, 1, 2), vertices="0"), "no vertices")
 put("ply/no-faces.ply", ply(faces="0") + POINTS, "no faces")
 put("ply/no-list.ply", ply(list_="property int material\n") + POINTS + "7\n", "no list")
 put("ply/index-over.ply", ply() + POINTS + "3 0 1 3\n", "vertex 3 of 3")
