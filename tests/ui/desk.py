@@ -173,7 +173,9 @@ class Editor:
 
     # --- eyes ---
     def picture(self):
-        """What the viewport shows, without its frame; float, 0..1."""
+        """What the viewport shows, without its frame; float, 0..1. The screen may be a frame behind the state."""
+        drawn = self.state()["latency"]["nframes"]
+        self.wait(lambda s: s["latency"]["nframes"] >= drawn + 2, "two more frames")
         x0, y0, x1, y1 = (int(v) for v in self.state()["marks"]["picture"])
         return self.desk.screenshot()[y0:y1, x0:x1].astype(np.float32) / 255
 

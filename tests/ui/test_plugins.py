@@ -164,10 +164,14 @@ def test_a_table_is_chosen_and_refused_in_red(launch, tmp_path):
     state = editor.wait(lambda s: "material.filename.problem" in s["marks"], "what is wrong with it", 60)
     assert state["history"]["position"] == 2
     x0, y0, x1, y1 = (int(v) for v in state["marks"]["material.filename.problem"])
-    note = editor.desk.screenshot()[y0:y1, x0:x1].astype(int)
-    assert (note[..., 0] - note[..., 2] > 80).sum() > 100, "it is in red"
+
+    def is_red(_):  # the screen is a moment behind the state
+        note = editor.desk.screenshot()[y0:y1, x0:x1].astype(int)
+        return (note[..., 0] - note[..., 2] > 80).sum() > 100
+
+    editor.wait(is_red, "the problem in red")
     editor.settled(samples=1)
-    assert ball(editor).mean() < grey - 0.03, "a darker grey: 0.5, not 0.7"
+    editor.wait(lambda _: ball(editor).mean() < grey - 0.03, "a darker grey: 0.5, not 0.7", 60)
     editor.key("ctrl+z")
     editor.wait(lambda s: "material.filename.problem" not in s["marks"] and s["history"]["position"] == 1, "undo")
 
@@ -175,7 +179,8 @@ def test_a_table_is_chosen_and_refused_in_red(launch, tmp_path):
 def choose_denoiser(editor, name):
     """In the rows of "Rendering", which may be folded; "" = the built-in one."""
     editor.click("tab.Scene")
-    if "render.denoiser" not in editor.state()["marks"]:
+    state = editor.wait(lambda s: "scene.render" in s["marks"], "the panel")
+    if "render.denoiser" not in state["marks"]:
         editor.reveal("scene.render")
         editor.click("scene.render")
     editor.reveal("render.denoiser")
