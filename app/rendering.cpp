@@ -2,12 +2,12 @@
 #include "rendering.hpp"
 
 #include "base/file.hpp"
+#include "document/exposure.hpp"
+#include "document/isolate.hpp"
+#include "document/session.hpp"
 #include "io/strict.hpp"
 #include "progress.hpp"
 #include "scene/tables.hpp"
-#include "session/exposure.hpp"
-#include "session/isolate.hpp"
-#include "session/session.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -82,9 +82,9 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_flag("--validation", o.renderer.validation, "Turn Vulkan's validation layers on");
 }
 
-Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Context& context) {
+Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context) {
     if (!context.isolate) return nullptr;
-    auto options = std::make_shared<session::IsolateOptions>();
+    auto options = std::make_shared<document::IsolateOptions>();
     RESTAGE_TRY(options->program, executable_path());
     for (const std::string& folder : context.plugin_paths)
         options->arguments.insert(options->arguments.end(), {"--plugin-path", folder});
@@ -97,23 +97,23 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     if (path == "-") return fail("-: a scene on stdin is read by `restage render` only; name a file");
     catch_interrupts();
     ProgressBar bar(context.quiet);
-    session::ReadOptions read{.progress = [&](float done, std::string_view what) {
+    document::ReadOptions read{.progress = [&](float done, std::string_view what) {
         bar.show(done, std::string(what));
         return !interrupted();
     }};
     RESTAGE_TRY(read.isolate, isolate_options(context));
     io::ImportedScene imported;
-    if (session::is_project(path)) { // as the editor saves them: the scene they began with, and the changes
-        session::Session session(context.registry());
+    if (document::is_project(path)) { // as the editor saves them: the scene they began with, and the changes
+        document::Session session(context.registry());
         RESTAGE_CHECK(session.open(path, read));
         imported = {.scene = session.scene(), .report = session.report(), .importer = session.base().format};
     } else {
-        RESTAGE_TRY(imported, session::read_scene(path, context.registry(), read));
+        RESTAGE_TRY(imported, document::read_scene(path, context.registry(), read));
     }
     bar.finish();
     if (strict) RESTAGE_CHECK(io::refuse_losses(imported.report, path));
     for (const io::ReportEntry& entry : imported.report.entries) // what was done so that anything is seen
-        if (entry.what == "exposure" || (entry.what == "light" && !entry.note.starts_with(session::no_light)))
+        if (entry.what == "exposure" || (entry.what == "light" && !entry.note.starts_with(document::no_light)))
             context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));
     const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
                dropped = imported.report.count(RESTAGE_DROPPED);
@@ -176,9 +176,9 @@ Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scen
         scene.film = {film, ++scene.clock};
     }
     if (o.studio)
-        scene::apply(scene, session::light_studio(scene, context.registry()));
-    else if (!session::has_light(scene, context.registry()))
-        context.log.warning(std::string(session::no_light) + "; --studio lights it");
+        scene::apply(scene, document::light_studio(scene, context.registry()));
+    else if (!document::has_light(scene, context.registry()))
+        context.log.warning(std::string(document::no_light) + "; --studio lights it");
     auto settings = scene.settings.value;
     if (o.max_depth >= 0) settings.max_depth = std::uint32_t(o.max_depth);
     if (!o.roulette.empty()) settings.russian_roulette = o.roulette == "on";

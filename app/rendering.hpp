@@ -4,11 +4,11 @@
 #pragma once
 
 #include "context.hpp"
+#include "document/isolate.hpp"
 #include "io/import.hpp"
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
-#include "session/isolate.hpp"
-#include "session/picture.hpp"
+#include "view/picture.hpp"
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -42,7 +42,7 @@ std::shared_ptr<gpu::DeviceFault> device_fault();
 
 // With a progress bar; notes the report's counts in the log.
 // What `--isolate` and its limits say; null = scenes are read in this process.
-Result<std::shared_ptr<const session::IsolateOptions>> isolate_options(const Context& context);
+Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context);
 // `strict`: what the import approximates or drops is an error (io/strict.hpp).
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false);
 inline constexpr const char* strict_help =
@@ -58,15 +58,15 @@ Result<void> apply_options(Context& context, const RenderOptions& options, scene
 Result<void> render_to_target(Context& context, const RenderOptions& options, const scene::Scene& scene,
                               render::Renderer& renderer, const std::string& label = "");
 
-using session::Picture;
+using view::Picture;
 // When asked to (a missing denoiser is an error that says so).
 Result<void> denoise_picture(Context& context, const RenderOptions& options, Picture& picture);
 // Reads the film, and that.
 Result<Picture> take_picture(Context& context, const RenderOptions& options, const scene::Scene& scene,
                              const render::Renderer& renderer);
 
-using session::check_picture_path;
-using session::PictureOptions;
-using session::write_picture;
+using view::check_picture_path;
+using view::PictureOptions;
+using view::write_picture;
 
 } // namespace restage::app

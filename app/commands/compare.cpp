@@ -5,7 +5,7 @@
 #include "io/exr.hpp"
 #include "io/image_compare.hpp"
 #include "io/image_file.hpp"
-#include "session/picture.hpp"
+#include "view/picture.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -189,7 +189,7 @@ Result<> check_files(const Options& o) {
         if (path->empty()) continue;
         const std::string who = std::string(option) + " " + *path;
         if (!path->ends_with(".png")) return fail(who + ": is written as PNG; end its name with .png");
-        if (auto good = session::check_picture_path(*path); !good) return fail(option, good.error());
+        if (auto good = view::check_picture_path(*path); !good) return fail(option, good.error());
         for (const std::string& input : inputs)
             if (same_file(*path, input)) return fail(who + ": would be written over a picture that is compared");
     }

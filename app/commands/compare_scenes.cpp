@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage compare A B of two scenes (files or projects): do they mean the same picture, and if not, what differs.
 #include "commands/commands.hpp"
+#include "document/session.hpp"
 #include "io/scene_compare.hpp"
-#include "session/session.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -19,7 +19,7 @@ bool is_scene_file(const std::string& path) {
 }
 
 Result<int> compare_scenes(Context& context, const std::string& a, const std::string& b, bool json) {
-    session::Session first(context.registry()), second(context.registry());
+    document::Session first(context.registry()), second(context.registry());
     RESTAGE_CHECK(first.open(a));
     RESTAGE_CHECK(second.open(b));
     const auto differences = io::structural_differences(first.scene(), second.scene(), context.registry());

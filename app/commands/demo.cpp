@@ -4,10 +4,10 @@
 // same.
 #include "base/file.hpp"
 #include "commands.hpp"
+#include "document/session.hpp"
 #include "io/scene_compare.hpp"
 #include "progress.hpp"
 #include "rendering.hpp"
-#include "session/session.hpp"
 
 #include <fmt/format.h>
 #include <cstdio>
@@ -42,7 +42,7 @@ Result<std::vector<Instances>> objects(const scene::Scene& s, std::string_view n
 }
 
 // Each line is one gesture at the desktop editor, and one step of the history.
-Result<std::vector<std::string>> restage_room(session::Session& session) {
+Result<std::vector<std::string>> restage_room(document::Session& session) {
     std::vector<std::string> log;
     const auto done = [&](std::string text) { log.push_back(std::move(text)); };
     const auto& s = session.scene();
@@ -88,11 +88,11 @@ Result<int> run(Context& context, Options& o) {
     if (error)
         return fail(fmt::format("{}: cannot be created: {}; choose another folder with -o", o.folder, error.message()));
 
-    session::Session session(context.registry());
+    document::Session session(context.registry());
     catch_interrupts();
     {
         ProgressBar bar(context.quiet);
-        session::ReadOptions options;
+        document::ReadOptions options;
         options.progress = [&](float done, std::string_view what) {
             bar.show(done, std::string(what));
             return !interrupted();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage import-child IN OUT: what `--isolate` runs in a process of its own (session/isolate.hpp). Not for people.
+// restage import-child IN OUT: what `--isolate` runs in a process of its own (document/isolate.hpp). Not for people.
 #include "commands.hpp"
-#include "session/isolate.hpp"
+#include "document/isolate.hpp"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -15,7 +15,7 @@ void add_import_child(CLI::App& program, Context& context) {
     command->add_option("OUT", *out)->required();
     command->callback([&context, in, out] {
         context.choose([&context, in, out]() -> Result<int> {
-            RESTAGE_CHECK(session::import_child(*in, *out, context.registry()));
+            RESTAGE_CHECK(document::import_child(*in, *out, context.registry()));
             return int(exit_ok);
         });
     });

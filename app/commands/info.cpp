@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage info SCENE: what is in a scene file, and what its import kept, approximated and dropped.
 #include "commands.hpp"
+#include "document/exposure.hpp"
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
 #include "scene/placeholder.hpp"
-#include "session/exposure.hpp"
 
 #include <fmt/format.h>
 #include <cstdio>
@@ -73,7 +73,7 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"images", s.images.live()},
             {"media", s.media.live()},
             {"lights", lights},
-            {"lit", session::has_light(s, registry)},
+            {"lit", document::has_light(s, registry)},
             {"cameras", s.cameras.live()},
             {"camera_list", cameras},
             {"film", {{"width", film.width}, {"height", film.height}, {"exposure", film.exposure}}},
@@ -105,7 +105,7 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
     std::printf("lights      %d area, %d point, %d spot, %d distant, environment: %s\n", l["area"].get<int>(),
                 l["point"].get<int>(), l["spot"].get<int>(), l["distant"].get<int>(),
                 l["environment"].get<std::string>().c_str());
-    if (!d["lit"].get<bool>()) std::printf("            %s; `restage render --studio` lights it\n", session::no_light);
+    if (!d["lit"].get<bool>()) std::printf("            %s; `restage render --studio` lights it\n", document::no_light);
     line.clear();
     for (std::size_t i = 0; i < d["camera_list"].size();
          ++i) { // by these names and numbers `render --camera` takes them

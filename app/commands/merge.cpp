@@ -2,8 +2,8 @@
 // restage merge A.exr B.exr ... -o OUT: parts of one render, made apart, become one picture.
 #include "commands.hpp"
 #include "rendering.hpp"
-#include "session/merge_pictures.hpp"
 #include "standard_streams.hpp"
+#include "view/merge_pictures.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,11 +22,11 @@ struct Options {
 Result<int> run(Context& context, Options& o) {
     RESTAGE_TRY(const Output output, Output::create(o.output));
     RESTAGE_CHECK(check_picture_path(output.path()));
-    std::vector<session::StoredPicture> parts;
+    std::vector<view::StoredPicture> parts;
     for (const std::string& path : o.parts) {
-        RESTAGE_TRY(parts.emplace_back(), session::read_picture(path));
+        RESTAGE_TRY(parts.emplace_back(), view::read_picture(path));
     }
-    auto merged = session::merge_pictures(parts);
+    auto merged = view::merge_pictures(parts);
     if (!merged) return fail(fmt::format("{}", fmt::join(o.parts, ", ")), merged.error());
     Picture picture{.film = std::move(merged->film), .denoised = {}};
     RESTAGE_CHECK(denoise_picture(context, o.denoising, picture));
@@ -36,7 +36,7 @@ Result<int> run(Context& context, Options& o) {
     RESTAGE_CHECK(write_picture(output.path(), picture, o.picture));
     RESTAGE_CHECK(output.finish());
     context.log.info(fmt::format("{}: {} spp, relative error {:.4f}", o.output, picture.film.samples,
-                                 session::relative_error(picture.film)));
+                                 view::relative_error(picture.film)));
     return int(exit_ok);
 }
 

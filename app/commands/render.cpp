@@ -2,14 +2,14 @@
 // restage render SCENE -o out.exr: a scene file becomes a picture.
 #include "base/file.hpp"
 #include "commands.hpp"
+#include "document/assign.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
 #include "rendering.hpp"
 #include "scene/projection.hpp"
 #include "scene/validate.hpp"
-#include "session/assign.hpp"
-#include "session/merge_pictures.hpp"
 #include "standard_streams.hpp"
+#include "view/merge_pictures.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -91,10 +91,10 @@ nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, 
 // The options' changes, through a session as the editor makes them.
 Result<void> apply_assignments(Context& context, const Options& o, scene::Scene& scene) {
     if (o.assignments.empty()) return {};
-    session::Session session(context.registry());
+    document::Session session(context.registry());
     session.adopt(scene);
     for (const std::string& assignment : o.assignments)
-        if (auto done = session::assign(session, assignment); !done) return fail("--set", done.error());
+        if (auto done = document::assign(session, assignment); !done) return fail("--set", done.error());
     scene = session.scene();
     return {};
 }
@@ -111,8 +111,8 @@ Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as s
 }
 
 // Where the new samples begin and how many there are, when some are in a picture already.
-Result<void> go_on(Options& o, const session::StoredPicture& before, const scene::Scene& scene) {
-    if (auto same = session::same_render(what_is_rendered(o, scene), before.metadata); !same)
+Result<void> go_on(Options& o, const view::StoredPicture& before, const scene::Scene& scene) {
+    if (auto same = view::same_render(what_is_rendered(o, scene), before.metadata); !same)
         return fail("--resume " + o.resume + " " + same.error().message);
     const scene::Film& film = scene.film.value;
     const glm::uvec4 window = scene::crop_window(film);
@@ -124,7 +124,7 @@ Result<void> go_on(Options& o, const session::StoredPicture& before, const scene
                                     ? fmt::format("--size {}x{}", before.film.width, before.film.height)
                                     : "the --size and the --crop or --region that it was rendered with"));
     const std::uint32_t target = o.spp ? o.spp : scene.settings.value.samples ? scene.settings.value.samples : 64;
-    for (const session::SampleRange& range : before.ranges)
+    for (const view::SampleRange& range : before.ranges)
         if (range.seed == o.renderer.seed) o.first_sample = std::max(o.first_sample, range.first + range.count);
     if (o.seconds > 0) return {};
     if (before.film.samples >= target)
@@ -135,24 +135,24 @@ Result<void> go_on(Options& o, const session::StoredPicture& before, const scene
 }
 
 Metadata metadata_of(const Options& o, render::Renderer& renderer, const scene::Scene& scene) {
-    const session::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.samples()}};
+    const view::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.samples()}};
     Metadata metadata = what_is_rendered(o, scene);
     metadata.merge(Metadata{{"restage:version", RESTAGE_VERSION},
                             {"restage:device", renderer.device().info().name},
                             {"restage:tracer", renderer.tracer_name()},
                             {"restage:samples", std::to_string(renderer.samples())},
                             {"restage:seed", std::to_string(o.renderer.seed)},
-                            {"restage:ranges", session::to_text(range)}}); // no times: equal renders are equal
+                            {"restage:ranges", view::to_text(range)}}); // no times: equal renders are equal
     return metadata;
 }
 
 // Adds the picture's samples to those of `before`.
-Result<void> add_to(const session::StoredPicture& before, Picture& picture, Metadata& metadata, std::uint32_t first,
+Result<void> add_to(const view::StoredPicture& before, Picture& picture, Metadata& metadata, std::uint32_t first,
                     std::uint32_t seed) {
-    session::StoredPicture now{.film = std::move(picture.film),
-                               .layers = {"stderr", "albedo", "normal", "depth", "id"},
-                               .metadata = metadata,
-                               .ranges = {}};
+    view::StoredPicture now{.film = std::move(picture.film),
+                            .layers = {"stderr", "albedo", "normal", "depth", "id"},
+                            .metadata = metadata,
+                            .ranges = {}};
     now.ranges = {{seed, first, now.film.samples}};
     const float e = std::exchange(picture.exposure, 1.f); // files have it in their numbers
     for (std::size_t i = 0; i < now.film.color.size(); ++i) {
@@ -160,8 +160,8 @@ Result<void> add_to(const session::StoredPicture& before, Picture& picture, Meta
         now.film.std_error[i] *= e;
         now.film.luminance_variance[i] *= e * e;
     }
-    const session::StoredPicture both[] = {before, std::move(now)};
-    RESTAGE_TRY(auto merged, session::merge_pictures(both));
+    const view::StoredPicture both[] = {before, std::move(now)};
+    RESTAGE_TRY(auto merged, view::merge_pictures(both));
     picture.film = std::move(merged.film);
     metadata = std::move(merged.metadata);
     return {};
@@ -191,9 +191,9 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     RESTAGE_CHECK(apply_assignments(context, o, scene));
     RESTAGE_CHECK(apply_options(context, o, scene));
     RESTAGE_CHECK(apply_crop(o, scene));
-    std::optional<session::StoredPicture> before;
+    std::optional<view::StoredPicture> before;
     if (!o.resume.empty()) {
-        RESTAGE_TRY(before, session::read_picture(o.resume));
+        RESTAGE_TRY(before, view::read_picture(o.resume));
         RESTAGE_CHECK(go_on(o, *before, scene));
     }
     if (!renderer) {
@@ -213,7 +213,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     RESTAGE_CHECK(write(o.outputs, picture, o.picture));
 
     const auto& stats = renderer->stats();
-    const double relative_error = before ? session::relative_error(picture.film) : renderer->relative_error();
+    const double relative_error = before ? view::relative_error(picture.film) : renderer->relative_error();
     if (!o.statistics.empty()) {
         const std::string text = statistics(o, *renderer, picture, relative_error).dump(2) + "\n";
         if (o.statistics == "-")
@@ -249,7 +249,7 @@ Result<void> check(Context& context, const Options& o) {
     if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end() && *twice != "-")
         return fail("-o, --statistics: " + *twice + " would be written twice");
     if (to_stdout > 1) return fail("-o, --statistics: only one of them can go to stdout");
-    if (auto known = session::check_aovs(o.picture.aovs); !known) return fail("--aov", known.error());
+    if (auto known = view::check_aovs(o.picture.aovs); !known) return fail("--aov", known.error());
     if (!o.denoise.empty() || !o.denoiser.empty())
         RESTAGE_CHECK(render::choose_denoiser(context.registry(), o.denoiser));
     if (!o.format.empty() && o.scene != "-")

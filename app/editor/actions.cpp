@@ -6,11 +6,11 @@
 #include "final_render.hpp"
 #include "io/material_emission.hpp"
 #include "panels/outliner.hpp"
+#include "query/navigation.hpp"
+#include "query/support.hpp"
+#include "query/touching.hpp"
 #include "saving.hpp"
 #include "scene/edits_light.hpp"
-#include "session/navigation.hpp"
-#include "session/support.hpp"
-#include "session/touching.hpp"
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -38,7 +38,7 @@ void remove_selected(Editor& e) {
 void duplicate_selected(Editor& e) {
     // A little to the side, so that the copy is seen.
     const glm::dmat4 move = glm::translate(glm::dmat4(1), aside(e, e.selection.bounds(e.scene())));
-    session::Session& session = e.session_for_changes();
+    document::Session& session = e.session_for_changes();
     if (e.selection.light()) {
         auto made = scene::duplicate_light(e.scene(), e.selection.light(), move);
         if (!made) return e.notices.add(LogLevel::error, made.error().message);
@@ -55,7 +55,7 @@ void duplicate_selected(Editor& e) {
 void frame_bounds(Editor& e, const scene::Bounds& bounds) {
     if (bounds.empty()) return;
     scene::Camera camera = e.camera();
-    session::frame(camera, bounds, e.film_aspect());
+    query::frame(camera, bounds, e.film_aspect());
     e.look_from(camera.camera_to_world, {}, "Frame");
 }
 
@@ -99,7 +99,7 @@ bool view_is_apart(const Editor& e) { return e.views.now().has_value(); }
 
 void drop_to_floor(Editor& e) {
     const auto ids = e.selection.instances();
-    const auto distance = session::fall_distance(e.scene(), ids, e.up());
+    const auto distance = query::fall_distance(e.scene(), ids, e.up());
     if (!distance) {
         e.notices.add(LogLevel::info, "There is nothing below to stand on");
         return;
@@ -113,8 +113,8 @@ void drop_to_floor(Editor& e) {
 }
 
 void select_touching(Editor& e) {
-    std::vector<InstanceId> more = session::touching(e.scene(), e.selection.instances(),
-                                                     [&](InstanceId id) { return e.locked.contains(id.value); });
+    std::vector<InstanceId> more =
+        query::touching(e.scene(), e.selection.instances(), [&](InstanceId id) { return e.locked.contains(id.value); });
     e.notices.add(LogLevel::info, more.empty() ? "Nothing of its size touches it"
                                                : std::to_string(more.size()) + " more objects touch it");
     if (more.empty()) return;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "copy_paste.hpp"
 
+#include "document/clipboard.hpp"
 #include "editor.hpp"
 #include "files.hpp"
-#include "session/clipboard.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace restage::editor {
 
 namespace {
 
-void copy(Editor& e, const session::Selected& selected, const std::string& what) {
-    const auto text = session::copy_text(e.session(), selected);
+void copy(Editor& e, const document::Selected& selected, const std::string& what) {
+    const auto text = document::copy_text(e.session(), selected);
     if (!text) {
         e.notices.add(LogLevel::error, text.error().message);
         return;
@@ -28,19 +28,20 @@ void copy(Editor& e, const session::Selected& selected, const std::string& what)
 }
 
 // What came is in the document now, or not.
-void add(Editor& e, const session::Copy& copied) {
-    session::Session& session = e.session_for_changes();
+void add(Editor& e, const document::Copy& copied) {
+    document::Session& session = e.session_for_changes();
     if (copied.material) {
         if (e.selection.instances().empty()) {
             e.notices.add(LogLevel::info, "Select the objects that shall have the material");
             return;
         }
-        if (const auto done = session.edit(session::paste_material(session.scene(), copied, e.selection.instances()));
+        if (const auto done = session.edit(document::paste_material(session.scene(), copied, e.selection.instances()));
             !done)
             e.notices.add(LogLevel::error, done.error().message);
         return;
     }
-    session::Pasted pasted = session::paste(session.scene(), copied.scene, aside(e, scene::world_bounds(copied.scene)));
+    document::Pasted pasted =
+        document::paste(session.scene(), copied.scene, aside(e, scene::world_bounds(copied.scene)));
     session.edit(std::move(pasted.edit));
     if (pasted.instances.empty())
         e.selection.set_light(pasted.light);
@@ -66,13 +67,13 @@ void copy_material(Editor& e, scene::Id<scene::Material> id) {
 
 bool newer_in_clipboard(const Editor& e) {
     const char* held = ImGui::GetClipboardText();
-    return held && session::is_copy(held) && e.copied.text != held;
+    return held && document::is_copy(held) && e.copied.text != held;
 }
 
 void paste(Editor& e) {
     const char* held = ImGui::GetClipboardText();
     std::string text = held ? held : "";
-    if (!session::is_copy(text)) {
+    if (!document::is_copy(text)) {
         e.notices.add(LogLevel::info, "The clipboard holds nothing of Restage's: copy objects or a material first");
         return;
     }
@@ -95,12 +96,12 @@ void paste(Editor& e) {
     e.files().jobs.start(
         {.title = "Pasting"},
         [text = std::move(text), &registry = e.registry()](BackgroundJob&) -> std::function<void(Editor&)> {
-            auto copied = session::read_copy(text, registry);
+            auto copied = document::read_copy(text, registry);
             if (!copied)
                 return [message = copied.error().message](Editor& editor) {
                     editor.notices.add(LogLevel::error, message);
                 };
-            return [copied = std::make_shared<const session::Copy>(std::move(*copied))](Editor& editor) {
+            return [copied = std::make_shared<const document::Copy>(std::move(*copied))](Editor& editor) {
                 editor.later([&editor, copied] { add(editor, *copied); });
             };
         });

@@ -13,7 +13,7 @@ namespace {
 constexpr double farthest = 8; // times the distance at which it was taken up, so that the horizon is not reached
 
 // Where the ray meets the plane through `at`.
-std::optional<glm::dvec3> on_plane(const session::ViewRay& ray, const glm::dvec3& at, const glm::dvec3& normal) {
+std::optional<glm::dvec3> on_plane(const query::ViewRay& ray, const glm::dvec3& at, const glm::dvec3& normal) {
     const double slope = glm::dot(ray.direction, normal);
     const double t = glm::dot(at - ray.origin, normal) / slope;
     if (!std::isfinite(t) || t <= 0) return std::nullopt;

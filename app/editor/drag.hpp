@@ -4,8 +4,8 @@
 // is one step of the history, and none when it ends where it began.
 #pragma once
 
+#include "query/navigation.hpp"
 #include "selection.hpp"
-#include "session/navigation.hpp"
 
 #include <glm/glm.hpp>
 #include <optional>
@@ -21,7 +21,7 @@ class Editor;
 class DragPath {
   public:
     struct Mouse {
-        session::ViewRay ray; // through it
+        query::ViewRay ray; // through it
         glm::dvec3 view_up; // the camera's own, where the ray looks along `up`
     };
     // `at`: a point of what is dragged, in world space, near the ray. `handle`: by an axis handle.

@@ -6,10 +6,10 @@
 #include "files.hpp"
 #include "io/image_file.hpp"
 #include "plugin/table_reader.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 #include "saving.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
-#include "session/sky.hpp"
+#include "scene/sky.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -40,8 +40,8 @@ constexpr std::initializer_list<const char*> picture_files = {"png",  "jpg", "jp
 // The object a file let go there is for; asked of the scene, not of the picture, which may be of another moment.
 InstanceId target_at(const Editor& e, glm::dvec2 film) {
     if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
-    const session::ViewRay ray = session::view_ray(e.camera(), film, e.film_aspect());
-    const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+    const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
+    const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
     return hits.empty() ? InstanceId{} : hits[0].instance;
 }
 
@@ -130,7 +130,7 @@ void drop_image(Editor& e, const fs::path& path, InstanceId on) {
     if (becomes_sky(extension_of(path), on))
         return with_image(e, path, [path](Editor& editor, std::shared_ptr<const scene::PixelData> data) {
             editor.edit([path, data = std::move(data), up = editor.up()](const scene::Scene& s) {
-                return Result<scene::Edit>(session::image_sky(s, path.string(), data, up));
+                return Result<scene::Edit>(scene::image_sky(s, path.string(), data, up));
             });
         });
     ask_scope(e, {on}, path.filename().string(), [path](Editor& editor, const MaterialScope& scope) {
@@ -254,13 +254,13 @@ Result<scene::Edit> edit_in_scope(
 void Editor::place_inserted(const io::ImportedScene& imported) {
     const Opening::Request& request = opening_.request();
     // The middle of its underside comes to stand on what is seen there.
-    const session::ViewRay ray =
-        session::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
-    const auto hits = session::raycast_all(scene(), ray.origin, ray.direction);
+    const query::ViewRay ray =
+        query::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
+    const auto hits = query::raycast_all(scene(), ray.origin, ray.direction);
     const scene::Bounds all = scene::world_bounds(scene());
     const double away = all.empty() ? 1 : std::max(glm::length(all.center() - ray.origin), 1e-6);
     const glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
-    const auto made = session_.insert(imported, request.path.string(), session::Session::Stand{at, up_});
+    const auto made = session_.insert(imported, request.path.string(), document::Session::Stand{at, up_});
     if (!made) {
         notices.add(LogLevel::error, made.error().message);
         return;

@@ -7,9 +7,9 @@
 #include "layout.hpp"
 #include "panels/panels.hpp"
 #include "panels/state.hpp"
+#include "query/navigation.hpp"
 #include "recovery_dialog.hpp"
 #include "saving.hpp"
-#include "session/navigation.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -28,7 +28,7 @@ Editor::Editor(plugin::Registry& registry, Log& log, Notices& shown, EditorOptio
       log_(log),
       registry_(registry),
       session_(registry),
-      live_(std::make_unique<session::LiveView>(registry, log, options_.renderer, options_.wake)),
+      live_(std::make_unique<view::LiveView>(registry, log, options_.renderer, options_.wake)),
       opening_(registry, options_.wake, options_.isolate),
       files_(std::make_unique<Files>(options_.config_dir, options_.autosave_seconds, options_.wake)) {
     panel_state = std::make_unique<PanelState>(options_.wake);
@@ -86,7 +86,7 @@ double Editor::film_aspect() const {
 
 namespace {
 
-std::string title_name(const session::Session& session) {
+std::string title_name(const document::Session& session) {
     return session.path().empty() ? "untitled" : std::filesystem::path(session.path()).filename().string();
 }
 
@@ -100,8 +100,8 @@ bool Editor::animating() const {
     return notices.fading() || opening_.running() || files_->jobs.running() || !pending_.empty() || !modals_.empty();
 }
 
-std::shared_ptr<const session::Frame> Editor::shown_frame() const {
-    auto frame = live_->best(view.denoise && view.display.layer == session::Layer::color);
+std::shared_ptr<const view::Frame> Editor::shown_frame() const {
+    auto frame = live_->best(view.denoise && view.display.layer == view::Layer::color);
     return frame && frame->document == document_ ? frame : nullptr; // another scene has been opened in this very frame
 }
 
@@ -189,8 +189,8 @@ void Editor::follow_opening() {
     if (!result) return;
     const Opening::Request& request = opening_.request();
     if (!*result) {
-        if (opening_.problem() != session::BaseProblem::none)
-            ask_for_base(result->error().message, opening_.problem() == session::BaseProblem::changed);
+        if (opening_.problem() != document::BaseProblem::none)
+            ask_for_base(result->error().message, opening_.problem() == document::BaseProblem::changed);
         else
             notices.add(LogLevel::error, result->error().message);
         return;
@@ -203,7 +203,7 @@ void Editor::follow_opening() {
         session_.adopt_recovered(std::move(*(*result)->document));
         // The old file goes when there is a new one.
         files_->autosave.write_now(session_, ImGui::GetTime());
-        if (std::filesystem::exists(files_->autosave.file())) session::discard_recoverable({.file = request.path});
+        if (std::filesystem::exists(files_->autosave.file())) document::discard_recoverable({.file = request.path});
     } else {
         session_.adopt(std::move(*(*result)->document));
         files_->recent.add_file(request.path);
@@ -259,7 +259,7 @@ void Editor::document_changed() {
     locked.clear();
     pick_tool.reset();
     panel_state->forget_document();
-    up_ = session::guess_up(camera());
+    up_ = query::guess_up(camera());
     if (const std::string scripts = unreadable_scripts(scene()); !scripts.empty())
         notices.add(LogLevel::warning, "Names here are " + scripts +
                                            ", for which no font was found: they are shown as boxes. Install one (the "
@@ -418,18 +418,17 @@ void Editor::draw_menu() {
         ImGui::EndMenu();
     }
     // What goes on, at the right end.
-    const session::ViewStatus status = live_->status();
+    const view::ViewStatus status = live_->status();
     const bool waits = scene().instances.live() > 0; // for a picture
-    const std::string state = status.state == session::ViewState::starting    ? waits ? "starting the renderer" : ""
-                              : status.state == session::ViewState::preparing ? waits ? "preparing" : ""
-                              : status.state == session::ViewState::failed    ? "cannot render"
-                              : status.compiling.empty()                      ? ""
-                                                                              : "compiling " + status.compiling;
+    const std::string state = status.state == view::ViewState::starting    ? waits ? "starting the renderer" : ""
+                              : status.state == view::ViewState::preparing ? waits ? "preparing" : ""
+                              : status.state == view::ViewState::failed    ? "cannot render"
+                              : status.compiling.empty()                   ? ""
+                                                                           : "compiling " + status.compiling;
     if (!state.empty()) {
         ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(state.c_str()).x -
                         24 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextColored(status.state == session::ViewState::failed ? colors::error : colors::dim, "%s",
-                           state.c_str());
+        ImGui::TextColored(status.state == view::ViewState::failed ? colors::error : colors::dim, "%s", state.c_str());
         if (!status.text.empty()) ImGui::SetItemTooltip("%s", status.text.c_str());
     }
     ImGui::EndMainMenuBar();

@@ -6,14 +6,14 @@
 
 #include "actions.hpp"
 #include "copy_paste.hpp"
+#include "document/session.hpp"
 #include "gizmo.hpp"
 #include "notices.hpp"
 #include "opening.hpp"
 #include "preferences.hpp"
 #include "selection.hpp"
-#include "session/display.hpp"
-#include "session/live_view.hpp"
-#include "session/session.hpp"
+#include "view/display.hpp"
+#include "view/live_view.hpp"
 #include "view_history.hpp"
 #include "viewport.hpp"
 
@@ -37,14 +37,14 @@ struct EditorOptions {
     std::function<void()> wake; // [any] asks for another frame
     std::filesystem::path config_dir; // layout, preferences; "" = nothing is remembered
     double autosave_seconds = 60; // unsaved work is written aside so often
-    std::shared_ptr<const session::IsolateOptions> isolate; // scenes are read in a process of their own
+    std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a process of their own
 };
 
 enum class GizmoMode { select, move, rotate, scale };
 
 // How things are shown; no part of the document, so none of it is undone or restarts the picture.
 struct ViewSettings {
-    session::DisplaySettings display;
+    view::DisplaySettings display;
     bool denoise = true;
     bool show_overlays = true; // outlines, gizmo, names
     bool show_panels = true; // Tab
@@ -91,7 +91,7 @@ class Editor {
 
     // --- the document
     // -------------------------------------------------------------------------------------------------
-    const session::Session& session() const { return session_; }
+    const document::Session& session() const { return session_; }
     const scene::Scene& scene() const { return session_.scene(); }
     const plugin::Registry& registry() const { return session_.registry(); }
     scene::Id<scene::Camera> camera_id() const { return scene().active_camera.value; }
@@ -115,7 +115,7 @@ class Editor {
     // Asks for something that is more than an edit, at the same place. Runs in order with the edits.
     void later(std::function<void()> work) { pending_.push_back({.work = std::move(work)}); }
     void end_gesture() { end_gesture_ = true; }
-    session::Session& session_for_changes() { return session_; } // only inside later() and actions
+    document::Session& session_for_changes() { return session_; } // only inside later() and actions
 
     void open(const std::filesystem::path& path); // asks about unsaved changes first
     void open_now(Opening::Request request) { opening_.start(std::move(request)); } // asks nothing
@@ -144,9 +144,9 @@ class Editor {
     InstanceId drop_target; // what is dragged would go there: outlined alone, in the frame after
     InstanceId drop_target_before;
     ViewSettings view;
-    session::LiveView& live() { return *live_; }
-    const session::LiveView& live() const { return *live_; }
-    std::shared_ptr<const session::Frame> shown_frame() const;
+    view::LiveView& live() { return *live_; }
+    const view::LiveView& live() const { return *live_; }
+    std::shared_ptr<const view::Frame> shown_frame() const;
     void set_picture_size(glm::uvec2 size) { picture_size_ = size; } // by the viewport
     bool show_original = false; // the scene as it was opened, while a key is held
     std::set<std::uint32_t> locked; // Id<Instance>::value: not picked by clicks
@@ -215,8 +215,8 @@ class Editor {
     Preferences remembered_;
     Log& log_;
     plugin::Registry& registry_;
-    session::Session session_;
-    std::unique_ptr<session::LiveView> live_;
+    document::Session session_;
+    std::unique_ptr<view::LiveView> live_;
     Opening opening_;
     std::unique_ptr<Files> files_;
     double plugins_looked_at_ = 0; // [s], as ImGui::GetTime

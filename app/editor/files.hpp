@@ -4,8 +4,8 @@
 #pragma once
 
 #include "background.hpp"
+#include "document/recovery.hpp"
 #include "recent.hpp"
-#include "session/recovery.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -21,7 +21,7 @@ struct Files {
 
     Recent recent;
     std::filesystem::path recovery_folder;
-    session::Autosave autosave;
+    document::Autosave autosave;
     std::string autosave_problem; // that was said
     BackgroundJobs jobs;
     std::filesystem::path last_picture; // where one was written last

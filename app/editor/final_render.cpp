@@ -7,7 +7,7 @@
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
 #include "saving.hpp"
-#include "session/picture.hpp"
+#include "view/picture.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -41,14 +41,14 @@ Done say(LogLevel level, std::string text) {
 }
 
 struct Finished {
-    session::Picture picture;
-    session::PictureOptions how;
+    view::Picture picture;
+    view::PictureOptions how;
     std::string text; // what was done
 };
 
 // Where it cannot be written it is kept, until it is written elsewhere or given up: it may have taken hours.
 Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
-    const auto written = session::write_picture(path.string(), done->picture, done->how);
+    const auto written = view::write_picture(path.string(), done->picture, done->how);
     if (written) return say(LogLevel::info, path.string() + ": " + done->text);
     return [done, path, reason = written.error().message](Editor& e) {
         show_failure(e, {.title = "The final picture was not written",
@@ -72,7 +72,7 @@ Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
 
 Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& log, render::RendererOptions options,
                     const scene::Scene& scene, const Wish& wish, const std::string& scene_name) {
-    RESTAGE_CHECK(session::check_picture_path(wish.path.string()));
+    RESTAGE_CHECK(view::check_picture_path(wish.path.string()));
     job.report(0, "opening the renderer");
     options.stand_ins = false;
     RESTAGE_TRY(const auto renderer, render::Renderer::create(options, render::material_lookup(registry), log));
@@ -102,7 +102,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     }
     if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was given up");
     auto finished = std::make_shared<Finished>();
-    session::Picture& picture = finished->picture;
+    view::Picture& picture = finished->picture;
     picture = {.film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
     std::string denoiser = "none";
     if (denoise) {

@@ -2,8 +2,8 @@
 #include "gizmo.hpp"
 
 #include "editor.hpp"
+#include "query/navigation.hpp"
 #include "scene/projection.hpp"
-#include "session/navigation.hpp"
 
 #include <ImGuizmo.h>
 #include <algorithm>
@@ -31,7 +31,7 @@ glm::dmat3 rotation_of(const glm::dmat4& m) {
 
 DragPath::Mouse mouse_of(const Editor& e) {
     const ImVec2 at = ImGui::GetIO().MousePos;
-    return {session::view_ray(e.camera(), e.viewport.film_point(at), e.film_aspect()),
+    return {query::view_ray(e.camera(), e.viewport.film_point(at), e.film_aspect()),
             glm::normalize(glm::dvec3(e.camera().camera_to_world[1]))};
 }
 
@@ -98,7 +98,7 @@ GizmoState draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     // The knob in the middle would move in the plane of the screen, so that things end up in the air: there, as on the
     // object itself, the viewport slides them over the floor (viewport_drag.cpp). ImGuizmo takes no click while an item
     // is under the mouse, so the knob is one.
-    const glm::dvec3 middle = session::project(camera, drag.pivot, e.film_aspect());
+    const glm::dvec3 middle = query::project(camera, drag.pivot, e.film_aspect());
     const ImVec2 knob(corner.x + float(middle.x) * size.x, corner.y + float(middle.y) * size.y);
     GizmoState state;
     if (e.view.gizmo == GizmoMode::move && middle.z > 0 && !ImGuizmo::IsUsing() && knob.x > corner.x &&
@@ -114,11 +114,11 @@ GizmoState draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
     // A point on each handle, near its tip, for tests. Handles are as long in the world as makes one across the view
     // that long on the screen.
     const glm::dvec3 across =
-        session::project(camera, drag.pivot + glm::normalize(glm::dvec3(camera.camera_to_world[0])), e.film_aspect());
+        query::project(camera, drag.pivot + glm::normalize(glm::dvec3(camera.camera_to_world[0])), e.film_aspect());
     const double length = handle_size / 2 / std::max(std::abs(across.x - middle.x), 1e-9);
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 tip =
-            session::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * (0.85 * length), e.film_aspect());
+            query::project(camera, drag.pivot + glm::dvec3(drag.frame[i]) * (0.85 * length), e.film_aspect());
         e.mark(i == 0   ? "gizmo.x"
                : i == 1 ? "gizmo.y"
                         : "gizmo.z",

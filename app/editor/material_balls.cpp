@@ -5,8 +5,8 @@
 #include "render/material_types.hpp"
 #include "scene/bounds.hpp"
 #include "scene/edits.hpp"
-#include "session/display.hpp"
-#include "session/sky.hpp"
+#include "scene/sky.hpp"
+#include "view/display.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id
     apply(ball, insert(ball, Mesh{.name = "ball", .data = mesh}, ""));
     apply(ball, insert(ball, Instance{.name = "ball", .mesh = shape, .material = id}, ""));
     ball.environment.value.reset();
-    apply(ball, session::studio_sky(ball, {0, 1, 0}));
+    apply(ball, scene::studio_sky(ball, {0, 1, 0}));
     apply(ball, remove_unused(ball));
     Camera camera{.name = "ball", .fov = 29};
     camera.camera_to_world[3] = {0, 0, -4.1, 1}; // looks along +z
@@ -152,7 +152,7 @@ void MaterialBalls::work(Maker maker) {
                 const std::lock_guard guard(mutex_);
                 return !stop_;
             }));
-            session::to_display(renderer->image(), {}, rgba);
+            view::to_display(renderer->image(), {}, rgba);
             return {};
         };
         if (const auto done = render(); !done) {

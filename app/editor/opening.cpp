@@ -19,7 +19,7 @@ void Opening::start(Request request) {
     request_ = std::move(request);
     cancelled_ = finished_ = false;
     progress_ = 0;
-    problem_ = session::BaseProblem::none;
+    problem_ = document::BaseProblem::none;
     {
         std::lock_guard lock(mutex_);
         stage_.clear();
@@ -42,15 +42,15 @@ void Opening::run() {
         Opened opened;
         if (request_.purpose == Purpose::insert) {
             RESTAGE_TRY(opened.inserted,
-                        session::read_scene(request_.path.string(), registry_,
-                                            {.progress = progress, .isolate = isolate_, .expose = false}));
+                        document::read_scene(request_.path.string(), registry_,
+                                             {.progress = progress, .isolate = isolate_, .expose = false}));
         } else {
-            const session::ReadOptions options{.progress = progress,
-                                               .isolate = isolate_,
-                                               .base = request_.base,
-                                               .drop_lost = request_.drop_lost,
-                                               .problem = &problem_};
-            RESTAGE_TRY(opened.document, session::read_document(request_.path.string(), registry_, options));
+            const document::ReadOptions options{.progress = progress,
+                                                .isolate = isolate_,
+                                                .base = request_.base,
+                                                .drop_lost = request_.drop_lost,
+                                                .problem = &problem_};
+            RESTAGE_TRY(opened.document, document::read_document(request_.path.string(), registry_, options));
         }
         return opened;
     };

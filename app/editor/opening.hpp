@@ -2,9 +2,9 @@
 // Opening: a scene or project file is read on a thread of its own while the editor goes on, with progress and cancel.
 #pragma once
 
+#include "document/document.hpp"
 #include "io/import.hpp"
 #include "plugin/registry.hpp"
-#include "session/document.hpp"
 
 #include <atomic>
 #include <filesystem>
@@ -24,16 +24,16 @@ class Opening {
         std::filesystem::path path;
         Purpose purpose = Purpose::replace;
         std::filesystem::path base = {}; // of a project: instead of the one it names
-        bool drop_lost = false;          // see session::ReadOptions
+        bool drop_lost = false;          // see document::ReadOptions
         std::optional<glm::dvec2> film_point = {}; // insert: where on the picture it is to stand
     };
     struct Opened {
-        std::optional<session::Document> document;  // replace, recover
+        std::optional<document::Document> document;  // replace, recover
         std::optional<io::ImportedScene> inserted;
     };
 
     Opening(const plugin::Registry& registry, std::function<void()> wake,
-            std::shared_ptr<const session::IsolateOptions> isolate)
+            std::shared_ptr<const document::IsolateOptions> isolate)
         : registry_(registry), wake_(std::move(wake)), isolate_(std::move(isolate)) {}
     ~Opening();
 
@@ -47,20 +47,20 @@ class Opening {
     const std::filesystem::path& path() const { return request_.path; }
     // What came of it, once; nothing while it runs, or when it was given up.
     std::optional<Result<Opened>> take();
-    session::BaseProblem problem() const { return problem_; } // when take() gave an error
+    document::BaseProblem problem() const { return problem_; } // when take() gave an error
 
   private:
     void run();
 
     const plugin::Registry& registry_;
     std::function<void()> wake_;
-    std::shared_ptr<const session::IsolateOptions> isolate_;
+    std::shared_ptr<const document::IsolateOptions> isolate_;
     std::thread thread_;
     Request request_;
     std::optional<Request> next_; // starts when the running one has stopped
     std::atomic<bool> cancelled_ = false, finished_ = false;
     std::atomic<float> progress_ = 0;
-    session::BaseProblem problem_ = session::BaseProblem::none;
+    document::BaseProblem problem_ = document::BaseProblem::none;
     mutable std::mutex mutex_;
     std::string stage_;
     std::optional<Result<Opened>> result_;

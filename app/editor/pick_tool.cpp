@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pick_tool.hpp"
 
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 
 namespace restage::editor {
 
@@ -14,8 +14,8 @@ InstanceId picked_at(const Editor& e, ImVec2 screen) {
         return e.viewport.instance_at(e, screen);
     const glm::dvec2 film = e.viewport.film_point(screen);
     if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1) return {};
-    const session::ViewRay ray = session::view_ray(e.camera(), film, e.film_aspect());
-    const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+    const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
+    const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
     return hits.empty() ? InstanceId{} : hits[0].instance;
 }
 
@@ -54,8 +54,8 @@ PickTool focus_picker() {
     return {
         "Click what shall be sharp", [](Editor& e, InstanceId, ImVec2 screen) {
                 // The distance along the camera's axis: what pbrt calls focal distance.
-            const session::ViewRay ray = session::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
-            const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+            const query::ViewRay ray = query::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
+            const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
             if (hits.empty()) {
                 e.notices.add(LogLevel::info, "There is nothing to focus on");
                 return;

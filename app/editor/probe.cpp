@@ -71,7 +71,7 @@ std::string Editor::probe() const {
     const glm::dvec3 camera_eye(scene_camera().camera_to_world[3]);
     j["scene_camera"] = {camera_eye.x, camera_eye.y, camera_eye.z};
     j["views"] = {{"apart", views.now().has_value()}, {"back", views.can_back()}, {"forward", views.can_forward()}};
-    const session::ViewStatus status = live_->status();
+    const view::ViewStatus status = live_->status();
     const auto frame = live_->frame(), clean = live_->denoised();
     j["view"] = {{"state", int(status.state)},
                  {"text", status.text},

@@ -13,7 +13,7 @@ namespace restage::editor {
 
 void offer_recovery(Editor& e) {
     auto found =
-        std::make_shared<std::vector<session::Recoverable>>(session::find_recoverable(e.files().recovery_folder));
+        std::make_shared<std::vector<document::Recoverable>>(document::find_recoverable(e.files().recovery_folder));
     if (found->empty()) return;
     e.show_modal("Unsaved work was found", [found](Editor& editor) {
         dialog_width(560);
@@ -30,7 +30,7 @@ void offer_recovery(Editor& e) {
             ImGui::TableSetupColumn("");
             ImGui::TableHeadersRow();
             for (std::size_t i = 0; i < found->size(); ++i) {
-                const session::Recoverable& what = (*found)[i];
+                const document::Recoverable& what = (*found)[i];
                 ImGui::PushID(int(i));
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
@@ -59,7 +59,7 @@ void offer_recovery(Editor& e) {
             ImGui::EndTable();
         }
         if (gone < found->size()) {
-            session::discard_recoverable((*found)[gone]);
+            document::discard_recoverable((*found)[gone]);
             found->erase(found->begin() + std::ptrdiff_t(gone));
             stay = stay && !found->empty();
         }

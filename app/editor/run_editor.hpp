@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "document/isolate.hpp"
 #include "render/renderer.hpp"
-#include "session/isolate.hpp"
 
 #include <filesystem>
 #include <string>
@@ -23,7 +23,7 @@ struct RunOptions {
         bool safe_mode = false; // none but the program's own
         std::vector<plugin::SearchPath> paths;
     } plugins;
-    std::shared_ptr<const session::IsolateOptions> isolate; // scenes are read in a process of their own
+    std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a process of their own
     std::filesystem::path probe;      // for tests: state is written here when it changes; PROBE.in holds commands
 };
 

@@ -4,7 +4,7 @@
 #include "editor.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
-#include "session/studio.hpp"
+#include "scene/studio.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -46,7 +46,7 @@ std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool pro
 
 std::string project_name(const Editor& e) {
     const fs::path path(e.session().path());
-    return (path.empty() ? "untitled" : path.stem().string()) + std::string(session::project_extension);
+    return (path.empty() ? "untitled" : path.stem().string()) + std::string(document::project_extension);
 }
 
 fs::path document_folder(const Editor& e) {
@@ -132,7 +132,7 @@ void ask_unsaved(Editor& e, const char* doing, Then then) {
 void new_scene(Editor& e) {
     ask_unsaved(e, "starting a new scene", [](Editor& editor) {
         editor.opening().cancel();
-        editor.adopt_scene(session::studio_scene());
+        editor.adopt_scene(scene::studio_scene());
     });
 }
 
@@ -151,7 +151,7 @@ void insert_dialog(Editor& e) {
 }
 
 void save(Editor& e, Then then) {
-    if (session::is_project(e.session().path()))
+    if (document::is_project(e.session().path()))
         save_to(e, e.session().path(), then);
     else
         save_as(e, std::move(then));
@@ -163,10 +163,10 @@ void save_as(Editor& e, Then then) {
                .filters = {{"Restage projects", {"restage"}}, {"All files", {}}},
                .start = document_folder(e),
                .name = project_name(e),
-               .extension = std::string(session::project_extension),
+               .extension = std::string(document::project_extension),
                .done = [then = std::move(then)](Editor& editor, const fs::path& path) {
                    fs::path place = path;
-                   if (!session::is_project(place)) place += session::project_extension;
+                   if (!document::is_project(place)) place += document::project_extension;
                    save_to(editor, place, then);
                }});
 }

@@ -4,8 +4,8 @@
 #include "editor.hpp"
 #include "panels/panels.hpp"
 #include "pick_tool.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 #include "theme.hpp"
 
 #include <ImGuizmo.h>
@@ -103,14 +103,14 @@ void Viewport::update_textures(Editor& e) {
         outlined_ = {};
         return;
     }
-    session::DisplaySettings settings = e.view.display;
+    view::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
-    if (frame->clay && settings.layer == session::Layer::color) settings = {};
-    const auto same = [](const session::DisplaySettings& a, const session::DisplaySettings& b) {
+    if (frame->clay && settings.layer == view::Layer::color) settings = {};
+    const auto same = [](const view::DisplaySettings& a, const view::DisplaySettings& b) {
         return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
     };
     if (frame != drawn_ || !same(settings, drawn_settings_)) {
-        session::to_display(frame->image, settings, pixels_);
+        view::to_display(frame->image, settings, pixels_);
         picture_.set(frame->image.width, frame->image.height, pixels_);
         drawn_ = frame;
         drawn_settings_ = settings;
@@ -129,8 +129,8 @@ void Viewport::update_textures(Editor& e) {
     for (const InstanceId id : key.selected)
         if (id.value < mark.size()) mark[id.value] = 2;
     outlined_ = std::move(key);
-    if (session::to_outlines(image, mark, frame->divider > 1 ? 1 : 2,
-                             {ImGui::GetColorU32(colors::hover), ImGui::GetColorU32(colors::accent)}, pixels_))
+    if (view::to_outlines(image, mark, frame->divider > 1 ? 1 : 2,
+                          {ImGui::GetColorU32(colors::hover), ImGui::GetColorU32(colors::accent)}, pixels_))
         outline_.set(image.width, image.height, pixels_);
     else
         outline_.hide();
@@ -143,7 +143,7 @@ void Viewport::draw_overlays(Editor& e) {
         for (int i = 0; i < 8; ++i) {
             const glm::dvec3 at(i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
                                 i & 4 ? box.upper.z : box.lower.z);
-            const glm::dvec3 p = session::project(e.camera(), at, e.film_aspect());
+            const glm::dvec3 p = query::project(e.camera(), at, e.film_aspect());
             lo = glm::min(lo, glm::dvec2(p));
             hi = glm::max(hi, glm::dvec2(p));
         }
@@ -204,8 +204,8 @@ void Viewport::pick(Editor& e, bool over, const GizmoState& gizmo) {
             pressed_ = false;
             return;
         }
-        const session::ViewRay ray = session::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
-        if (const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
+        const query::ViewRay ray = query::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
+        if (const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
             orbit_center_ = hits[0].position;
     }
     if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
@@ -255,13 +255,13 @@ void Viewport::pick(Editor& e, bool over, const GizmoState& gizmo) {
     behind_ = again && mode == Selection::Mode::replace ? behind_ + 1 : 0;
     last_click_ = io.MousePos;
     if (behind_ > 0) {
-        const session::ViewRay ray = session::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
-        const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction,
-                                               [&](InstanceId hit) { return e.locked.contains(hit.value); });
+        const query::ViewRay ray = query::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
+        const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction,
+                                             [&](InstanceId hit) { return e.locked.contains(hit.value); });
         // Each thing that can be picked once, however many parts of it the ray meets.
         std::vector<InstanceId> targets;
         std::set<std::pair<std::uint32_t, std::uint32_t>> seen; // group, or object where there is none
-        for (const session::RayHit& hit : hits) {
+        for (const query::RayHit& hit : hits) {
             const GroupId group = e.selection.click_group(e.scene(), hit.instance);
             if (seen.insert({group.value, group ? 0 : hit.instance.value}).second) targets.push_back(hit.instance);
         }

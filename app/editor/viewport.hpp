@@ -6,9 +6,9 @@
 #include "drag.hpp"
 #include "gizmo.hpp"
 #include "selection.hpp"
-#include "session/display.hpp"
-#include "session/live_view.hpp"
 #include "texture.hpp"
+#include "view/display.hpp"
+#include "view/live_view.hpp"
 
 #include <glm/glm.hpp>
 #include <memory>
@@ -61,11 +61,11 @@ class Viewport {
     glm::dvec3 pivot(const Editor& editor) const;
 
     Texture picture_, outline_;
-    std::shared_ptr<const session::Frame> drawn_; // what picture_ holds
-    session::DisplaySettings drawn_settings_;
+    std::shared_ptr<const view::Frame> drawn_; // what picture_ holds
+    view::DisplaySettings drawn_settings_;
     std::size_t most_compiling_ = 0; // shaders, since the scene was opened
     struct OutlineKey {
-        const session::Frame* frame = nullptr;
+        const view::Frame* frame = nullptr;
         std::vector<InstanceId> selected;
         std::vector<InstanceId> hovered;
         bool operator==(const OutlineKey&) const = default;

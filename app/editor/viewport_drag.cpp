@@ -3,8 +3,8 @@
 // stays under the mouse. Handles that point at the viewer are too short to drag; this never is.
 #include "editor.hpp"
 #include "pick_tool.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 
 #include <imgui_internal.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -14,7 +14,7 @@ namespace restage::editor {
 namespace {
 
 DragPath::Mouse mouse_at(const Editor& e, const Viewport& v, ImVec2 screen) {
-    return {session::view_ray(e.camera(), v.film_point(screen), e.film_aspect()),
+    return {query::view_ray(e.camera(), v.film_point(screen), e.film_aspect()),
             glm::normalize(glm::dvec3(e.camera().camera_to_world[1]))};
 }
 
@@ -27,8 +27,8 @@ bool Viewport::can_drag(const Editor& e, ImVec2 screen) const {
 
 void Viewport::start_sliding(Editor& e, ImVec2 screen) {
     const DragPath::Mouse mouse = mouse_at(e, *this, screen);
-    const auto hits = session::raycast_all(e.scene(), mouse.ray.origin, mouse.ray.direction,
-                                           [&](InstanceId id) { return !e.selection.contains(id); });
+    const auto hits = query::raycast_all(e.scene(), mouse.ray.origin, mouse.ray.direction,
+                                         [&](InstanceId id) { return !e.selection.contains(id); });
     if (hits.empty() && !on_knob_) return;
     begin_drag(e, slide_, ImGui::GetIO().KeyShift);
     slide_.path.begin(hits.empty() ? e.gizmo_drag.pivot : hits[0].position, e.up(), mouse, false);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights without a surface over the picture: marks that can be clicked, and the cone of a spot.
 #include "editor.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 #include "theme.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr std::size_t rim_points = 48;
 
 // Where a point falls on the screen; none behind the camera.
 std::optional<ImVec2> on_screen(const Editor& e, const Viewport& v, const glm::dvec3& world) {
-    const glm::dvec3 p = session::project(e.camera(), world, e.film_aspect());
+    const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
     if (!(p.z > 0) || std::abs(p.x) > 1e4 || std::abs(p.y) > 1e4) return std::nullopt;
     return ImVec2(v.corner.x + float(p.x) * v.size.x, v.corner.y + float(p.y) * v.size.y);
 }
@@ -40,7 +40,7 @@ Cone cone_of(const Editor& e, const scene::Light& light) {
     cone.y = glm::cross(cone.z, cone.x);
     const scene::Bounds all = scene::world_bounds(e.scene());
     const double reach = all.empty() ? 1 : std::max(all.radius(), 1e-6);
-    const auto hits = session::raycast_all(e.scene(), cone.tip, cone.z);
+    const auto hits = query::raycast_all(e.scene(), cone.tip, cone.z);
     cone.length = hits.empty() ? reach * 0.5 : std::min(hits[0].t, reach);
     const double radius = cone.length * std::tan(glm::radians(std::min(double(light.cone_angle), 80.0)));
     if (radius > reach) cone.length *= reach / radius;
@@ -133,7 +133,7 @@ void Viewport::draw_cone(Editor& e, scene::Id<scene::Light> id) {
     if (!cone_held_ && !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) return;
     cone_held_ = true;
     // Where the mouse is on the plane of the rim.
-    const session::ViewRay ray = session::view_ray(e.camera(), film_point(mouse), e.film_aspect());
+    const query::ViewRay ray = query::view_ray(e.camera(), film_point(mouse), e.film_aspect());
     const double t = glm::dot(cone.tip + cone.z * cone.length - ray.origin, cone.z) / glm::dot(ray.direction, cone.z);
     if (!std::isfinite(t) || t <= 0) return;
     const double away = glm::length(ray.origin + t * ray.direction - (cone.tip + cone.z * cone.length));

@@ -2,7 +2,7 @@
 // What the mouse and WASD do to the view, or to the camera where it is not locked. Every gesture is one step of its
 // history.
 #include "editor.hpp"
-#include "session/navigation.hpp"
+#include "query/navigation.hpp"
 
 #include <ImGuizmo.h>
 #include <algorithm>
@@ -17,7 +17,7 @@ glm::dvec3 Viewport::pivot(const Editor& e) const {
     const scene::Bounds chosen = e.selection.bounds(e.scene());
     if (!chosen.empty()) return chosen.center();
     // What is in the middle of the picture; else somewhere in the scene.
-    const session::ViewRay ray = session::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
+    const query::ViewRay ray = query::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
     if (drawn_ && !drawn_->image.depth.empty()) {
         const auto& image = drawn_->image;
         const float depth = image.depth[std::size_t(image.height / 2) * image.width + image.width / 2];
@@ -61,27 +61,27 @@ void Viewport::navigate(Editor& e, bool over) {
             break;
         case Navigation::orbit:
             if (moved) {
-                session::orbit(camera, pivot(e), e.up(), {delta.x * turn, -delta.y * 3.0});
+                query::orbit(camera, pivot(e), e.up(), {delta.x * turn, -delta.y * 3.0});
                 set_camera(e, camera, "navigate");
             }
             break;
         case Navigation::pan:
             if (moved) {
                 const double distance = glm::length(pivot(e) - glm::dvec3(camera.camera_to_world[3]));
-                session::pan(camera, delta, std::max(distance, 1e-6), aspect);
+                query::pan(camera, delta, std::max(distance, 1e-6), aspect);
                 set_camera(e, camera, "navigate");
             }
             break;
         case Navigation::dolly:
             if (moved) {
-                session::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
+                query::dolly(camera, pivot(e), std::clamp((delta.x + delta.y) * 2.0, -0.9, 0.9));
                 set_camera(e, camera, "navigate");
             }
             break;
         case Navigation::fly: {
             if (io.MouseWheel != 0)
                 e.view.fly_speed = std::clamp(e.view.fly_speed * std::pow(1.25f, io.MouseWheel), 0.01f, 100.f);
-            if (moved) session::look(camera, e.up(), {-delta.x * turn * 0.5, -delta.y * 1.5});
+            if (moved) query::look(camera, e.up(), {-delta.x * turn * 0.5, -delta.y * 1.5});
             glm::dvec3 go(0);
             const auto key = [](ImGuiKey k) { return ImGui::IsKeyDown(k) ? 1.0 : 0.0; };
             go.x = key(ImGuiKey_D) - key(ImGuiKey_A);
@@ -89,8 +89,7 @@ void Viewport::navigate(Editor& e, bool over) {
             go.z = key(ImGuiKey_W) - key(ImGuiKey_S);
             const double radius = std::max(scene::world_bounds(e.scene()).radius(), 1e-6);
             const double speed = radius * 0.25 * e.view.fly_speed * (io.KeyShift ? 4 : 1); // a second
-            if (go != glm::dvec3(0))
-                session::translate_local(camera, go * speed * double(std::min(io.DeltaTime, 0.1f)));
+            if (go != glm::dvec3(0)) query::translate_local(camera, go * speed * double(std::min(io.DeltaTime, 0.1f)));
             if (moved || go != glm::dvec3(0)) set_camera(e, camera, "navigate");
             break;
         }
@@ -98,7 +97,7 @@ void Viewport::navigate(Editor& e, bool over) {
 
     if (over && io.MouseWheel != 0 && navigation_ == Navigation::none) {
         // Towards what is under the mouse.
-        const session::ViewRay ray = session::view_ray(camera, film_point(io.MousePos), aspect);
+        const query::ViewRay ray = query::view_ray(camera, film_point(io.MousePos), aspect);
         double distance = glm::length(pivot(e) - ray.origin);
         if (const InstanceId id = instance_at(e, io.MousePos); id && drawn_) {
             const glm::dvec2 p = film_point(io.MousePos);
@@ -107,8 +106,8 @@ void Viewport::navigate(Editor& e, bool over) {
                 image.depth[std::size_t(p.y * image.height) * image.width + std::size_t(p.x * image.width)];
             if (depth > 0 && std::isfinite(depth)) distance = depth;
         }
-        session::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance,
-                       1 - std::pow(0.88, double(io.MouseWheel)));
+        query::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance,
+                     1 - std::pow(0.88, double(io.MouseWheel)));
         // Turns of the wheel that follow each other are one step.
         if (ImGui::GetTime() - wheel_time_ > 0.7) e.end_gesture();
         wheel_time_ = ImGui::GetTime();

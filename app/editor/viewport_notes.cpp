@@ -82,7 +82,7 @@ void Viewport::draw_toolbar(Editor& e) {
               "What is shown: the picture, what the denoiser goes by (surface colours, normals, distance), objects and "
               "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
               "toolbar.layer"))
-        e.view.display.layer = session::Layer(layer);
+        e.view.display.layer = view::Layer(layer);
     next(84 * scale);
     ImGui::SetNextItemWidth(84 * scale);
     ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");
@@ -94,11 +94,11 @@ void Viewport::draw_toolbar(Editor& e) {
               "How light becomes screen colours. Standard: as in a saved PNG (sRGB), too bright is white. Filmic: "
               "softer highlights",
               "toolbar.tone"))
-        e.view.display.tone = session::ToneCurve(tone);
+        e.view.display.tone = view::ToneCurve(tone);
 }
 
 // Of the picture that is shown, not of the one that is being made.
-std::string picture_note(const session::Frame& shown, const std::string& compiling, bool beside_camera) {
+std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera) {
     const std::uint32_t samples = std::max(shown.image.samples, 1u);
     std::string text = fmt::format("{} × {}, {} sample{} a pixel", shown.image.width, shown.image.height, samples,
                                    samples == 1 ? "" : "s");
@@ -113,13 +113,13 @@ void Viewport::draw_status(Editor& e) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    const session::ViewStatus status = e.live().status();
+    const view::ViewStatus status = e.live().status();
     std::string text;
-    if (status.state == session::ViewState::failed)
+    if (status.state == view::ViewState::failed)
         text = status.text;
     else if (drawn_ && !drawn_->clay)
         text = picture_note(*drawn_, status.compiling, e.views.now().has_value());
-    if (!text.empty() && (e.view.show_overlays || status.state == session::ViewState::failed)) {
+    if (!text.empty() && (e.view.show_overlays || status.state == view::ViewState::failed)) {
         const float wrap = std::max(size.x - 20 * scale, 60.f);
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
         const ImVec2 a(corner.x + 8 * scale, end.y - extent.y - 10 * scale);
@@ -127,16 +127,16 @@ void Viewport::draw_status(Editor& e) {
                             {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale}, IM_COL32(16, 16, 18, 180),
                             3 * scale);
         draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), a,
-                      ImGui::GetColorU32(status.state == session::ViewState::failed ? colors::error : colors::dim),
+                      ImGui::GetColorU32(status.state == view::ViewState::failed ? colors::error : colors::dim),
                       text.c_str(), nullptr, wrap);
         e.mark("picture.note", a, {a.x + extent.x, a.y + extent.y});
     }
 }
 
 void Viewport::draw_progress(Editor& e) {
-    const session::ViewStatus status = e.live().status();
+    const view::ViewStatus status = e.live().status();
     const bool opening = e.opening().running();
-    const bool waits = !opening && e.scene().instances.live() > 0 && status.state != session::ViewState::failed &&
+    const bool waits = !opening && e.scene().instances.live() > 0 && status.state != view::ViewState::failed &&
                        (!drawn_ || drawn_->clay);
     if (!opening && !waits) {
         most_compiling_ = 0;
@@ -158,8 +158,8 @@ void Viewport::draw_progress(Editor& e) {
         ImGui::ProgressBar(float(done) / float(most_compiling_), {-1, 0}, status.compiling.c_str());
     } else {
         // Nobody knows how long: a bar without an end. It need not move; frames are drawn when there is news.
-        ImGui::TextUnformatted(status.state == session::ViewState::starting ? "Starting the renderer"
-                                                                            : "Preparing the scene");
+        ImGui::TextUnformatted(status.state == view::ViewState::starting ? "Starting the renderer"
+                                                                         : "Preparing the scene");
         ImGui::ProgressBar(0, {-1, 0}, drawn_ ? "the first picture is being made" : "reading geometry and textures");
     }
     e.mark("progress");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Viewport tools that follow the mouse: sticking the selection to what is under it, and the values of the pixel there.
 #include "editor.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 #include "theme.hpp"
 
 #include <fmt/format.h>
@@ -21,9 +21,9 @@ void Viewport::stick(Editor& e, bool over) {
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
     if (sticking_ && moved.x == 0 && moved.y == 0) return;
     sticking_ = true;
-    const session::ViewRay ray = session::view_ray(e.camera(), film_point(ImGui::GetIO().MousePos), e.film_aspect());
-    const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction,
-                                           [&](InstanceId id) { return e.selection.contains(id); });
+    const query::ViewRay ray = query::view_ray(e.camera(), film_point(ImGui::GetIO().MousePos), e.film_aspect());
+    const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction,
+                                         [&](InstanceId id) { return e.selection.contains(id); });
     if (hits.empty()) return;
     // The middle of the box's side that faces the surface comes to lie on it.
     const scene::Bounds bounds = e.selection.bounds(e.scene());

@@ -6,8 +6,8 @@
 #include "files.hpp"
 #include "io/image_file.hpp"
 #include "saving.hpp"
-#include "session/picture.hpp"
 #include "theme.hpp"
+#include "view/picture.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -132,10 +132,10 @@ void start_export(Editor& e, const fs::path& path, io::ExportOptions options) {
 }
 
 // The live picture, as traced and, where there is one of the same film, denoised.
-std::optional<session::Picture> live_picture(const Editor& e) {
+std::optional<view::Picture> live_picture(const Editor& e) {
     const auto raw = e.live().frame(), clean = e.live().denoised();
     if (!raw || raw->document != e.document()) return std::nullopt;
-    session::Picture picture{.film = raw->image, .denoised = std::nullopt, .exposure = e.scene().film.value.exposure};
+    view::Picture picture{.film = raw->image, .denoised = std::nullopt, .exposure = e.scene().film.value.exposure};
     if (clean && clean->request == raw->request && clean->image.width == raw->image.width &&
         clean->image.height == raw->image.height)
         picture.denoised = clean->image.color;
@@ -144,9 +144,9 @@ std::optional<session::Picture> live_picture(const Editor& e) {
 
 // What is on screen, eight bits a channel.
 Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
-                           const session::DisplaySettings& settings) {
+                           const view::DisplaySettings& settings) {
     std::vector<std::uint32_t> rgba;
-    session::to_display(image, settings, rgba);
+    view::to_display(image, settings, rgba);
     scene::PixelData pixels{.width = image.width, .height = image.height, .channels = 3, .values = {}};
     pixels.values.reserve(rgba.size() * 3);
     for (const std::uint32_t p : rgba)
@@ -254,33 +254,33 @@ void save_image_dialog(Editor& e) {
                                 auto shot = live_picture(ed);
                                 if (!shot) return;
                                 if (!state->denoised) shot->denoised.reset();
-                                session::DisplaySettings settings = ed.view.display;
+                                view::DisplaySettings settings = ed.view.display;
                                 settings.scale = shot->exposure;
                                 const bool seen = state->as_seen && place.extension() == ".png";
-                                if (seen && shot->denoised && settings.layer == session::Layer::color)
+                                if (seen && shot->denoised && settings.layer == view::Layer::color)
                                     shot->film.color = *shot->denoised;
                                 ed.files().last_picture = place;
-                                ed.files().jobs.start(
-                                    {.title = "Writing " + place.filename().string()},
-                                    [place, shot = std::move(*shot), settings,
-                                     seen](BackgroundJob&) -> std::function<void(Editor&)> {
-                                        auto written = session::check_picture_path(place.string());
-                                        if (written && seen)
-                                            written = write_as_seen(place, shot.film, settings);
-                                        else if (written)
-                                            written = session::write_picture(place.string(), shot, {});
-                                        const std::string message =
-                                            written ? "Written: " + place.string() : written.error().message;
-                                        return [message, good = written.has_value()](Editor& x) {
-                                            if (good)
-                                                x.notices.add(LogLevel::info, message);
-                                            else
-                                                show_failure(x, {.title = "Not written",
-                                                                 .reason = message,
-                                                                 .again = save_image_dialog,
-                                                                 .elsewhere = save_image_dialog});
-                                        };
-                                    });
+                                ed.files().jobs.start({.title = "Writing " + place.filename().string()},
+                                                      [place, shot = std::move(*shot), settings,
+                                                       seen](BackgroundJob&) -> std::function<void(Editor&)> {
+                                                          auto written = view::check_picture_path(place.string());
+                                                          if (written && seen)
+                                                              written = write_as_seen(place, shot.film, settings);
+                                                          else if (written)
+                                                              written = view::write_picture(place.string(), shot, {});
+                                                          const std::string message = written
+                                                                                          ? "Written: " + place.string()
+                                                                                          : written.error().message;
+                                                          return [message, good = written.has_value()](Editor& x) {
+                                                              if (good)
+                                                                  x.notices.add(LogLevel::info, message);
+                                                              else
+                                                                  show_failure(x, {.title = "Not written",
+                                                                                   .reason = message,
+                                                                                   .again = save_image_dialog,
+                                                                                   .elsewhere = save_image_dialog});
+                                                          };
+                                                      });
                             }});
         }
         editor.mark("image.choose");

@@ -5,8 +5,8 @@
 #include "check/workplace.hpp"
 
 #include "base/file.hpp"
+#include "document/project.hpp"
 #include "io/import.hpp"
-#include "session/project.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -47,9 +47,9 @@ std::vector<fs::path> samples(const fs::path& folder, const std::vector<std::str
 
 // Everything of it, as the text of a project without a base.
 std::string all_of(const io::ImportedScene& imported) {
-    const session::Base base;
-    const session::DataSources sources;
-    std::string text = session::project_text({.base = base, .scene = imported.scene, .sources = sources}, {});
+    const document::Base base;
+    const document::DataSources sources;
+    std::string text = document::project_text({.base = base, .scene = imported.scene, .sources = sources}, {});
     for (const auto& line : imported.report.entries)
         text += io::to_string(line) + "\n";
     return text;

@@ -5,11 +5,11 @@
 #include "check/workplace.hpp"
 
 #include "base/file.hpp"
+#include "document/project.hpp"
 #include "io/export.hpp"
 #include "io/import.hpp"
 #include "render/material_composer.hpp"
 #include "scene/edits.hpp"
-#include "session/project.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -155,13 +155,13 @@ scene::Scene scene_of(const RestageMaterial1& table, const std::vector<ParamSet>
 }
 
 Result<StepResult> through_project(Subject& s, const scene::Scene& scene) {
-    const session::Base base;
-    const session::DataSources sources;
+    const document::Base base;
+    const document::DataSources sources;
     const TemporaryFolder folder;
     const auto file = folder.path / "check.restage";
     RESTAGE_CHECK(write_file_atomic(
-        file, session::project_text({.base = base, .scene = scene, .sources = sources}, file.parent_path())));
-    auto document = session::read_project(file.string(), s.registry());
+        file, document::project_text({.base = base, .scene = scene, .sources = sources}, file.parent_path())));
+    auto document = document::read_project(file.string(), s.registry());
     if (!document) return fail("a project with this material is not read back", document.error());
     scene::Scene back = document->base.scene;
     scene::apply(back, document->changes);

@@ -25,7 +25,7 @@ struct ImportedScene {
     scene::Scene scene;
     Report report;
     std::string importer; // its format: "pbrt"
-    bool unexposed = false; // the file says nothing of exposure, and its light has units: session/exposure.hpp meters
+    bool unexposed = false; // the file says nothing of exposure, and its light has units: document/exposure.hpp meters
 };
 
 Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry&, const ImportOptions& = {});

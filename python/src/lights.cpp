@@ -2,7 +2,7 @@
 // Lights without a surface, cameras, and the sky.
 #include "values.hpp"
 
-#include "session/sky.hpp"
+#include "scene/sky.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 

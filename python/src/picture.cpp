@@ -6,8 +6,8 @@
 
 #include "base/file.hpp"
 #include "render/denoise.hpp"
-#include "session/merge_pictures.hpp"
-#include "session/picture.hpp"
+#include "view/merge_pictures.hpp"
+#include "view/picture.hpp"
 
 #include <nanobind/stl/map.h>
 #include <cmath>
@@ -79,10 +79,10 @@ nb::object mask(const Owner& p, nb::handle thing) {
 void save(const Picture& p, const std::filesystem::path& path, const std::string& aovs, float exposure) {
     if (!std::isfinite(exposure)) throw Failure("save: an exposure is a finite number of stops");
     const nb::gil_scoped_release release;
-    session::Picture out{.film = p.film, .denoised = std::nullopt, .exposure = 1};
+    view::Picture out{.film = p.film, .denoised = std::nullopt, .exposure = 1};
     if (!p.denoised.empty()) out.denoised = p.denoised;
-    take(session::check_picture_path(path.string()));
-    session::PictureOptions options;
+    take(view::check_picture_path(path.string()));
+    view::PictureOptions options;
     options.aovs = aovs;
     options.exposure_stops = exposure;
     options.metadata = {{"restage:scene", p.scene},
@@ -91,7 +91,7 @@ void save(const Picture& p, const std::filesystem::path& path, const std::string
                         {"restage:samples", std::to_string(p.film.samples)},
                         {"restage:seed", std::to_string(p.seed)},
                         {"restage:denoiser", p.denoiser}}; // no times: equal renders are equal files
-    take(session::write_picture(path.string(), out, options));
+    take(view::write_picture(path.string(), out, options));
 }
 
 // What notebooks show: as save() writes .png.
@@ -124,7 +124,7 @@ Owner merge(const std::vector<Owner>& parts) {
     out->denoiser = "none";
     out->not_finite.clear();
     out->seconds = 0;
-    std::vector<session::PicturePart> films;
+    std::vector<view::PicturePart> films;
     for (const Owner& p : parts) {
         films.push_back({.film = &p->film, .first_sample = p->first_sample});
         out->seconds += p->seconds;
@@ -133,7 +133,7 @@ Owner merge(const std::vector<Owner>& parts) {
         for (const auto& [type, count] : p->not_finite)
             out->not_finite[type] += count;
     }
-    out->film = take(session::merge_films(films));
+    out->film = take(view::merge_films(films));
     return out;
 }
 
@@ -242,7 +242,7 @@ void bind_picture(nb::module_& m) {
         .def_prop_ro(
             "samples", [](const Picture& p) { return p.film.samples; }, "Samples a pixel (the least of any).")
         .def_prop_ro(
-            "relative_error", [](const Picture& p) { return session::relative_error(p.film); },
+            "relative_error", [](const Picture& p) { return view::relative_error(p.film); },
             "Root mean square of standard error over luminance, what render(error=...) stops at.")
         .def_ro("seconds", &Picture::seconds, "Time it took to trace [s].")
         .def_ro("seed", &Picture::seed, "Seed of its random numbers.")

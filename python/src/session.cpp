@@ -4,10 +4,10 @@
 #include "pulse.hpp"
 #include "values.hpp"
 
+#include "document/project.hpp"
 #include "io/strict.hpp"
-#include "session/project.hpp"
-#include "session/sky.hpp"
-#include "session/studio.hpp"
+#include "scene/sky.hpp"
+#include "scene/studio.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
@@ -43,10 +43,10 @@ Shared open(const std::filesystem::path& path, const std::optional<std::filesyst
             const nb::object& progress, bool strict) {
     auto workspace = std::make_shared<Workspace>(Host::get());
     auto document = work(workspace->host(), progress, [&](io::Progress tell) {
-        session::ReadOptions options;
+        document::ReadOptions options;
         options.progress = std::move(tell);
         if (base) options.base = *base;
-        return session::read_document(path.string(), workspace->host().registry(), options);
+        return document::read_document(path.string(), workspace->host().registry(), options);
     });
     if (strict) take(io::refuse_losses(document.report, path.string()));
     workspace->session().adopt(std::move(document));
@@ -125,7 +125,7 @@ void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& colo
         std::shared_ptr<const PixelData> pixels;
         if (const auto path = to_path(image)) {
             pixels = read_image(*w, *path, RESTAGE_SRGB).data;
-            edit = session::image_sky(w->scene(), *path, pixels, up);
+            edit = scene::image_sky(w->scene(), *path, pixels, up);
             sky = *std::get<ChangeOne<std::optional<Environment>>>(edit.changes.back()).after;
             edit.changes.pop_back();
         } else {
@@ -133,7 +133,7 @@ void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& colo
             sky = {.name = "sky",
                    .image = w->scene().images.next(),
                    .mapping = pixels->width == pixels->height ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT,
-                   .light_to_world = session::upright_sky(up)};
+                   .light_to_world = scene::upright_sky(up)};
             edit.changes.push_back(Change<Image>{
                 sky.image, std::nullopt, Image{.name = "sky", .encoding = RESTAGE_LINEAR, .data = std::move(pixels)}});
         }
@@ -148,7 +148,7 @@ void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& colo
     sky.scale *= float(strength);
     if (rotation)
         sky.light_to_world =
-            glm::rotate(glm::dmat4(1), glm::radians(*rotation), glm::normalize(up)) * session::upright_sky(up);
+            glm::rotate(glm::dmat4(1), glm::radians(*rotation), glm::normalize(up)) * scene::upright_sky(up);
     if (hidden) sky.hidden_from_camera = *hidden;
     const Edit change = set_environment(w->scene(), sky);
     edit.changes.insert(edit.changes.end(), change.changes.begin(), change.changes.end());
@@ -371,7 +371,7 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
         .def(
             "save",
             [](Workspace& w, const std::filesystem::path& path) {
-                if (!session::is_project(path))
+                if (!document::is_project(path))
                     throw Failure(path.string() + ": save writes projects, *.restage; export writes other formats");
                 take(w.session().save_project(path.string()));
             },
@@ -396,7 +396,7 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
         "new",
         [] {
             auto workspace = std::make_shared<Workspace>(Host::get());
-            workspace->session().adopt(session::studio_scene());
+            workspace->session().adopt(scene::studio_scene());
             return workspace;
         },
         "A new scene: a floor, a neutral sky, a camera. y is up, lengths in metres.");

@@ -2,7 +2,7 @@
 // Objects, groups and selections: what is placed in a scene, and the verbs they share.
 #include "workspace.hpp"
 
-#include "session/support.hpp"
+#include "query/support.hpp"
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -120,7 +120,7 @@ void bind_verbs(nb::class_<C>& c) {
             [](const C& self) -> std::optional<double> {
                 const Objects ids = objects_of(self);
                 const glm::dvec3 up = self.in->up();
-                const auto fall = session::fall_distance(self.in->scene(), ids, up);
+                const auto fall = query::fall_distance(self.in->scene(), ids, up);
                 if (fall)
                     self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), -*fall * up)));
                 return fall;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workspace.hpp"
 
-#include "session/navigation.hpp"
+#include "query/navigation.hpp"
 
 #include <algorithm>
 #include <new>
@@ -13,7 +13,7 @@ using namespace scene;
 
 glm::dvec3 Workspace::up() {
     const Camera* camera = scene().cameras.find(scene().active_camera.value);
-    return camera ? session::guess_up(*camera) : glm::dvec3(0, 1, 0);
+    return camera ? query::guess_up(*camera) : glm::dvec3(0, 1, 0);
 }
 
 bool Workspace::edit(Result<Edit> made) {

@@ -5,9 +5,9 @@
 
 #include "host.hpp"
 
+#include "document/session.hpp"
 #include "render/renderer.hpp"
 #include "scene/bounds.hpp"
-#include "session/session.hpp"
 
 #include <atomic>
 #include <functional>
@@ -34,7 +34,7 @@ class Workspace : public std::enable_shared_from_this<Workspace> {
     Workspace(const Workspace&) = delete;
 
     Host& host() { return *host_; }
-    session::Session& session() {
+    document::Session& session() {
         if (closed_) throw Failure("the session is closed");
         return session_;
     }
@@ -51,7 +51,7 @@ class Workspace : public std::enable_shared_from_this<Workspace> {
 
   private:
     std::shared_ptr<Host> host_;
-    session::Session session_;
+    document::Session session_;
     bool closed_ = false;
     std::string step_label_, step_key_;
     unsigned step_depth_ = 0, steps_ = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a pixel looks: field of view, screen window, crop, lens, and the pixel filters. Both tracers begin a path by
 // the same code (shaders/path/begin.glsl), so one of them is enough here.
+#include "query/navigation.hpp"
 #include "render/checks.hpp"
 #include "render/filter_table.hpp"
-#include "session/navigation.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
 
@@ -281,7 +281,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     const auto image = render_image(*make_renderer(tracer), b.scene, 16);
     const scene::Camera& camera = b.scene.cameras[b.scene.active_camera.value];
     const auto side_of = [&](double x, double y) {
-        const glm::dvec3 d = session::view_ray(camera, {x / 32, y / 24}, 4.0 / 3).direction;
+        const glm::dvec3 d = query::view_ray(camera, {x / 32, y / 24}, 4.0 / 3).direction;
         const glm::dvec3 a = glm::abs(d);
         const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
         return axis + (d[axis] < 0 ? 3 : 0);
@@ -306,7 +306,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     CHECK(off == 0);
     CHECK(std::abs(up / weights - 1.0 / 6) < 0.02);
     // pbrt-v4's conventions at one place each: the middle of the upper edge looks up, or +x is at the left edge.
-    const auto at = [&](double u, double v) { return glm::normalize(session::view_ray(camera, {u, v}, 1).direction); };
+    const auto at = [&](double u, double v) { return glm::normalize(query::view_ray(camera, {u, v}, 1).direction); };
     if (projection == RESTAGE_SPHERICAL) {
         CHECK(glm::length(at(0, 0.5) - glm::dvec3(1, 0, 0)) < 1e-9);
         CHECK(glm::length(at(0.25, 0.5) - glm::dvec3(0, 0, 1)) < 1e-9);
@@ -326,22 +326,22 @@ TEST_CASE("camera: what is projected to the film is seen there") {
         scene::Camera camera = b.scene.cameras[b.scene.active_camera.value];
         camera.projection = projection;
         for (const glm::dvec2& film : {glm::dvec2(0.3, 0.6), {0.81, 0.13}, {0.5, 0.5}, {0.02, 0.97}}) {
-            const auto ray = session::view_ray(camera, film, 1.5);
-            const auto p = session::project(camera, ray.origin + 7.0 * ray.direction, 1.5);
+            const auto ray = query::view_ray(camera, film, 1.5);
+            const auto p = query::project(camera, ray.origin + 7.0 * ray.direction, 1.5);
             INFO("projection " << int(projection));
             CHECK(glm::length(glm::dvec2(p) - film) < 1e-9);
             CHECK(std::abs(p.z - 7) < 1e-9);
         }
         if (projection != RESTAGE_ORTHOGRAPHIC) continue;
         // The wheel enlarges around the point under the mouse, and framing fits.
-        const auto ray = session::view_ray(camera, {0.7, 0.4}, 1.5);
+        const auto ray = query::view_ray(camera, {0.7, 0.4}, 1.5);
         const glm::dvec3 there = ray.origin + 3.0 * ray.direction;
-        session::dolly(camera, there, 0.25);
-        CHECK(glm::length(glm::dvec2(session::project(camera, there, 1.5)) - glm::dvec2(0.7, 0.4)) < 1e-6);
+        query::dolly(camera, there, 0.25);
+        CHECK(glm::length(glm::dvec2(query::project(camera, there, 1.5)) - glm::dvec2(0.7, 0.4)) < 1e-6);
         const auto height = [&] { return 2 * glm::length(glm::dvec3(camera.camera_to_world[1])); }; // of the film
         CHECK(std::abs(height() - 1.5) < 1e-6);
-        session::frame(camera, scene::Bounds{{-1, -1, -1}, {1, 1, 1}}, 1.5);
+        query::frame(camera, scene::Bounds{{-1, -1, -1}, {1, 1, 1}}, 1.5);
         CHECK(std::abs(height() - 2 * std::sqrt(3.0)) < 1e-6);
-        CHECK(session::project(camera, {0, 0, 0}, 1.5).z > 2);
+        CHECK(query::project(camera, {0, 0, 0}, 1.5).z > 2);
     }
 }

@@ -6,9 +6,9 @@
 #include "paths.hpp"
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
-#include "session/live_view.hpp"
-#include "session/pictures.hpp"
 #include "temporary_folder.hpp"
+#include "view/live_view.hpp"
+#include "view/pictures.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +22,7 @@
 
 using namespace restage;
 using namespace restage::tests;
-using session::Frame, session::LiveView, session::Pictures, session::ViewOptions, session::ViewState;
+using view::Frame, view::LiveView, view::Pictures, view::ViewOptions, view::ViewState;
 using FramePtr = std::shared_ptr<const Frame>;
 
 namespace {
@@ -167,7 +167,7 @@ bool can_denoise() {
     return !denoisers.empty() && denoisers[0].table->available(&reason);
 }
 
-constexpr ViewOptions view{.size = {240, 180}, .samples = 4};
+constexpr ViewOptions view_options{.size = {240, 180}, .samples = 4};
 
 } // namespace
 
@@ -217,7 +217,7 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
     if (!can_denoise()) SKIP("no denoiser is installed");
     Recorder r;
     Room b;
-    std::uint64_t last = r.live.show(b.scene, view);
+    std::uint64_t last = r.live.show(b.scene, view_options);
     r.wait_clean(last);
     const FramePtr raw = r.live.frame();
     REQUIRE(raw->image.samples >= 1);
@@ -259,7 +259,7 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
         const std::size_t first = r.frames().size();
         for (const auto& step : one.steps) {
             step();
-            last = r.live.show(s, view);
+            last = r.live.show(s, view_options);
             for (int i = 0; i < 4000 && r.live.frame()->request < last && !r.live.status().current; ++i)
                 std::this_thread::sleep_for(std::chrono::milliseconds(1)); // as fast as pictures come
         }
@@ -282,7 +282,7 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
     }
     // The test could fail: as traced, a picture of one sample is far above what was allowed.
     Recorder noisy;
-    noisy.live.show(before, {.size = view.size, .denoise = false, .samples = 1});
+    noisy.live.show(before, {.size = view_options.size, .denoise = false, .samples = 1});
     const auto one = noisy.wait([](const Frame& f) { return !f.clay; });
     CHECK_FALSE(one->denoised);
     CHECK(noise(*one) > 0.3);
@@ -295,7 +295,7 @@ TEST_CASE("live frames: while something is dragged no picture is a mixture of tw
     std::vector<double> where(1, 0); // the ball's place, by request
     const auto show = [&](double x) {
         b.move_ball(x);
-        const auto request = r.live.show(b.scene, view);
+        const auto request = r.live.show(b.scene, view_options);
         where.resize(request + 1, x);
         where[request] = x;
         return request;
@@ -328,7 +328,7 @@ TEST_CASE("live frames: another document begins with clay, and nothing of the ol
     Recorder r;
     Room first;
     first.scene.film.value.exposure = 1;
-    auto options = view;
+    auto options = view_options;
     options.document = 1;
     auto last = r.live.show(first.scene, options);
     r.wait([&](const Frame& f) { return !f.clay && f.divider == 1; });
@@ -375,7 +375,7 @@ TEST_CASE("live frames: a new type of material is seen in its colour at once, an
     const test::TemporaryFolder cache; // nothing is compiled yet
     Recorder r({.cache_dir = cache.path()});
     Room room;
-    r.live.show(room.scene, view);
+    r.live.show(room.scene, view_options);
     r.wait([&](const Frame& f) { return !f.clay && f.divider == 1; });
     scene::Material wax{.name = "wax", .type = "coateddiffuse"};
     double most_red = 0.5; // of the mean colour, where the ball is seen
@@ -393,7 +393,7 @@ TEST_CASE("live frames: a new type of material is seen in its colour at once, an
         wax.params.set("reflectance", value);
     }
     room.scene.materials.set(room.red, wax, ++room.scene.clock);
-    const auto asked = r.live.show(room.scene, view);
+    const auto asked = r.live.show(room.scene, view_options);
     const FramePtr last = r.wait([&](const Frame& f) {
         const auto status = r.live.status();
         return f.request == asked && status.state == ViewState::done && status.compiling.empty() &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // LiveView: the newest scene wins, what shows nothing new restarts nothing, and targets end the work.
-#include "session/live_view.hpp"
+#include "view/live_view.hpp"
 #include "paths.hpp"
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
@@ -11,7 +11,7 @@
 
 using namespace restage;
 using namespace restage::tests;
-using session::LiveView, session::ViewOptions, session::ViewState, session::ViewStatus;
+using view::LiveView, view::ViewOptions, view::ViewState, view::ViewStatus;
 
 namespace {
 
@@ -45,7 +45,7 @@ struct View {
     }
 };
 
-double mean(const session::Frame& frame) { return mean_luminance(frame.image).value; }
+double mean(const view::Frame& frame) { return mean_luminance(frame.image).value; }
 
 } // namespace
 

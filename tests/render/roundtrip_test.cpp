@@ -2,10 +2,10 @@
 // Edit -> picture -> file -> picture: what the Session changes, the exporter writes and the importer reads back is the
 // same scene and the same picture; undone to the start, the export is the same bytes.
 #include "base/file.hpp"
+#include "document/session.hpp"
 #include "io/scene_compare.hpp"
 #include "paths.hpp"
 #include "render/agreement.hpp"
-#include "session/session.hpp"
 #include "temporary_folder.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::string all_files(const std::filesystem::path& folder) { // names and bytes,
 } // namespace
 
 TEST_CASE("edits of the bundled scene survive export and import, in structure and in the picture") {
-    session::Session session(plugins().registry);
+    document::Session session(plugins().registry);
     const auto opened = session.open(restage::test::source_dir().string() + "/scenes/demo/demo.pbrt");
     REQUIRE(opened.has_value());
     const test::TemporaryFolder temporary;

@@ -42,8 +42,8 @@ def includes(folder):
 def test_dependencies_are_those_of_the_design():
     assert {m: set(declared(m)) for m in MODULES} == {
         "base": set(), "plugin": {"sdk", "base"}, "scene": {"sdk", "base"}, "io": {"plugin", "scene"},
-        "gpu": {"base"}, "render": {"gpu", "scene", "plugin"}, "session": {"io", "render"},
-        "check": {"session"},
+        "gpu": {"base"}, "render": {"gpu", "scene", "plugin"}, "query": {"scene"}, "document": {"io", "query"}, "view": {"io", "render"},
+        "check": {"document", "render"},
     }
 
 

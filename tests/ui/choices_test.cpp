@@ -6,8 +6,8 @@
 #include "editor/material_balls.hpp"
 #include "editor/picture_note.hpp"
 #include "editor/preferences.hpp"
-#include "session/display.hpp"
 #include "temporary_folder.hpp"
+#include "view/display.hpp"
 
 #include <fstream>
 
@@ -33,7 +33,7 @@ struct Look {
 // Of the ball's inner part.
 Look look_of(const render::FilmImage& image) {
     std::vector<std::uint32_t> rgba;
-    session::to_display(image, {}, rgba);
+    view::to_display(image, {}, rgba);
     Look look;
     glm::dvec3 squares(0);
     double n = 0;
@@ -152,7 +152,7 @@ TEST_CASE("the steps of drags are set in the toolbar, used and remembered", "[ui
 }
 
 TEST_CASE("the note at the picture's corner is of the picture that is shown", "[ui]") {
-    session::Frame shown{.divider = 4, .denoised = true};
+    view::Frame shown{.divider = 4, .denoised = true};
     shown.image.width = 160;
     shown.image.height = 90;
     shown.image.samples = 2;

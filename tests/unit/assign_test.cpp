@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes as text ("oak.reflectance=0.2"), and parts of a picture put together.
-#include "session/assign.hpp"
+#include "document/assign.hpp"
 #include "project_room.hpp"
-#include "session/merge_pictures.hpp"
-#include "session/picture.hpp"
+#include "view/merge_pictures.hpp"
+#include "view/picture.hpp"
 
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
@@ -17,16 +17,16 @@ using Catch::Matchers::ContainsSubstring;
 
 TEST_CASE("name.field=value changes a scene", "[assign]") {
     const Fixture files;
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     files.opened(session);
     const auto set = [&](const char* text) {
-        const auto done = session::assign(session, text);
+        const auto done = document::assign(session, text);
         INFO(text << ": " << (done ? "" : done.error().message));
         CHECK(done);
     };
     const auto refused = [&](const char* text) {
         const auto version = session.version();
-        const auto done = session::assign(session, text);
+        const auto done = document::assign(session, text);
         REQUIRE_FALSE(done);
         CHECK(session.version() == version);
         return done.error().message;
@@ -102,8 +102,8 @@ TEST_CASE("Parts of a picture, put together, are the picture", "[merge]") {
     std::vector<double> all = first;
     all.insert(all.end(), second.begin(), second.end());
     const auto a = film_of(first), b = film_of(second), whole = film_of(all);
-    const session::PicturePart parts[] = {{&b, 3}, {&a, 0}};
-    const auto merged = session::merge_films(parts);
+    const view::PicturePart parts[] = {{&b, 3}, {&a, 0}};
+    const auto merged = view::merge_films(parts);
     REQUIRE(merged);
     CHECK(merged->samples == 8);
     CHECK(merged->color[0].g == Approx(whole.color[0].g));
@@ -111,41 +111,41 @@ TEST_CASE("Parts of a picture, put together, are the picture", "[merge]") {
     CHECK(merged->luminance_variance[0] == Approx(whole.luminance_variance[0]));
     CHECK(merged->depth[0] == Approx((3 * 3 + 5 * 5) / 8.0));
     CHECK(merged->instance_id[0] == 3); // of the earliest sample
-    CHECK_FALSE(session::merge_films({}));
+    CHECK_FALSE(view::merge_films({}));
 
     // The same through files, with the exposure in their numbers; and what does not belong together.
     const TemporaryFolder folder;
     const auto write = [&](const char* name, const render::FilmImage& film, const char* ranges, const char* scene) {
         const std::string path = (folder.path() / name).string();
-        const auto done = session::write_picture(
+        const auto done = view::write_picture(
             path, {.film = film, .denoised = {}, .exposure = 2},
             {.metadata = {{"restage:ranges", ranges}, {"restage:scene", scene}, {"restage:samples", "1"}}});
         REQUIRE(done);
-        const auto read = session::read_picture(path);
+        const auto read = view::read_picture(path);
         REQUIRE(read);
         return *read;
     };
-    const session::StoredPicture files[] = {write("b.exr", b, "4:3+5", "x.pbrt"), write("a.exr", a, "4:0+3", "x.pbrt")};
+    const view::StoredPicture files[] = {write("b.exr", b, "4:3+5", "x.pbrt"), write("a.exr", a, "4:0+3", "x.pbrt")};
     CHECK(files[0].film.samples == 5);
-    const auto joined = session::merge_pictures(files);
+    const auto joined = view::merge_pictures(files);
     REQUIRE(joined);
     CHECK(joined->metadata.at("restage:ranges") == "4:0+8");
     CHECK(joined->metadata.at("restage:samples") == "8");
     CHECK(joined->film.color[0].r == Approx(2 * whole.color[0].r));
     CHECK(joined->film.std_error[0].r == Approx(2 * whole.std_error[0].r));
     CHECK(joined->film.luminance_variance[0] == Approx(4 * whole.luminance_variance[0]));
-    CHECK(session::relative_error(joined->film) > 0);
+    CHECK(view::relative_error(joined->film) > 0);
 
-    const session::StoredPicture twice[] = {files[0], files[0]};
-    CHECK_THAT(session::merge_pictures(twice).error().message, ContainsSubstring("hold the same samples, of seed 4"));
-    const session::StoredPicture strangers[] = {files[0], write("c.exr", a, "5:0+3", "y.pbrt")};
-    CHECK_THAT(session::merge_pictures(strangers).error().message, ContainsSubstring("its scene is \"y.pbrt\""));
-    const session::StoredPicture apart[] = {files[0], write("d.exr", a, "5:0+3", "x.pbrt")};
-    CHECK(session::merge_pictures(apart)->metadata.at("restage:ranges") == "4:3+5,5:0+3");
+    const view::StoredPicture twice[] = {files[0], files[0]};
+    CHECK_THAT(view::merge_pictures(twice).error().message, ContainsSubstring("hold the same samples, of seed 4"));
+    const view::StoredPicture strangers[] = {files[0], write("c.exr", a, "5:0+3", "y.pbrt")};
+    CHECK_THAT(view::merge_pictures(strangers).error().message, ContainsSubstring("its scene is \"y.pbrt\""));
+    const view::StoredPicture apart[] = {files[0], write("d.exr", a, "5:0+3", "x.pbrt")};
+    CHECK(view::merge_pictures(apart)->metadata.at("restage:ranges") == "4:3+5,5:0+3");
     const std::string bare = (folder.path() / "bare.exr").string();
-    REQUIRE(session::write_picture(bare, {.film = a, .denoised = {}}, {.aovs = "none"}));
-    CHECK_THAT(session::read_picture(bare).error().message, ContainsSubstring("how many samples"));
-    REQUIRE(session::write_picture(bare, {.film = a, .denoised = {}},
-                                   {.aovs = "depth", .metadata = {{"restage:ranges", "0:0+3"}}}));
-    CHECK_THAT(session::read_picture(bare).error().message, ContainsSubstring("no layer \"stderr\""));
+    REQUIRE(view::write_picture(bare, {.film = a, .denoised = {}}, {.aovs = "none"}));
+    CHECK_THAT(view::read_picture(bare).error().message, ContainsSubstring("how many samples"));
+    REQUIRE(view::write_picture(bare, {.film = a, .denoised = {}},
+                                {.aovs = "depth", .metadata = {{"restage:ranges", "0:0+3"}}}));
+    CHECK_THAT(view::read_picture(bare).error().message, ContainsSubstring("no layer \"stderr\""));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Outlines of what is selected, from the picture's instance ids.
-#include "session/display.hpp"
+#include "view/display.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 
@@ -26,7 +26,7 @@ TEST_CASE("outlines: a ring outside of what is marked, the selected before the h
                                0, 0, 0, 0, 0, 0});
     const std::uint8_t marks[] = {0, 2, 1, 0}; // 1 selected, 2 hovered; 7 is beyond the end
     std::vector<std::uint32_t> rgba;
-    REQUIRE(session::to_outlines(image, marks, 1, {hover, chosen}, rgba));
+    REQUIRE(view::to_outlines(image, marks, 1, {hover, chosen}, rgba));
     const std::uint32_t C = chosen, H = hover;
     CHECK(rgba == std::vector<std::uint32_t>{0, C, C, H, 0, 0, //
                                              C, 0, 0, C, H, 0, //
@@ -36,13 +36,13 @@ TEST_CASE("outlines: a ring outside of what is marked, the selected before the h
 TEST_CASE("outlines: thicker ones, up to the picture's edge") {
     std::vector<std::uint32_t> rgba;
     const std::uint8_t marks[] = {0, 2};
-    REQUIRE(session::to_outlines(ids(5, {1, 0, 0, 0, 0}), marks, 2, {hover, chosen}, rgba));
+    REQUIRE(view::to_outlines(ids(5, {1, 0, 0, 0, 0}), marks, 2, {hover, chosen}, rgba));
     CHECK(rgba == std::vector<std::uint32_t>{0, chosen, chosen, 0, 0});
 }
 
 TEST_CASE("outlines: none where nothing marked is seen") {
     std::vector<std::uint32_t> rgba{1, 2, 3};
     const std::uint8_t marks[] = {0, 2};
-    CHECK_FALSE(session::to_outlines(ids(2, {0, 3, 3, 0}), marks, 2, {hover, chosen}, rgba));
+    CHECK_FALSE(view::to_outlines(ids(2, {0, 3, 3, 0}), marks, 2, {hover, chosen}, rgba));
     CHECK(rgba.empty());
 }

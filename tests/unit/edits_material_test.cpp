@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // edits_material: another type keeps what fits, one of one's own leaves the others alone, images are shared. And the
 // colour temperature that light widgets use.
+#include "scene/color_temperature.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
-#include "session/color_temperature.hpp"
 
 #include <array>
 #include <catch2/catch_approx.hpp>
@@ -130,14 +130,14 @@ TEST_CASE("an image for a parameter is shared with whoever shows it already", "[
 
 TEST_CASE("colour temperatures are those of the standard lamps", "[scene][materials]") {
     // CIE illuminant A, 2856 K: x 0.4476, y 0.4074; its linear sRGB, the largest channel 1, is (1, 0.448, 0.126).
-    const glm::dvec3 a = session::blackbody_color(2856);
+    const glm::dvec3 a = scene::blackbody_color(2856);
     CHECK(a.x == 1);
     CHECK(a.y == Approx(0.448).margin(0.005));
     CHECK(a.z == Approx(0.126).margin(0.005));
-    CHECK(session::blackbody_color(12000).z == 1);
-    CHECK(session::color_temperature({1, 1, 1}) == Approx(6504).margin(20)); // D65
+    CHECK(scene::blackbody_color(12000).z == 1);
+    CHECK(scene::color_temperature({1, 1, 1}) == Approx(6504).margin(20)); // D65
     for (const double t : {2000.0, 3200.0, 5000.0, 8000.0})
-        CHECK(session::color_temperature(session::blackbody_color(t)) == Approx(t).epsilon(0.03));
-    CHECK(session::color_temperature({0, 0, 0}) == 0);
-    CHECK(session::color_temperature({0, 0, 1}) == 0);
+        CHECK(scene::color_temperature(scene::blackbody_color(t)) == Approx(t).epsilon(0.03));
+    CHECK(scene::color_temperature({0, 0, 0}) == 0);
+    CHECK(scene::color_temperature({0, 0, 1}) == 0);
 }

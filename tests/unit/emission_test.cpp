@@ -3,10 +3,10 @@
 #include "scene/emission.hpp"
 #include "paths.hpp"
 
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/material_emission.hpp"
 #include "plugin_folder.hpp"
-#include "session/session.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <limits>
@@ -84,7 +84,7 @@ TEST_CASE("an emission that its material does not bear out is refused", "[emissi
 TEST_CASE("pbrt gets an area light for a material that shines, and gives the material back", "[emission][pbrt]") {
     Plugins plugins;
     Folder folder;
-    session::Session session{plugins.registry};
+    document::Session session{plugins.registry};
     REQUIRE(write_file_atomic(folder.file("in.pbrt"), sphere_of_emissive));
     REQUIRE(session.open(folder.file("in.pbrt")));
     const auto expect = [&](const glm::vec3& radiance) {
@@ -117,7 +117,7 @@ TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[em
     Plugins plugins;
     Folder folder;
     {
-        session::Session session{plugins.registry};
+        document::Session session{plugins.registry};
         REQUIRE(write_file_atomic(folder.file("in.pbrt"), sphere_of_emissive));
         REQUIRE(session.open(folder.file("in.pbrt")));
         REQUIRE(session.set_param(session.scene().instances[{1}].material, "scale", Value::number(6)));
@@ -127,7 +127,7 @@ TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[em
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
     registry.scan(std::vector<plugin::SearchPath>{{all / "importer-pbrt", true}, {all / "material-diffuse", true}});
-    session::Session session{registry};
+    document::Session session{registry};
     REQUIRE(session.open(folder.file("out.pbrt")));
     const Instance* ball = session.scene().instances.find(Id<Instance>{1});
     REQUIRE(ball);
@@ -139,7 +139,7 @@ TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[em
 TEST_CASE("a texture that shines is written to pbrt as its mean", "[emission][pbrt]") {
     Plugins plugins;
     Folder folder;
-    session::Session session{plugins.registry};
+    document::Session session{plugins.registry};
     REQUIRE(write_file_atomic(folder.file("in.pbrt"),
                               "WorldBegin\nTexture \"squares\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [ 1 0.5 0 ] "
                               "\"rgb tex2\" [ 0 0 0 ]\nMaterial \"emissive\" \"texture radiance\" \"squares\" "

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pbrt has no place for survives in comments: names, nested groups, hidden things, waiting cameras; and what
 // lights and curves were before the renderer reduced them.
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/export.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
 #include "scene/validate.hpp"
-#include "session/session.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -130,7 +130,7 @@ AttributeEnd
 AreaLightSource "diffuse" "string filename" [ "lamp.spd" ] "float power" [ 3 ]
 Shape "disk"
 )"));
-    session::Session session(plugins.registry);
+    document::Session session(plugins.registry);
     REQUIRE(session.open(in.file("in.pbrt")));
     const auto text = [&] {
         const auto report = session.export_to(folder.file("out.pbrt"), version("v4"));
@@ -178,7 +178,7 @@ Shape "curve" "point3 P" [ 0 0 1 1 0 1 1 1 1 0 1 1 ] "float width0" [ 0.1 ] "flo
 Scale 2 2 2
 Shape "curve" "point3 P" [ 0 0 2 1 0 2 1 1 2 0 1 2 ] "float width" [ 0.1 ]
 )"));
-    session::Session session(plugins.registry);
+    document::Session session(plugins.registry);
     REQUIRE(session.open(folder.file("in.pbrt")));
     REQUIRE(session.scene().instances.live() == 1);
     const auto fur = session.find<Instance>("Fur");

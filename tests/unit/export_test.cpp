@@ -3,6 +3,7 @@
 // bytes; nothing is left behind by an export that fails.
 #include "io/export.hpp"
 #include "base/file.hpp"
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
@@ -10,7 +11,6 @@
 #include "scene/bounds.hpp"
 #include "scene/tables.hpp"
 #include "scene/validate.hpp"
-#include "session/session.hpp"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -90,7 +90,7 @@ TEST_CASE("the comparison of scenes sees what differs", "[export]") {
 
 TEST_CASE("undo to the start writes the same bytes", "[export]") {
     Plugins plugins;
-    session::Session session(plugins.registry);
+    document::Session session(plugins.registry);
     session.adopt(Everything(true).scene);
     Folder before, edited, after, twice;
     REQUIRE(session.export_to(before.file("s.pbrt")));
@@ -146,7 +146,7 @@ Shape "disk" "float radius" [ 2 ]
 NamedMaterial "stone"
 Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
 )"));
-    session::Session session(plugins.registry);
+    document::Session session(plugins.registry);
     REQUIRE(session.open(folder.file("in.pbrt")));
     const auto text = [&](const char* v) {
         REQUIRE(session.export_to(folder.file("out.pbrt"), version(v)));
@@ -178,7 +178,7 @@ Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
 
 TEST_CASE("the session holds values to the material's table", "[export]") {
     Plugins plugins;
-    session::Session session(plugins.registry);
+    document::Session session(plugins.registry);
     session.adopt(Everything(true).scene);
     const auto gold = session.find<Material>("gold");
     const auto refused = [&](const char* param, Value value) {
@@ -217,7 +217,7 @@ TEST_CASE("the bundled scenes survive a round trip", "[export]") {
 
 TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
     Plugins plugins;
-    session::Session session(plugins.registry);
+    document::Session session(plugins.registry);
     session.adopt(Everything(true).scene);
     std::vector<Id<Instance>> copies{session.find<Instance>("cup")};
     for (int i = 0; i < 5; ++i)

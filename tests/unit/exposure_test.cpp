@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light for scenes whose file says nothing of it: metered exposure, closed rooms, scenes without any light.
-#include "session/exposure.hpp"
+#include "document/exposure.hpp"
 
+#include "document/document.hpp"
 #include "gltf_builder.hpp"
-#include "session/document.hpp"
 
 using namespace restage;
 using namespace restage::tests;
@@ -32,7 +32,7 @@ struct Floor : Builder {
 };
 
 io::ImportedScene opened(const ModelFiles& files, const std::string& name) {
-    auto in = session::read_scene(files.path(name), files.registry, {});
+    auto in = document::read_scene(files.path(name), files.registry, {});
     if (!in) FAIL(in.error().message);
     return std::move(*in);
 }
@@ -83,7 +83,7 @@ TEST_CASE("exposure: lamps that light nothing are joined by a studio, closed roo
     in = opened(files, room);
     REQUIRE(in.scene.lights.live() == 1);
     CHECK(says(in, RESTAGE_KEPT, "", "a lamp at the camera is added"));
-    CHECK(session::read_light(in.scene, files.registry).white == Approx(0.6).epsilon(0.01));
+    CHECK(document::read_light(in.scene, files.registry).white == Approx(0.6).epsilon(0.01));
     CHECK(in.scene.film.value.exposure == 1);
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("exposure: scenes of other files stay as they are; without light they 
     const std::string dark = "Camera \"perspective\"\nWorldBegin\nTranslate 0 0 5\nShape \"sphere\"\n";
     files.write("dark.pbrt", dark);
     auto in = opened(files, "dark.pbrt");
-    CHECK_FALSE(session::has_light(in.scene, files.registry));
+    CHECK_FALSE(document::has_light(in.scene, files.registry));
     CHECK(says(in, RESTAGE_KEPT, "", "light: nothing shines in this scene, so its picture is black"));
     CHECK(in.scene.lights.live() == 0);
     CHECK(in.scene.film.value.exposure == 1);
@@ -103,8 +103,8 @@ TEST_CASE("exposure: scenes of other files stay as they are; without light they 
     CHECK(in.scene.film.value.exposure == 1);
     // What the button does.
     in = opened(files, "dark.pbrt");
-    scene::apply(in.scene, session::light_studio(in.scene, files.registry));
+    scene::apply(in.scene, document::light_studio(in.scene, files.registry));
     CHECK(in.scene.environment.value);
-    CHECK(session::has_light(in.scene, files.registry));
-    CHECK(session::read_light(in.scene, files.registry).lit > 0.9);
+    CHECK(document::has_light(in.scene, files.registry));
+    CHECK(document::read_light(in.scene, files.registry).lit > 0.9);
 }

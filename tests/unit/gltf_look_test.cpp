@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a glTF file looks like: tangents, texture coordinates, vertex colours, emission, visibility; and what it may ask
 // for (extensions, scenes, names of files, lengths of buffers).
+#include "document/exposure.hpp"
+#include "document/session.hpp"
 #include "gltf_builder.hpp"
 #include "io/export.hpp"
 #include "io/material_emission.hpp"
-#include "session/exposure.hpp"
-#include "session/session.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -222,7 +222,7 @@ TEST_CASE("gltf: an emissive picture shines as a picture, over the material it h
     CHECK(shines->radiance == glm::vec3(4));
     CHECK_FALSE(shines->two_sided);
     // pbrt has one colour: the mean, and a line that says so.
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     session.adopt(in.scene);
     const auto report = session.export_to(files.path("out.pbrt"));
     REQUIRE(report);

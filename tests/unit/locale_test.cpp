@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host whose language writes decimal commas (Python after locale.setlocale, another program around the engine)
 // changes nothing that is read or written.
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
 #include "scene/validate.hpp"
-#include "session/session.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <clocale>

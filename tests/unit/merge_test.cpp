@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A file put into an open scene: new ids for everything, one step of the history, its camera and light left behind.
+#include "document/session.hpp"
 #include "model_files.hpp"
 #include "scene/validate.hpp"
-#include "session/session.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -13,7 +13,7 @@ using Catch::Matchers::ContainsSubstring;
 namespace {
 
 struct Room : ModelFiles {
-    session::Session session{registry};
+    document::Session session{registry};
     Room() {
         write("room.pbrt",
               "LookAt 0 1 -5  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n"

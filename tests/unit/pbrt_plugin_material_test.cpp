@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt files whose materials are those of plugins: pbrt's hair, in all the ways it says its colour, and names that pbrt
 // does not know. Read, written, read again.
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "paths.hpp"
-#include "session/session.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 struct Reading {
     Plugins plugins;
     Folder folder;
-    session::Session session{plugins.registry};
+    document::Session session{plugins.registry};
 
     const Material& read(const std::string& material) {
         const std::string file = folder.file("in.pbrt");
@@ -74,7 +74,7 @@ TEST_CASE("pbrt's hair without its plugin keeps its colour, and the report says 
         {all / "importer-pbrt", true}, {all / "exporter-pbrt", true}, {all / "material-diffuse", true}});
     REQUIRE(registry.find_importer("pbrt"));
     REQUIRE_FALSE(registry.find_material("hair"));
-    session::Session session{registry};
+    document::Session session{registry};
     Folder folder;
     const std::string file = folder.file("in.pbrt");
     const std::string fur = R"(Material "hair" "rgb reflectance" [ 0.5 0.3 0.1 ] "float beta_n" 0.4)";

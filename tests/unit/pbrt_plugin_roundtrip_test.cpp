@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials that pbrt only has something like: the file holds that, and for us what they are. With all their values
 // they come back; without their plugin the nearest does.
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
-#include "session/session.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
 #include <sstream>

@@ -13,7 +13,7 @@ class Monkey {
   public:
     Monkey(const Fixture& files, unsigned seed) : files_(files), random_(seed) {}
 
-    void edit(session::Session& session) {
+    void edit(document::Session& session) {
         const Scene& s = session.scene();
         Edit e{"random", {}};
         switch (pick(14)) {

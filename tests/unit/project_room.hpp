@@ -3,12 +3,12 @@
 #pragma once
 
 #include "base/file.hpp"
+#include "document/project.hpp"
+#include "document/project_fields.hpp"
+#include "document/session.hpp"
 #include "io/image_file.hpp"
 #include "paths.hpp"
 #include "scene/bounds.hpp"
-#include "session/project.hpp"
-#include "session/project_fields.hpp"
-#include "session/session.hpp"
 #include "temporary_folder.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -71,7 +71,7 @@ struct Fixture {
         REQUIRE(write_file_atomic(at("scenes/room.pbrt"), room));
     }
     std::string at(const char* name) const { return (folder / name).string(); }
-    void opened(session::Session& session) const {
+    void opened(document::Session& session) const {
         const auto done = session.open(at("scenes/room.pbrt"));
         INFO((done ? "" : done.error().message));
         REQUIRE(done);
@@ -101,8 +101,8 @@ struct ByOrder { // a visitor of fields()
     }
     template <class T>
     void remap(std::optional<T>& x) {
-        if constexpr (requires { session::fields(*this, *x); })
-            if (x) session::fields(*this, *x);
+        if constexpr (requires { document::fields(*this, *x); })
+            if (x) document::fields(*this, *x);
     }
     void remap(ParamSet& params) {
         const ParamSet old = params;
@@ -127,7 +127,7 @@ bool same_data(const std::shared_ptr<const D>& a, const std::shared_ptr<const D>
 }
 
 inline void check_same(const Scene& a, const Scene& b) {
-    session::each_kind([&]<class T>(const char* kind) {
+    document::each_kind([&]<class T>(const char* kind) {
         std::vector<T> left, right;
         table<T>(a).each([&](auto, const T& item) { left.push_back(item); });
         table<T>(b).each([&](auto, const T& item) { right.push_back(item); });
@@ -137,8 +137,8 @@ inline void check_same(const Scene& a, const Scene& b) {
             INFO(i << ": " << left[i].name << " / " << right[i].name);
             if constexpr (requires { left[i].data; }) CHECK(same_data(left[i].data, right[i].data));
             ByOrder of_a{a}, of_b{b};
-            session::fields(of_a, left[i]);
-            session::fields(of_b, right[i]);
+            document::fields(of_a, left[i]);
+            document::fields(of_b, right[i]);
             CHECK(left[i] == right[i]);
         }
     });

@@ -17,7 +17,7 @@ TEST_CASE("Any edits come back exactly from a project file", "[project]") {
     const Fixture files;
     const unsigned seed = GENERATE(Catch::Generators::range(1u, 41u));
     INFO("seed " << seed);
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     const bool based = seed % 4 != 0; // or made in the program
     if (based) files.opened(session);
     Monkey monkey(files, seed);
@@ -28,7 +28,7 @@ TEST_CASE("Any edits come back exactly from a project file", "[project]") {
     REQUIRE(saved);
     CHECK_FALSE(session.modified());
 
-    session::Session other(files.registry);
+    document::Session other(files.registry);
     const auto opened = other.open(files.at("edited.restage"));
     INFO((opened ? "" : opened.error().message));
     INFO(read_file(files.at("edited.restage")).value());
@@ -39,7 +39,7 @@ TEST_CASE("Any edits come back exactly from a project file", "[project]") {
     // Saved again, not a byte differs, also from another folder and back.
     fs::create_directories(files.folder / "else");
     REQUIRE(other.save_project(files.at("else/again.restage")));
-    session::Session third(files.registry);
+    document::Session third(files.registry);
     REQUIRE(third.open(files.at("else/again.restage")));
     REQUIRE(third.save_project(files.at("back.restage")));
     CHECK(read_file(files.at("back.restage")).value() == read_file(files.at("edited.restage")).value());
@@ -47,7 +47,7 @@ TEST_CASE("Any edits come back exactly from a project file", "[project]") {
 
 TEST_CASE("A scene that has no camera yet is saved and opened", "[project]") {
     const Fixture files;
-    session::Session session(files.registry), other(files.registry);
+    document::Session session(files.registry), other(files.registry);
     Edit edit{"Paint", {}};
     edit.changes.push_back(
         Change<Material>{session.scene().materials.next(), std::nullopt, Material{.name = "red", .type = "diffuse"}});
@@ -63,7 +63,7 @@ TEST_CASE("A scene that has no camera yet is saved and opened", "[project]") {
 
 TEST_CASE("A project holds what changed and nothing else", "[project]") {
     const Fixture files;
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     files.opened(session);
     const auto steel = session.find<Material>("steel");
     REQUIRE(session.set_param(steel, "uroughness", Value::number(0.1f)));
@@ -76,7 +76,7 @@ TEST_CASE("A project holds what changed and nothing else", "[project]") {
 
 TEST_CASE("Undo and redo go on across a save", "[project]") {
     const Fixture files;
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     files.opened(session);
     const Scene before = session.scene();
     REQUIRE(session.set_param(session.find<Material>("steel"), "uroughness", Value::number(0.1f)));
@@ -91,7 +91,7 @@ TEST_CASE("Undo and redo go on across a save", "[project]") {
 
 TEST_CASE("What is inserted from a file is named, not held, and stands in when it goes", "[project]") {
     const Fixture files;
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     files.opened(session);
     REQUIRE(write_file_atomic(files.at("scenes/lamp.pbrt"),
                               "WorldBegin\nShape \"sphere\" \"float radius\" 0.2\n"
@@ -99,7 +99,7 @@ TEST_CASE("What is inserted from a file is named, not held, and stands in when i
     const auto lamp = io::import_scene(files.at("scenes/lamp.pbrt"), files.registry);
     REQUIRE(lamp);
     const auto merged =
-        session.insert(*lamp, files.at("scenes/lamp.pbrt"), session::Session::Stand{.at = {0, 1, 0}, .up = {0, 1, 0}});
+        session.insert(*lamp, files.at("scenes/lamp.pbrt"), document::Session::Stand{.at = {0, 1, 0}, .up = {0, 1, 0}});
     REQUIRE(merged);
     const auto& made = merged->instances;
     REQUIRE(made.size() == 2);
@@ -111,12 +111,12 @@ TEST_CASE("What is inserted from a file is named, not held, and stands in when i
     REQUIRE(session.save_project(files.at("lamp.restage")));
     const std::string text = read_file(files.at("lamp.restage")).value();
     CHECK_THAT(text, ContainsSubstring("\"file\": \"scenes/lamp.pbrt\"") && !ContainsSubstring("positions"));
-    session::Session other(files.registry);
+    document::Session other(files.registry);
     REQUIRE(other.open(files.at("lamp.restage")));
     check_same(session.scene(), other.scene());
 
     fs::rename(files.at("scenes/lamp.pbrt"), files.at("scenes/elsewhere.pbrt"));
-    session::Session without(files.registry);
+    document::Session without(files.registry);
     REQUIRE(without.open(files.at("lamp.restage")));
     CHECK(without.report().count(RESTAGE_DROPPED) == 3); // the file, and two meshes of it
     CHECK(without.scene().instances.live() == session.scene().instances.live());
@@ -126,7 +126,7 @@ TEST_CASE("What is inserted from a file is named, not held, and stands in when i
 
 TEST_CASE("A base that moved or changed is told, and can be named anew", "[project]") {
     const Fixture files;
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     files.opened(session);
     REQUIRE(session.set_param(session.find<Material>("steel"), "uroughness", Value::number(0.1f)));
     Id<Instance> disk;
@@ -137,22 +137,22 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
     REQUIRE(session.remove(std::array{disk}));
     REQUIRE(session.save_project(files.at("p.restage")));
 
-    session::BaseProblem problem{};
-    const auto open = [&](session::ReadOptions options) {
+    document::BaseProblem problem{};
+    const auto open = [&](document::ReadOptions options) {
         problem = {};
         options.problem = &problem;
-        return session::read_document(files.at("p.restage"), files.registry, options);
+        return document::read_document(files.at("p.restage"), files.registry, options);
     };
     SECTION("moved") {
         fs::rename(files.at("scenes/room.pbrt"), files.at("scenes/moved.pbrt"));
         const auto gone = open({});
         REQUIRE_FALSE(gone);
-        CHECK(problem == session::BaseProblem::missing);
+        CHECK(problem == document::BaseProblem::missing);
         CHECK_THAT(gone.error().message, ContainsSubstring("p.restage") && ContainsSubstring("scenes/room.pbrt") &&
                                              ContainsSubstring("put it back"));
         auto found = open({.base = files.at("scenes/moved.pbrt")});
         REQUIRE(found);
-        session::Session other(files.registry);
+        document::Session other(files.registry);
         other.adopt(std::move(*found));
         check_same(session.scene(), other.scene());
     }
@@ -167,7 +167,7 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
         INFO((found ? "" : found.error().message));
         REQUIRE(found);
         CHECK(found->report.count(RESTAGE_APPROXIMATED) >= 1);
-        session::Session other(files.registry);
+        document::Session other(files.registry);
         other.adopt(std::move(*found));
         CHECK(other.scene().materials[other.find<Material>("steel")].params.number("uroughness", 0) == 0.1f);
         CHECK(other.scene().instances.live() == session.scene().instances.live() + 1);
@@ -179,12 +179,12 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
         REQUIRE(write_file_atomic(files.at("scenes/room.pbrt"), less));
         const auto lost = open({});
         REQUIRE_FALSE(lost);
-        CHECK(problem == session::BaseProblem::changed);
+        CHECK(problem == document::BaseProblem::changed);
         CHECK_THAT(lost.error().message, ContainsSubstring("material \"steel\"") && ContainsSubstring("room.pbrt"));
         auto part = open({.drop_lost = true});
         REQUIRE(part);
         CHECK(part->report.count(RESTAGE_DROPPED) == 1);
-        session::Session other(files.registry);
+        document::Session other(files.registry);
         other.adopt(std::move(*part));
         CHECK_FALSE(other.find<Instance>(lamp_name)); // that change still fits
     }
@@ -192,15 +192,15 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
 
 TEST_CASE("A project of tomorrow keeps what we do not know", "[project]") {
     const Fixture files;
-    session::Session session(files.registry);
+    document::Session session(files.registry);
     files.opened(session);
     REQUIRE(session.set_param(session.find<Material>("steel"), "uroughness", Value::number(0.1f)));
     REQUIRE(session.save_project(files.at("p.restage")));
-    auto j = session::json::parse(read_file(files.at("p.restage")).value());
+    auto j = document::json::parse(read_file(files.at("p.restage")).value());
     j["storyboard"] = {{"frames", 12}};
     j["materials"]["changed"].begin().value()["aging"] = {{"years", 30}};
     REQUIRE(write_file_atomic(files.at("p.restage"), j.dump(1)));
-    session::Session other(files.registry);
+    document::Session other(files.registry);
     REQUIRE(other.open(files.at("p.restage")));
     REQUIRE(other.set_param(other.find<Material>("steel"), "uroughness", Value::number(0.2f)));
     REQUIRE(other.save_project(files.at("p.restage")));
@@ -218,7 +218,7 @@ TEST_CASE("Damaged projects are refused with the place", "[project]") {
     const Fixture files;
     const auto message = [&](const std::string& text) {
         REQUIRE(write_file_atomic(files.at("bad.restage"), text));
-        session::Session session(files.registry);
+        document::Session session(files.registry);
         const auto opened = session.open(files.at("bad.restage"));
         REQUIRE_FALSE(opened);
         return opened.error().message;

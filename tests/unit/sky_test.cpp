@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Skies made by the editor: where up is, what stays of the sky before, and that an image comes in once.
-#include "session/sky.hpp"
+#include "scene/sky.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
-#include "session/studio.hpp"
+#include "scene/studio.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 
@@ -21,7 +21,7 @@ std::shared_ptr<const PixelData> pixels(std::uint32_t width, std::uint32_t heigh
 
 TEST_CASE("a sky's pole points up, and its frame is a rotation", "[sky]") {
     for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0)}) {
-        const glm::dmat3 m(session::upright_sky(up));
+        const glm::dmat3 m(scene::upright_sky(up));
         CHECK(glm::length(m * glm::dvec3(0, 0, 1) - up) < 1e-12);
         CHECK(std::abs(glm::determinant(m) - 1) < 1e-12);
     }
@@ -31,7 +31,7 @@ TEST_CASE("an image as sky keeps the turn and strength of an image, not the colo
     Scene s;
     History history;
     history.push(s, set_environment(s, Environment{.scale = glm::vec3(0.2f, 0.3f, 0.9f)}));
-    history.push(s, session::image_sky(s, "/skies/noon.png", pixels(4, 2), {0, 1, 0}));
+    history.push(s, scene::image_sky(s, "/skies/noon.png", pixels(4, 2), {0, 1, 0}));
     REQUIRE(s.environment.value);
     CHECK(s.environment.value->scale == glm::vec3(1));
     CHECK(s.environment.value->mapping == RESTAGE_EQUIRECT);
@@ -39,22 +39,22 @@ TEST_CASE("an image as sky keeps the turn and strength of an image, not the colo
 
     Environment turned = *s.environment.value;
     turned.scale = glm::vec3(3);
-    turned.light_to_world = session::upright_sky({1, 0, 0});
+    turned.light_to_world = scene::upright_sky({1, 0, 0});
     history.push(s, set_environment(s, turned));
-    history.push(s, session::image_sky(s, "/skies/dusk.exr", pixels(8, 4), {0, 1, 0}));
+    history.push(s, scene::image_sky(s, "/skies/dusk.exr", pixels(8, 4), {0, 1, 0}));
     CHECK(s.environment.value->scale == glm::vec3(3));
     CHECK(s.environment.value->light_to_world == turned.light_to_world);
     CHECK(s.images.live() == 2);
 
-    history.push(s, session::image_sky(s, "/skies/noon.png", pixels(4, 2), {0, 1, 0})); // again
+    history.push(s, scene::image_sky(s, "/skies/noon.png", pixels(4, 2), {0, 1, 0})); // again
     CHECK(s.images.live() == 2);
-    history.push(s, session::image_sky(s, "/skies/square.exr", pixels(4, 4), {0, 1, 0}));
+    history.push(s, scene::image_sky(s, "/skies/square.exr", pixels(4, 4), {0, 1, 0}));
     CHECK(s.environment.value->mapping == RESTAGE_OCTAHEDRAL);
-    CHECK(s.environment.value->light_to_world == session::upright_sky({0, 1, 0})); // another mapping: not that turn
+    CHECK(s.environment.value->light_to_world == scene::upright_sky({0, 1, 0})); // another mapping: not that turn
 }
 
 TEST_CASE("a new document has a studio around it that shines from above", "[sky]") {
-    const Scene s = session::studio_scene();
+    const Scene s = scene::studio_scene();
     REQUIRE(s.environment.value);
     const Image& image = s.images[s.environment.value->image];
     const auto row = [&](std::uint32_t y) { return image.data->values[3 * std::size_t(y) * image.data->width]; };

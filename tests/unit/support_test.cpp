@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far things fall until they stand on something, and what touches what.
-#include "session/support.hpp"
+#include "query/support.hpp"
+#include "query/touching.hpp"
 #include "scene_room.hpp"
-#include "session/touching.hpp"
 
 #include <algorithm>
 #include <catch2/catch_approx.hpp>
@@ -63,9 +63,9 @@ TEST_CASE("things stand on spheres as they are rendered, not on the grids that s
     const double x = 300, top = std::sqrt(1000.0 * 1000 - x * x) - 1000; // the octahedron is 254 lower there
     const double apart = std::sqrt(1000.2 * 1000.2 - x * x) - 1000;
     const Ids small{ball("small", 0.2, {x, 0, apart + 3})};
-    CHECK(*session::fall_distance(b.scene, small, {0, 0, 1}) == Approx(3).margin(1e-3));
+    CHECK(*query::fall_distance(b.scene, small, {0, 0, 1}) == Approx(3).margin(1e-3));
     const Ids box{b.box("box", {x - 0.1, -0.1, top + 2}, {x + 0.1, 0.1, top + 2.2})};
-    CHECK(*session::fall_distance(b.scene, box, {0, 0, 1}) == Approx(2).margin(0.04)); // of its lower corner
+    CHECK(*query::fall_distance(b.scene, box, {0, 0, 1}) == Approx(2).margin(0.04)); // of its lower corner
 }
 
 TEST_CASE("things fall until they stand on something", "[support]") {
@@ -77,24 +77,24 @@ TEST_CASE("things fall until they stand on something", "[support]") {
         const glm::dvec3 up(turned * glm::dvec4(0, 0, 1, 0));
         b.box("floor", {-10, -10, -0.1}, {10, 10, 0});
         const Ids slab{b.box("slab", {0, 0, 1}, {2, 2, 1.1})};
-        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(1));
+        CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
 
         // A post that is thinner than what it carries, under no corner of it.
         const auto post = b.box("post", {0.9, 1.1, 0}, {0.905, 1.105, 0.4});
-        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(0.6));
+        CHECK(*query::fall_distance(b.scene, slab, up) == Approx(0.6));
         // What it is let fall with carries nothing.
-        CHECK(*session::fall_distance(b.scene, Ids{slab[0], post}, up) == Approx(0).margin(1e-9));
+        CHECK(*query::fall_distance(b.scene, Ids{slab[0], post}, up) == Approx(0).margin(1e-9));
         apply(b.scene, *set_hidden(b.scene, Ids{post}, true));
-        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(1));
+        CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
 
         // A plate on the slab is not what the slab stands on, however thin both are.
         b.box("plate", {0.5, 0.5, 1.1}, {0.7, 0.7, 1.101});
-        CHECK(*session::fall_distance(b.scene, slab, up) == Approx(1));
+        CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
         // Sunk in a little: out again. Through the floor would be the only other way.
         const Ids chest{b.box("chest", {5, 5, -0.05}, {6, 6, 0.95})};
-        CHECK(*session::fall_distance(b.scene, chest, up) == Approx(-0.05));
-        CHECK_FALSE(session::fall_distance(b.scene, Ids{b.box("outside", {20, 0, 0}, {21, 1, 1})}, up));
-        CHECK_FALSE(session::fall_distance(b.scene, {}, up));
+        CHECK(*query::fall_distance(b.scene, chest, up) == Approx(-0.05));
+        CHECK_FALSE(query::fall_distance(b.scene, Ids{b.box("outside", {20, 0, 0}, {21, 1, 1})}, up));
+        CHECK_FALSE(query::fall_distance(b.scene, {}, up));
     }
 }
 
@@ -112,16 +112,16 @@ TEST_CASE("what touches a thing is its parts, not the floor it stands on", "[tou
     apply(b.scene, *set_hidden(b.scene, Ids{hidden}, true));
 
     for (const auto start : {chair[0], chair[5], chair[6]}) {
-        Ids found = session::touching(b.scene, Ids{start});
+        Ids found = query::touching(b.scene, Ids{start});
         found.push_back(start);
         std::sort(found.begin(), found.end(), [](auto x, auto y) { return x.value < y.value; });
         CHECK(found == chair);
     }
-    CHECK(session::touching(b.scene, Ids{other}).empty());
-    CHECK(session::touching(b.scene, {}).empty());
+    CHECK(query::touching(b.scene, Ids{other}).empty());
+    CHECK(query::touching(b.scene, {}).empty());
     // Of the floor everything on it is a part.
-    CHECK(session::touching(b.scene, Ids{floor}).size() == chair.size() + 1);
+    CHECK(query::touching(b.scene, Ids{floor}).size() == chair.size() + 1);
     // What is locked in the editor is passed over, and leads nowhere.
-    const auto found = session::touching(b.scene, Ids{chair[6]}, [&](Id<Instance> id) { return id == chair[0]; });
+    const auto found = query::touching(b.scene, Ids{chair[6]}, [&](Id<Instance> id) { return id == chair[0]; });
     CHECK(found.empty());
 }

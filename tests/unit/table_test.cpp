@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables that plugins read (restage/table.h), by the example of MERL's files: what is sound becomes words, what is not
 // a sentence, and pbrt files, exports and projects keep the path.
+#include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "merl_file.hpp"
 #include "paths.hpp"
 #include "plugin/table_reader.hpp"
 #include "plugin_folder.hpp"
-#include "session/session.hpp"
 
 #include <bit>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -224,9 +224,9 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
         "WorldBegin\nMaterial \"measured\" \"string filename\" \"brdfs/a.binary\" \"rgb tint\" [ 1 .5 .25 ]\n"
         "Shape \"sphere\"\nMaterial \"measured\" \"string filename\" \"gone.binary\"\nShape \"sphere\"\n"
         "Material \"measured\" \"string filename\" \"x.bsdf\"\nShape \"sphere\"\n"));
-    session::Session session(r.plugins.registry);
+    document::Session session(r.plugins.registry);
     REQUIRE(session.open((r.folder.path / "in/s.pbrt").string()));
-    const auto material = [](const session::Session& s, std::uint32_t instance) -> const Material& {
+    const auto material = [](const document::Session& s, std::uint32_t instance) -> const Material& {
         return s.scene().materials[s.scene().instances[{instance}].material];
     };
     CHECK(material(session, 1).params.find("filename")->text == table);
@@ -250,7 +250,7 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
                     read_file(out).value(),
                     ContainsSubstring("#restage MakeNamedMaterial \"measured\" \"string plugin\" [ \"measured\" ]") &&
                         ContainsSubstring("\"string filename\" [ \"textures/a"));
-            session::Session again(r.plugins.registry);
+            document::Session again(r.plugins.registry);
             REQUIRE(again.open(out));
             const Material& m = material(again, 1);
             REQUIRE(m.type == "measured");
@@ -264,7 +264,7 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
 TEST_CASE("a project keeps a table's path relative to itself", "[table][project]") {
     Reading r;
     REQUIRE(r.read(lambert()));
-    session::Session session(r.plugins.registry);
+    document::Session session(r.plugins.registry);
     const auto id = session.add_material("steel", "measured").value();
     CHECK_FALSE(session.set_param(id, "filename", Value::choice("a.binary"))); // another type
     REQUIRE(session.set_param(id, "filename", Value::table(r.folder.file("a.binary"))));
@@ -275,13 +275,13 @@ TEST_CASE("a project keeps a table's path relative to itself", "[table][project]
     fs::create_directories(moved);
     fs::rename(project, moved / "p.restage");
     fs::rename(r.folder.file("a.binary"), moved / "a.binary");
-    session::Session again(r.plugins.registry);
+    document::Session again(r.plugins.registry);
     REQUIRE(again.open((moved / "p.restage").string()));
     const Value* value = again.scene().materials[id].params.find("filename");
     REQUIRE(value);
     CHECK(*value == Value::table((moved / "a.binary").string()));
     fs::remove(moved / "a.binary");
-    session::Session lost(r.plugins.registry);
+    document::Session lost(r.plugins.registry);
     REQUIRE(lost.open((moved / "p.restage").string()));
     REQUIRE(lost.report().count(RESTAGE_DROPPED) == 1);
     CHECK_THAT(io::to_string(lost.report().entries[0]), ContainsSubstring("a.binary: cannot be opened"));

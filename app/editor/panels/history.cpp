@@ -15,7 +15,7 @@ void draw_history(Editor& e) {
     const scene::History& history = e.session().history();
     const auto go = [&e](std::size_t position) {
         e.later([&e, position] {
-            session::Session& s = e.session_for_changes();
+            document::Session& s = e.session_for_changes();
             while (s.history().position() > position && s.undo()) {
             }
             while (s.history().position() < position && s.redo()) {

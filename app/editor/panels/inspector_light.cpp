@@ -3,7 +3,7 @@
 #include "inspector.hpp"
 #include "io/material_emission.hpp"
 #include "param_widget.hpp"
-#include "session/color_temperature.hpp"
+#include "scene/color_temperature.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -81,12 +81,12 @@ bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, c
     e.mark(mark + ".color");
     form_row("Temperature",
              "Sets the colour to that of a lamp: candle 1900 K, bulb 2700 K, noon 5500 K, overcast 7000 K");
-    auto kelvin = float(session::color_temperature(glm::dvec3(color)));
+    auto kelvin = float(scene::color_temperature(glm::dvec3(color)));
     const std::string shown = kelvin > 0 ? "%.0f K" : "None";
     if (kelvin <= 0) kelvin = 6500;
-    if (ImGui::SliderFloat("##kelvin", &kelvin, float(session::least_kelvin), 12000, shown.c_str(),
+    if (ImGui::SliderFloat("##kelvin", &kelvin, float(scene::least_kelvin), 12000, shown.c_str(),
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {
-        color = glm::vec3(session::blackbody_color(double(kelvin)));
+        color = glm::vec3(scene::blackbody_color(double(kelvin)));
         changed = true;
     }
     e.mark(mark + ".kelvin");
@@ -111,7 +111,7 @@ void emission_section(Editor& e, InstanceId id) {
     form_row("Emits light", "Makes the object a lamp: its whole surface shines");
     if (bool on = instance.emission.has_value(); ImGui::Checkbox("##emits", &on))
         ask_emission(e, id,
-                     on ? std::optional(scene::Emission{.radiance = glm::vec3(session::blackbody_color(4000)) * 10.f})
+                     on ? std::optional(scene::Emission{.radiance = glm::vec3(scene::blackbody_color(4000)) * 10.f})
                         : std::nullopt,
                      "");
     e.mark("light.emits");

@@ -3,9 +3,9 @@
 #include "scene_panel.hpp"
 
 #include "pick_tool.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 #include "scene/projection.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -116,8 +116,8 @@ bool projection_rows(Editor& e, scene::Camera& camera) {
     if (changed) {
         const bool was_parallel = camera.projection == RESTAGE_ORTHOGRAPHIC;
         // What is in the middle of the picture keeps its size.
-        const session::ViewRay ray = session::view_ray(camera, {0.5, 0.5}, e.film_aspect());
-        const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+        const query::ViewRay ray = query::view_ray(camera, {0.5, 0.5}, e.film_aspect());
+        const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
         const double distance = hits.empty() ? 1 : hits[0].t;
         camera.projection = RestageProjection(kind);
         if (was_parallel) camera.screen_window.reset();
@@ -188,8 +188,8 @@ void camera_section(Editor& e) {
     if (bool blur = camera.lens_radius > 0; ImGui::Checkbox("##dof", &blur)) {
         camera.lens_radius = blur ? float(focal_length(camera) / (2 * 2.8)) : 0;
         // Pinhole cameras come with a focus somewhere: the middle of the picture is a better start.
-        const session::ViewRay ray = session::view_ray(camera, {0.5, 0.5}, e.film_aspect());
-        if (const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction);
+        const query::ViewRay ray = query::view_ray(camera, {0.5, 0.5}, e.film_aspect());
+        if (const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
             blur && !hits.empty() && double(camera.focal_distance) > 10 * hits[0].t)
             camera.focal_distance = float(hits[0].t);
         changed = true;

@@ -3,9 +3,9 @@
 #include "scene_panel.hpp"
 
 #include "io/material_emission.hpp"
+#include "query/navigation.hpp"
+#include "query/raycast.hpp"
 #include "scene/merge.hpp"
-#include "session/navigation.hpp"
-#include "session/raycast.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -30,11 +30,11 @@ Place place_for_light(const Editor& e) {
     Place place;
     const double size = all.empty() ? 1 : std::max(all.radius(), 1e-6);
     place.target = all.empty() ? glm::dvec3(0) : all.center();
-    const session::ViewRay ray = session::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
-    if (const auto hits = session::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
+    const query::ViewRay ray = query::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
+    if (const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
         place.target = hits[0].position;
     place.height = 0.5 * size;
-    const auto ceiling = session::raycast_all(e.scene(), place.target + e.up() * (1e-4 * size), e.up());
+    const auto ceiling = query::raycast_all(e.scene(), place.target + e.up() * (1e-4 * size), e.up());
     if (!ceiling.empty()) place.height = std::min(place.height, 0.7 * ceiling[0].t);
     place.above = place.target + e.up() * place.height;
     return place;
@@ -58,7 +58,7 @@ void add_light(Editor& e, RestageLightKind kind) {
         light.light_to_world = aimed(place.above, glm::dvec3(e.camera().camera_to_world[2]) * 0.6 - e.up() +
                                                       glm::dvec3(e.camera().camera_to_world[0]) * 0.5);
     e.later([&e, light = std::move(light)]() mutable {
-        session::Session& session = e.session_for_changes();
+        document::Session& session = e.session_for_changes();
         const auto id = session.scene().lights.next();
         std::set<std::string> taken;
         session.scene().lights.each([&](auto, const scene::Light& other) { taken.insert(other.name); });
@@ -84,7 +84,7 @@ void add_area_light(Editor& e) {
                                  ? "diffuse"
                                  : e.registry().materials().front().table->type;
     e.later([&e, square, to_world, type] {
-        session::Session& session = e.session_for_changes();
+        document::Session& session = e.session_for_changes();
         const scene::Scene& s = session.scene();
         scene::Edit edit{"Add area light", {}};
         const auto mesh = s.meshes.next();

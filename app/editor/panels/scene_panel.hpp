@@ -14,7 +14,7 @@ void render_section(Editor& editor);
 
 // False when nothing in the scene shines: its picture is black.
 bool has_light(const Editor& editor);
-// As one step: session::light_studio.
+// As one step: document::light_studio.
 void light_with_studio(Editor& editor);
 // The image becomes the sky; read on another thread.
 void use_as_sky(Editor& editor, const std::string& file);

@@ -122,7 +122,7 @@ void live_rows(Editor& e) {
 
 void machine_rows(Editor& e) {
     ImGui::SeparatorText("This machine");
-    const session::ViewStatus status = e.live().status();
+    const view::ViewStatus status = e.live().status();
     render::RendererOptions options = e.options().renderer;
     SceneState& state = e.panel_state->scene;
     form_row("Ray tracing", "Embree: on the processor. Vulkan: on the graphics card, where it can");

@@ -3,10 +3,10 @@
 #include "panels.hpp"
 #include "scene_panel.hpp"
 
+#include "document/exposure.hpp"
 #include "io/material_emission.hpp"
 #include "param_widget.hpp"
-#include "session/exposure.hpp"
-#include "session/sky.hpp"
+#include "scene/sky.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -124,11 +124,11 @@ void image_row(Editor& e, const Environment& sky) {
 
 } // namespace
 
-bool has_light(const Editor& e) { return session::has_light(e.scene(), e.registry()); }
+bool has_light(const Editor& e) { return document::has_light(e.scene(), e.registry()); }
 
 void light_with_studio(Editor& e) {
     e.edit([&registry = e.registry()](const scene::Scene& s) {
-        return Result<scene::Edit>(session::light_studio(s, registry));
+        return Result<scene::Edit>(document::light_studio(s, registry));
     });
 }
 
@@ -142,7 +142,7 @@ void use_as_sky(Editor& e, const std::string& file) {
                                         return;
                                     }
                                     e.edit([path, data = *pixels, up = e.up()](const scene::Scene& s) {
-                                        return Result<scene::Edit>(session::image_sky(s, path, data, up));
+                                        return Result<scene::Edit>(scene::image_sky(s, path, data, up));
                                     });
                                 }});
 }
@@ -166,16 +166,15 @@ void sky_section(Editor& e) {
         for (int i = 0; i < 4; ++i) {
             if (ImGui::Selectable(kinds[i], i == kind) && i != kind) {
                 Environment sky =
-                    now.value_or(Environment{.name = "Sky", .light_to_world = session::upright_sky(e.up())});
+                    now.value_or(Environment{.name = "Sky", .light_to_world = scene::upright_sky(e.up())});
                 if (i == 0) ask_sky(e, std::nullopt, "No sky");
                 if (i == 1) {
                     sky.image = {};
                     ask_sky(e, sky, "Sky of one colour");
                 }
                 if (i == 3)
-                    e.edit([up = e.up()](const scene::Scene& s) {
-                        return Result<scene::Edit>(session::studio_sky(s, up));
-                    });
+                    e.edit(
+                        [up = e.up()](const scene::Scene& s) { return Result<scene::Edit>(scene::studio_sky(s, up)); });
                 if (i == 2) e.panel_state->scene.choose_sky = true;
             }
             e.mark(std::string("sky.kind.") + kinds[i]);

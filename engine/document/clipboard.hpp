@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copying between scenes, and windows, as text: a project without a base that holds what was copied and all it needs.
+// Geometry and pixels that a file has are named where they are large, else written into the text.
+#pragma once
+
+#include "base/result.hpp"
+#include "document/session.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace restage::document {
+
+struct Selected { // objects, or a light, or a material
+    std::vector<scene::Id<scene::Instance>> instances;
+    scene::Id<scene::Light> light;
+    scene::Id<scene::Material> material;
+};
+// An error where it is larger than what a clipboard takes.
+Result<std::string> copy_text(const Session&, const Selected&);
+
+bool is_copy(std::string_view text); // looks like one
+struct Copy {
+    scene::Scene scene;
+    bool material = false; // the one of its only object is meant
+};
+Result<Copy> read_copy(const std::string& text, const plugin::Registry&); // [worker]
+
+struct Pasted {
+    scene::Edit edit;
+    std::vector<scene::Id<scene::Instance>> instances;
+    scene::Id<scene::Light> light;
+};
+// Objects and lights where they were; `aside`: moved by this where one of the same place is there already.
+Pasted paste(const scene::Scene& into, const scene::Scene& copied, const glm::dvec3& aside);
+// The material for these objects.
+Result<scene::Edit> paste_material(const scene::Scene& into, const Copy&,
+                                   std::span<const scene::Id<scene::Instance>> to);
+
+} // namespace restage::document

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+// A project file becomes its base, imported anew, and one edit. References are found by id and name; where the base has
+// changed, by name alone; what cannot be found is an error that names it, or is left out when asked to.
+#include "document/project.hpp"
+#include "document/project_values.hpp"
+
+#include "base/file.hpp"
+#include "base/json.hpp"
+#include "io/image_file.hpp"
+#include "io/material_tables.hpp"
+#include "scene/bounds.hpp"
+#include "scene/validate.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <set>
+
+namespace restage::document {
+
+using namespace scene;
+namespace fs = std::filesystem;
+
+namespace {
+
+// What stands for geometry or pixels that are not to be found: a cube, a grey pixel.
+std::shared_ptr<const MeshData> stand_in_mesh() {
+    auto mesh = std::make_shared<MeshData>();
+    for (int i = 0; i < 8; ++i)
+        mesh->positions.push_back(glm::vec3(i & 1, i >> 1 & 1, i >> 2) - 0.5f);
+    mesh->triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    compute_bounds(*mesh);
+    return mesh;
+}
+std::shared_ptr<const PixelData> stand_in_pixels() {
+    return std::make_shared<const PixelData>(
+        PixelData{.width = 1, .height = 1, .channels = 3, .values = {0.5f, 0.5f, 0.5f}});
+}
+
+class Reader : public ValueReader {
+  public:
+    Reader(const std::string& path, const plugin::Registry& registry, const ReadOptions& options)
+        : ValueReader(path), path_(path), registry_(registry), options_(options) {
+        base_ = &doc_.base.scene;
+    }
+
+    Result<Document> run() {
+        RESTAGE_TRY(const std::string text, read_file(path_));
+        return run(text);
+    }
+
+    Result<Document> run(const std::string& text) {
+        doc_.path = path_;
+        RESTAGE_TRY(const json j, parse(text));
+        if (const auto note = j.find("recovery"); note != j.end() && note->is_object())
+            for (const auto& [key, value] : note->items())
+                if (value.is_string()) doc_.note[key] = value.get<std::string>();
+        if (const auto base = j.find("base"); base != j.end()) RESTAGE_CHECK(read_base(*base));
+
+        json unknown = json::object();
+        static const std::set<std::string_view> known{"restage",       "recovery", "base",    "environment",
+                                                      "active_camera", "film",     "settings"};
+        std::set<std::string> kinds;
+        each_kind([&]<class T>(const char* kind) {
+            kinds.insert(kind);
+            if (const auto part = j.find(kind); part != j.end()) read_things<T>(kind, *part, unknown);
+        });
+        const Scene& base = doc_.base.scene;
+        single(j, "environment", base.environment.value, unknown);
+        single(j, "active_camera", base.active_camera.value, unknown);
+        single(j, "film", base.film.value, unknown);
+        single(j, "settings", base.settings.value, unknown);
+        for (const auto& [key, value] : j.items())
+            if (!known.contains(key) && !kinds.contains(key)) unknown[key] = value;
+        if (!unknown.empty()) doc_.unknown = unknown.dump();
+
+        if (!error_.empty()) return fail(error_);
+        RESTAGE_CHECK(judge_lost());
+        read_images();
+        doc_.changes.label = "Changes of " + fs::path(path_).filename().string();
+        Scene result = base;
+        apply(result, doc_.changes);
+        for (const Problem& problem : validate(result))
+            if (problem.severity == Problem::Severity::error && problem.sentence != no_camera) // it may get one yet
+                return fail(path_ + ": " + problem.sentence);
+        io::report_tables(result, registry_, doc_.report, &base);
+        return std::move(doc_);
+    }
+
+    using ValueReader::operator();
+
+    // --- as a visitor of fields()
+    // --------------------------------------------------------------------------------------
+    void path(const char* name, std::string& value) {
+        const json* j = member(name);
+        if (!j) return;
+        read(*j, value, name);
+        if (!value.empty()) value = absolute(value);
+    }
+    void mesh(Mesh& m) {
+        const json* j = member("data");
+        if (!j) return;
+        if (j->is_null())
+            m.data = nullptr;
+        else if (const auto data = shared<Mesh>(*j, "mesh", stand_in_mesh, new_meshes_))
+            m.data = data;
+        else if (auto inlined = read_inline_mesh(*j))
+            m.data = new_meshes_[current_] = *inlined;
+        else
+            error("data", inlined.error().message);
+    }
+    void image(Image& i) {
+        const json* j = member("pixels");
+        if (!j) return;
+        i.data = nullptr;
+        if (*j == "file")
+            from_file_.insert(current_id_);
+        else if (j->is_null())
+            return;
+        else if (const auto data = shared<Image>(*j, "image", stand_in_pixels, new_images_))
+            i.data = data;
+        else if (auto inlined = read_inline_image(*j))
+            i.data = new_images_[current_] = *inlined;
+        else
+            error("pixels", inlined.error().message);
+    }
+
+  private:
+    Result<json> parse(const std::string& text) const {
+        auto parsed = parse_json<json>(text);
+        if (!parsed) return fail(path_ + ":" + parsed.error().message + "; this is no project file, or it is damaged");
+        json& j = *parsed;
+        const auto version = j.is_object() ? j.find("restage") : j.end();
+        if (!j.is_object() || version == j.end() || !version->is_number_integer())
+            return fail(path_ + ": this is JSON, but no Restage project");
+        if (version->get<int>() > project_version)
+            return fail(
+                fmt::format("{}: a newer Restage wrote this project (version {}, this one knows {}); open it there",
+                            path_, version->get<int>(), project_version));
+        return std::move(j);
+    }
+
+    std::string absolute(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
+
+    Result<> read_base(const json& j) {
+        if (!j.is_object() || !j.contains("file") || !j["file"].is_string())
+            return fail(path_ + ": base: a file is expected");
+        Base& base = doc_.base;
+        const std::string named = j["file"].get<std::string>();
+        base.file = options_.base.empty() ? absolute(named) : fs::absolute(options_.base).lexically_normal().string();
+        std::error_code none;
+        if (!fs::exists(base.file, none)) {
+            if (options_.problem) *options_.problem = BaseProblem::missing;
+            return fail(path_ + ": the scene it is based on is not at " + base.file +
+                        "; put it back there, or open the project with the place where it is now");
+        }
+        RESTAGE_TRY(const std::string bytes, read_file(base.file));
+        base.hash = hash64(bytes);
+        RESTAGE_TRY(io::ImportedScene imported, read_scene(base.file, registry_, options_));
+        base.scene = std::move(imported.scene);
+        base.format = imported.importer;
+        doc_.report = std::move(imported.report);
+        base_changed_ = !j.contains("hash") || j["hash"] != fmt::format("{:016x}", base.hash);
+        each_kind([&]<class T>(const char* kind) {
+            const bool has = j.contains("sizes") && j["sizes"].contains(kind) && j["sizes"][kind].is_number_unsigned();
+            sizes_[kind_name<T>] = has ? j["sizes"][kind].template get<std::uint32_t>() : table<T>(base.scene).size();
+        });
+        return {};
+    }
+
+    Result<> judge_lost() {
+        if (lost_.empty()) {
+            if (base_changed_)
+                doc_.report.add(RESTAGE_APPROXIMATED, "project",
+                                "its scene has changed on disk since it was saved; the changes were found to fit",
+                                doc_.base.file);
+            return {};
+        }
+        if (!options_.drop_lost) {
+            if (options_.problem) *options_.problem = BaseProblem::changed;
+            std::string list;
+            for (std::size_t i = 0; i < std::min<std::size_t>(lost_.size(), 5); ++i)
+                list += (i ? ", " : "") + lost_[i];
+            if (lost_.size() > 5) list += fmt::format(" and {} more", lost_.size() - 5);
+            return fail(fmt::format(
+                "{}: {} has changed since the project was saved and has no {} any more; restore it, open the "
+                "project with another scene, or leave these changes out",
+                path_, doc_.base.file, list));
+        }
+        for (const std::string& what : lost_)
+            doc_.report.add(RESTAGE_DROPPED, what, "it is not in the scene any more; what changed it was left out",
+                            path_);
+        return {};
+    }
+
+    // Data that somebody else has: a thing of the base, a new one, or a file. Null: it is none of these.
+    template <class T, class Stand, class New>
+    auto shared(const json& j, const char* which, Stand&& stand_in, New& made) -> decltype(T{}.data) {
+        if (!j.is_object()) return nullptr;
+        if (j.contains("of")) {
+            const auto id = resolve<T>(j["of"], which);
+            const T* item = id ? table<T>(doc_.base.scene).find(*id) : nullptr;
+            return item && item->data ? item->data : stand_in();
+        }
+        if (j.contains("same_as")) {
+            const auto found =
+                j["same_as"].is_string() ? made.find(j["same_as"].template get<std::string>()) : made.end();
+            return found == made.end() ? stand_in() : found->second;
+        }
+        if (!j.contains("file") || !j["file"].is_string() || !j.contains(which)) return nullptr;
+        const std::string file = absolute(j["file"].template get<std::string>());
+        const Ref ref = parse_ref(j[which]).value_or(Ref{});
+        const std::string format =
+            j.contains("format") && j["format"].is_string() ? j["format"].template get<std::string>() : "";
+        auto [at, fresh] = imported_.try_emplace(file);
+        if (fresh) {
+            auto scene = read_scene(file, registry_, {.isolate = options_.isolate, .expose = false}, format);
+            if (scene) {
+                doc_.sources.note_all(scene->scene, file, format);
+                at->second = std::move(scene->scene);
+            } else {
+                doc_.report.add(RESTAGE_DROPPED, fs::path(file).filename().string(), scene.error().message, file);
+            }
+        }
+        const auto& items = table<T>(at->second);
+        const T* item = items.find({ref.number});
+        if (!item || item->name != ref.name) item = items.find(find_by_name<T>(at->second, ref.name));
+        if (item && item->data) return made[current_] = item->data;
+        // Something to see in its place; saved again, it refers to the same file as before.
+        const auto data = stand_in();
+        doc_.sources.note(data, {file, format, ref.number, ref.name});
+        doc_.report.add(RESTAGE_DROPPED, fmt::format("{} \"{}\"", kind_name<T>, ref.name),
+                        "it is not in " + file + "; something stands in for it", path_);
+        return made[current_] = data;
+    }
+
+    // --- things
+    // --------------------------------------------------------------------------------------------------------
+    template <class T>
+    void single(const json& j, const char* name, const T& before, json& unknown) {
+        const auto found = j.find(name);
+        if (found == j.end()) return;
+        where_ = name;
+        unknown_ = &unknown;
+        T after = before;
+        read(*found, after, name);
+        unknown_ = nullptr;
+        doc_.changes.changes.push_back(ChangeOne<T>{before, std::move(after)});
+    }
+
+    template <class T>
+    void read_things(const char* kind, const json& part, json& unknown) {
+        const auto& base = table<T>(doc_.base.scene);
+        const auto list = [&](const char* name) {
+            const auto found = part.is_object() ? part.find(name) : part.end();
+            return part.is_object() && found != part.end() ? *found : json();
+        };
+        std::set<std::uint32_t> done;
+        json below = json::object();
+        const auto keep_unknown = [&](const char* what, const std::string& key, json&& rest) {
+            if (rest.empty()) return;
+            below[what][key] = std::move(rest);
+            below[what][place_mark] = below[place_mark] = true;
+        };
+        where_ = kind;
+        for (const json& ref : list("removed"))
+            if (const auto id = resolve<T>(ref, "removed"); id && base.find(*id) && done.insert(id->value).second)
+                doc_.changes.changes.push_back(Change<T>{*id, base[*id], std::nullopt});
+        const json changed = list("changed"), added = list("added");
+        for (const auto& [key, members] : changed.items()) {
+            where_ = fmt::format("{}: {}", kind, key);
+            const auto id = resolve<T>(key, "changed");
+            if (!id || !base.find(*id) || !done.insert(id->value).second) continue;
+            T item = base[*id];
+            json rest = json::object();
+            current_ = key;
+            current_id_ = id->value;
+            read_members(*this, members, item, key.c_str(), rest);
+            keep_unknown("changed", key, std::move(rest));
+            doc_.changes.changes.push_back(Change<T>{*id, base[*id], std::move(item)});
+        }
+        Id<T> next = base.next();
+        for (const auto& [key, members] : added.items()) {
+            where_ = fmt::format("{}: {}", kind, key);
+            const auto ref = parse_ref(key);
+            if (!ref || ref->number != sizes_[kind_name<T>] + (next.value - base.size()))
+                return error("added", "new things are numbered one after the other behind those of the scene");
+            T item;
+            json rest = json::object();
+            const std::size_t lost_before = lost_.size();
+            current_ = key;
+            current_id_ = next.value;
+            read_members(*this, members, item, key.c_str(), rest);
+            keep_unknown("added", key, std::move(rest));
+            Change<T> change{next, std::nullopt, std::move(item)};
+            if constexpr (std::is_same_v<T, Instance>)
+                if (lost_.size() > lost_before && !change.after->mesh) change.after.reset(); // its mesh is lost
+            doc_.changes.changes.push_back(std::move(change));
+            ++next.value;
+        }
+        if (!below.empty()) unknown[kind] = std::move(below);
+    }
+
+    static Result<std::shared_ptr<const PixelData>> read_pixels(const Image& image) {
+        RESTAGE_TRY(PixelData pixels, io::read_image(image.path, image.encoding, image.gamma));
+        return std::make_shared<const PixelData>(std::move(pixels));
+    }
+
+    // Files of new and changed images, all cores at once.
+    void read_images() {
+        std::vector<Image*> work;
+        for (AnyChange& change : doc_.changes.changes)
+            if (auto* c = std::get_if<Change<Image>>(&change); c && c->after && from_file_.contains(c->id.value))
+                work.push_back(&*c->after);
+        std::vector<std::string> problems(work.size());
+        Jobs().parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t i = begin; i < end; ++i) {
+                auto pixels = options_.pixels ? options_.pixels(*work[i]) : read_pixels(*work[i]);
+                if (pixels)
+                    work[i]->data = std::move(*pixels);
+                else
+                    problems[i] = pixels.error().message;
+            }
+        });
+        for (std::size_t i = 0; i < work.size(); ++i)
+            if (!problems[i].empty())
+                doc_.report.add(RESTAGE_DROPPED, "image \"" + work[i]->name + "\"", problems[i], work[i]->path);
+    }
+
+    const std::string& path_;
+    const plugin::Registry& registry_;
+    const ReadOptions& options_;
+    Document doc_;
+    bool base_changed_ = false;
+    std::string current_;
+    std::uint32_t current_id_ = 0;
+    std::set<std::uint32_t> from_file_; // images
+    std::map<std::string, std::shared_ptr<const MeshData>> new_meshes_; // by reference
+    std::map<std::string, std::shared_ptr<const PixelData>> new_images_;
+    std::map<std::string, Scene> imported_; // files whose meshes and images are used
+};
+
+} // namespace
+
+Result<Document> read_project(const std::string& path, const plugin::Registry& registry, const ReadOptions& options) {
+    return Reader(path, registry, options).run();
+}
+
+Result<Document> read_project_text(const std::string& text, const std::string& name, const plugin::Registry& registry) {
+    return Reader(name, registry, {}).run(text);
+}
+
+} // namespace restage::document

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "document/session.hpp"
+
+#include "base/file.hpp"
+#include "document/project.hpp"
+#include "scene/bounds.hpp"
+#include "scene/validate.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace restage::document {
+
+using namespace scene;
+
+Result<> Session::open(const std::string& path, const ReadOptions& options) {
+    RESTAGE_TRY(Document document, read_document(path, registry_, options));
+    adopt(std::move(document));
+    return {};
+}
+
+namespace {
+
+template <class T>
+void touch(Table<T>& slots, Version version) {
+    for (std::uint32_t i = 1; i <= slots.size(); ++i) {
+        const T* item = slots.find({i});
+        slots.set({i}, item ? std::optional<T>(*item) : std::nullopt, version);
+    }
+}
+
+} // namespace
+
+void Session::take(Scene&& scene) {
+    // Whoever compares versions must not take a slot of the new scene for one of the old: all of them are changed now.
+    const Version now = std::max(scene.clock, scene_.clock) + 1;
+    scene_ = std::move(scene);
+    scene_.clock = now;
+    touch(scene_.meshes, now);
+    touch(scene_.images, now);
+    touch(scene_.textures, now);
+    touch(scene_.materials, now);
+    touch(scene_.media, now);
+    touch(scene_.groups, now);
+    touch(scene_.instances, now);
+    touch(scene_.lights, now);
+    touch(scene_.cameras, now);
+    scene_.environment.version = scene_.active_camera.version = scene_.film.version = scene_.settings.version = now;
+    history_ = {};
+}
+
+void Session::adopt(Scene scene, io::Report report, std::string path) {
+    take(std::move(scene));
+    report_ = std::move(report);
+    path_ = std::move(path);
+    base_ = {};
+    sources_ = {};
+    unknown_.clear();
+}
+
+void Session::adopt(Document document) {
+    Scene scene = document.base.scene;
+    apply(scene, document.changes);
+    take(std::move(scene));
+    report_ = std::move(document.report);
+    path_ = std::move(document.path);
+    base_ = std::move(document.base);
+    sources_ = std::move(document.sources);
+    unknown_ = std::move(document.unknown);
+}
+
+void Session::adopt_recovered(Document document) {
+    Edit changes = std::exchange(document.changes, {});
+    const auto saved = document.note.find("path");
+    document.path = saved != document.note.end() ? saved->second : "";
+    const bool from_base = document.path == document.base.file; // nothing of it was ever saved
+    adopt(std::move(document));
+    // Slots that stay empty are no change a history would keep, but the ids after them need them.
+    ++scene_.clock;
+    for (const AnyChange& change : changes.changes)
+        std::visit(
+            [&]<class C>(const C& c) {
+                if constexpr (requires { c.id; })
+                    if (!c.before)
+                        table<std::remove_cvref_t<decltype(*c.before)>>(scene_).set(c.id, std::nullopt, scene_.clock);
+            },
+            change);
+    changes.label = "Recovered changes";
+    history_.push(scene_, std::move(changes));
+    if (!from_base) history_.mark_unsaved();
+}
+
+Result<bool> Session::edit(Result<Edit> edit, std::string_view gesture) {
+    if (!edit) return tl::unexpected<Error>(std::move(edit.error()));
+    RESTAGE_CHECK(check_edit(*edit));
+    return history_.push(scene_, std::move(*edit), gesture);
+}
+
+Result<std::vector<Id<Instance>>> Session::duplicate(Instances ids, const glm::dmat4& move) {
+    RESTAGE_TRY(Duplicate made, duplicate_instances(scene_, ids, move));
+    RESTAGE_CHECK(edit(std::move(made.edit)));
+    return std::move(made.copies);
+}
+
+Result<bool> Session::remove(Instances ids) { return edit(remove_instances(scene_, ids)); }
+
+Result<bool> Session::move(Instances ids, const glm::dmat4& by, std::string_view gesture) {
+    return edit(move_instances(scene_, ids, by), gesture);
+}
+
+Result<bool> Session::set_material(Instances ids, Id<Material> material) {
+    return edit(scene::set_material(scene_, ids, material));
+}
+
+Result<bool> Session::set_param(Id<Material> id, std::string_view param, Value value, std::string_view gesture) {
+    return edit(param_edit(id, param, std::move(value)), gesture);
+}
+
+Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value value) const {
+    const Material* material = scene_.materials.find(id);
+    const auto plugin = material ? registry_.find_material(material->type) : std::nullopt;
+    const bool common = param == "bump" || param == "normalmap";
+    if (plugin && !common) {
+        const std::string who = "material \"" + material->name + "\": parameter \"" + std::string(param) + "\"";
+        const auto* begin = plugin->table->params;
+        const auto* end = begin + plugin->table->param_count;
+        const auto* line = std::find_if(begin, end, [&](const RestageParam& p) { return p.id == param; });
+        if (line == end) return fail(who + " is not one of a " + material->type);
+        if (static_cast<RestageType>(line->type) != value.type) return fail(who + " has another type");
+        if (value.type == RESTAGE_TABLE && !value.text.empty())
+            value.text = std::filesystem::absolute(value.text).lexically_normal().string();
+        if (value.texture && !(line->flags & RESTAGE_PARAM_TEXTURABLE) && line->type != RESTAGE_TEXTURE)
+            return fail(who + " takes no texture");
+        if (line->type == RESTAGE_ENUM && !choice_index(line->choices, value.text))
+            return fail(who + " cannot be \"" + value.text + "\"; " + line->choices + " are possible");
+        const int components = line->type == RESTAGE_COLOR                                ? 3
+                               : line->type == RESTAGE_FLOAT || line->type == RESTAGE_INT ? 1
+                                                                                          : 0;
+        for (int i = 0; i < components && !value.texture; ++i)
+            if (!(value.v[static_cast<std::size_t>(i)] >= line->min &&
+                  value.v[static_cast<std::size_t>(i)] <= line->max))
+                return fail(fmt::format("{}: {:f} is out of its range, {:f} to {:f}", who,
+                                        value.v[static_cast<std::size_t>(i)], line->min, line->max));
+    }
+    return scene::set_param(scene_, id, param, std::move(value));
+}
+
+Result<Id<Material>> Session::add_material(std::string name, std::string type) {
+    if (!registry_.find_material(type)) return fail("there is no material type \"" + type + "\"");
+    const Id<Material> id = scene_.materials.next();
+    const std::string label = "Add " + name;
+    RESTAGE_CHECK(edit(scene::insert(scene_, Material{.name = std::move(name), .type = std::move(type)}, label)));
+    return id;
+}
+
+Result<Merged> Session::insert_file(const std::string& path, const io::ImportOptions& options) {
+    RESTAGE_TRY(const io::ImportedScene imported, io::import_scene(path, registry_, options));
+    return insert(imported, path);
+}
+
+Result<Merged> Session::insert(const io::ImportedScene& imported, const std::string& file,
+                               const std::optional<Stand>& stand) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    Merged made = merge(scene_, imported.scene, path.stem().string());
+    if (made.instances.empty()) return fail(file + ": holds no objects");
+    if (stand) {
+        std::map<std::uint32_t, std::shared_ptr<const MeshData>> meshes;
+        for (const AnyChange& change : made.edit.changes)
+            if (const auto* c = std::get_if<Change<Mesh>>(&change); c && c->after) meshes[c->id.value] = c->after->data;
+        Bounds bounds;
+        for (const AnyChange& change : made.edit.changes)
+            if (const auto* c = std::get_if<Change<Instance>>(&change); c && c->after)
+                if (const auto mesh = meshes.find(c->after->mesh.value); mesh != meshes.end() && mesh->second)
+                    bounds.add(world_bounds(*mesh->second, c->after->object_to_world));
+        const glm::dvec3 lowest = bounds.center() - stand->up * (0.5 * std::abs(glm::dot(bounds.size(), stand->up)));
+        glm::dmat4 move(1);
+        if (!bounds.empty()) move[3] = glm::dvec4(stand->at - lowest, 1);
+        for (AnyChange& change : made.edit.changes) {
+            if (auto* i = std::get_if<Change<Instance>>(&change); i && i->after)
+                i->after->object_to_world = move * i->after->object_to_world;
+            if (auto* l = std::get_if<Change<Light>>(&change); l && l->after)
+                l->after->light_to_world = move * l->after->light_to_world;
+        }
+    }
+    // What the importer let through with a warning comes in with it.
+    RESTAGE_CHECK(check_edit(made.edit, Problem::Severity::error));
+    sources_.note_all(imported.scene, path.string(), imported.importer);
+    history_.push(scene_, made.edit);
+    for (const io::ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
+        if (entry.fate != RESTAGE_KEPT || (entry.what != "camera" && entry.what != "environment"))
+            report_.entries.push_back(entry);
+    return made;
+}
+
+Result<io::Report> Session::export_to(const std::string& path, const io::ExportOptions& options) const {
+    return io::export_scene(scene_, path, registry_, options);
+}
+
+Result<io::Report> Session::save_as(const std::string& path, const io::ExportOptions& options) {
+    RESTAGE_TRY(io::Report report, export_to(path, options));
+    path_ = path;
+    history_.mark_clean();
+    return report;
+}
+
+Result<> Session::save_project(const std::string& path) {
+    const std::filesystem::path place = std::filesystem::absolute(path).lexically_normal();
+    RESTAGE_CHECK(write_file_atomic(
+        place,
+        project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_}, place.parent_path())));
+    path_ = place.string();
+    history_.mark_clean();
+    return {};
+}
+
+std::string Session::recovery_text(const std::map<std::string, std::string>& note) const {
+    return project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_, .note = &note}, {});
+}
+
+} // namespace restage::document

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Session: one open document. It owns the scene, its history and the import report; everything a user can do to a scene
+// goes through it, from the editor, a script or the command line alike. The renderer looks at scene() and compares
+// versions; nothing here knows of it. [main]
+#pragma once
+
+#include "base/result.hpp"
+#include "document/document.hpp"
+#include "io/export.hpp"
+#include "io/import.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
+#include "scene/history.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace restage::document {
+
+class Session {
+  public:
+    explicit Session(const plugin::Registry& registry) : registry_(registry) {}
+
+    // A scene file or a project replaces what is open; when it fails, what is open stays.
+    Result<> open(const std::string& path, const ReadOptions& = {});
+    void adopt(Document); // read elsewhere
+    // A recovery file: what it holds beyond its base is one unsaved change, and the place it was saved at is its path.
+    void adopt_recovered(Document);
+    void adopt(scene::Scene, io::Report = {}, std::string path = {}); // a scene made in code
+
+    const scene::Scene& scene() const { return scene_; }
+    scene::Version version() const { return scene_.clock; } // grows with every change
+    const scene::History& history() const { return history_; }
+    const io::Report& report() const { return report_; } // of the import
+    const std::string& path() const { return path_; } // of the file that was opened or saved; "" = none
+    const DataSources& sources() const { return sources_; } // of geometry and pixels that other files hold
+    const Base& base() const { return base_; } // what projects hold the changes against
+    bool modified() const { return !history_.clean(); }
+    const plugin::Registry& registry() const { return registry_; }
+
+    template <class T>
+    scene::Id<T> find(std::string_view name) const {
+        return scene::find_by_name<T>(scene_, name);
+    }
+
+    // The one way to change the scene. True = it changed. `gesture`: see scene::History. Refused: what the builders of
+    // scene/edits.hpp refuse, and values that scene::check_edit does not let in.
+    Result<bool> edit(Result<scene::Edit>, std::string_view gesture = {});
+    void end_gesture() { history_.end_gesture(); }
+    bool cancel_gesture() { return history_.cancel_gesture(scene_); } // see scene::History
+    bool undo() { return history_.undo(scene_); }
+    bool redo() { return history_.redo(scene_); }
+
+    // The commonest edits in one word.
+    using Instances = std::span<const scene::Id<scene::Instance>>;
+    Result<std::vector<scene::Id<scene::Instance>>> duplicate(Instances, const glm::dmat4& move);
+    Result<bool> remove(Instances);
+    Result<bool> move(Instances, const glm::dmat4& by, std::string_view gesture = {}); // world space
+    Result<bool> set_material(Instances, scene::Id<scene::Material>);
+    // The value is held to the table of the material's plugin: type, range, choices. Unknown ids are refused; a
+    // material whose plugin is missing takes any.
+    Result<bool> set_param(scene::Id<scene::Material>, std::string_view param, scene::Value,
+                           std::string_view gesture = {});
+    // The same, not applied yet.
+    Result<scene::Edit> param_edit(scene::Id<scene::Material>, std::string_view param, scene::Value) const;
+    Result<scene::Id<scene::Material>> add_material(std::string name, std::string type);
+    // The objects of another file become new objects here, as one step of the history; what became of them is added to
+    // the report. `stand`: the middle of their underside is put there.
+    struct Stand {
+        glm::dvec3 at, up;
+    };
+    Result<scene::Merged> insert_file(const std::string& path, const io::ImportOptions& = {});
+    Result<scene::Merged> insert(const io::ImportedScene&, const std::string& file,
+                                 const std::optional<Stand>& stand = {}); // read elsewhere
+
+    // Writes a copy; the document stays what and where it is.
+    Result<io::Report> export_to(const std::string& path, const io::ExportOptions& = {}) const;
+    // Writes it and remembers the place: the document is unmodified afterwards.
+    Result<io::Report> save_as(const std::string& path, const io::ExportOptions& = {});
+    // The same as a project (project.hpp): its base by reference and the changes. The history goes on.
+    Result<> save_project(const std::string& path);
+    // The text of a project; paths in it are absolute. `note`: see recovery.hpp.
+    std::string recovery_text(const std::map<std::string, std::string>& note) const;
+
+  private:
+    void take(scene::Scene&&);
+
+    const plugin::Registry& registry_;
+    scene::Scene scene_;
+    scene::History history_;
+    io::Report report_;
+    std::string path_;
+    Base base_;
+    DataSources sources_;
+    std::string unknown_; // of a project a newer program wrote
+};
+
+} // namespace restage::document

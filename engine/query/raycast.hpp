@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Raycast: what a ray meets, straight from the scene and in double precision; for picking, dropping and sticking
+// things, not for pictures. Without an acceleration structure over triangles: boxes of instances first, then their
+// triangles, a few ms for a million of them.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace restage::query {
+
+struct RayHit {
+    scene::Id<scene::Instance> instance;
+    double t = 0; // in units of the direction's length
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0}; // geometric, unit, world space, towards the ray's origin
+};
+
+// Every instance the ray meets with t > 0, nearest first, each at its first hit. Hidden ones are left out, and those
+// that `skip` names.
+std::vector<RayHit> raycast_all(const scene::Scene&, const glm::dvec3& origin, const glm::dvec3& direction,
+                                const std::function<bool(scene::Id<scene::Instance>)>& skip = {});
+
+} // namespace restage::query

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/display.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace restage::view {
+
+namespace {
+
+constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+    return r | g << 8 | b << 16 | 0xff000000u;
+}
+
+// 8-bit values by the upper 16 bits of a float, so that no power is computed a pixel: 7 bits of mantissa are finer than
+// 8 bits of sRGB need below 1 in all but the darkest steps.
+class Curve {
+  public:
+    explicit Curve(ToneCurve tone) : table_(0x8000) {
+        for (std::uint32_t i = 0; i < table_.size(); ++i) {
+            const float x = std::bit_cast<float>(i << 16 | 0x8000u);
+            table_[i] = std::isnan(x) ? 0 : encode(tone == ToneCurve::filmic ? filmic(x) : x);
+        }
+    }
+    std::uint32_t operator()(float x) const { return x > 0 ? table_[std::bit_cast<std::uint32_t>(x) >> 16] : 0; }
+
+  private:
+    static float filmic(float x) {
+        if (!std::isfinite(x)) return 1;
+        return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+    }
+    static std::uint8_t encode(float x) { // IEC 61966-2-1
+        x = std::clamp(x, 0.f, 1.f);
+        const float y = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+        return std::uint8_t(std::lround(y * 255));
+    }
+    std::vector<std::uint8_t> table_;
+};
+
+const Curve& curve(ToneCurve tone) {
+    static const Curve clipped(ToneCurve::srgb), soft(ToneCurve::filmic);
+    return tone == ToneCurve::filmic ? soft : clipped;
+}
+
+// A colour a number, the same each time; 0 is black.
+std::uint32_t id_color(std::uint32_t id) {
+    if (id == 0) return pack(0, 0, 0);
+    const std::uint32_t h = id * 2654435761u; // Knuth's multiplicative hash
+    return pack(64 + (h >> 24) * 3 / 4, 64 + (h >> 16 & 255) * 3 / 4, 64 + (h >> 8 & 255) * 3 / 4);
+}
+
+// Black, blue, red, yellow, white for 0..1.
+std::uint32_t heat(float x) {
+    static constexpr std::array<glm::vec3, 5> stops{
+        glm::vec3(0), glm::vec3(0.1f, 0.1f, 0.6f), glm::vec3(0.8f, 0.1f, 0.2f), glm::vec3(1, 0.8f, 0.1f), glm::vec3(1)};
+    const float s = std::clamp(x, 0.f, 1.f) * 4;
+    const auto i = std::min(std::size_t(s), std::size_t(3));
+    const glm::vec3 c = glm::mix(stops[i], stops[i + 1], s - float(i)) * 255.f;
+    return pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
+}
+
+} // namespace
+
+void to_display(const render::FilmImage& image, const DisplaySettings& settings, std::vector<std::uint32_t>& rgba) {
+    const std::size_t n = std::size_t(image.width) * image.height;
+    rgba.resize(n);
+    const Curve& tone = curve(settings.tone);
+    const Curve& plain = curve(ToneCurve::srgb);
+    switch (settings.layer) {
+        case Layer::color: {
+            const float scale = settings.scale * std::exp2(settings.exposure);
+            for (std::size_t i = 0; i < n; ++i) {
+                const glm::vec3 c = image.color[i] * scale;
+                rgba[i] = pack(tone(c.x), tone(c.y), tone(c.z));
+            }
+            return;
+        }
+        case Layer::albedo:
+            for (std::size_t i = 0; i < n; ++i)
+                rgba[i] = pack(plain(image.albedo[i].x), plain(image.albedo[i].y), plain(image.albedo[i].z));
+            return;
+        case Layer::normal:
+            for (std::size_t i = 0; i < n; ++i) {
+                const glm::vec3 c = glm::clamp(image.normal[i] * 0.5f + 0.5f, 0.f, 1.f) * 255.f;
+                rgba[i] = pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
+            }
+            return;
+        case Layer::depth: {
+            float farthest = 0;
+            for (const float z : image.depth)
+                if (std::isfinite(z)) farthest = std::max(farthest, z);
+            for (std::size_t i = 0; i < n; ++i) // near is bright
+                rgba[i] =
+                    image.depth[i] > 0 ? heat(1 - image.depth[i] / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
+            return;
+        }
+        case Layer::instance:
+        case Layer::material: {
+            const auto& ids = settings.layer == Layer::instance ? image.instance_id : image.material_id;
+            for (std::size_t i = 0; i < n; ++i)
+                rgba[i] = id_color(ids[i]);
+            return;
+        }
+        case Layer::error: // relative standard error of luminance, logarithmic from 1e-3 to 1
+            for (std::size_t i = 0; i < n; ++i) {
+                const float mean = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f));
+                const float error = std::sqrt(std::max(image.luminance_variance[i], 0.f)) / (std::abs(mean) + 0.01f);
+                rgba[i] = heat(std::log10(std::max(error, 1e-3f)) / 3 + 1);
+            }
+            return;
+    }
+}
+
+bool to_outlines(const render::FilmImage& image, std::span<const std::uint8_t> marks, int width,
+                 std::array<std::uint32_t, 2> colors, std::vector<std::uint32_t>& rgba) {
+    const int w = int(image.width), h = int(image.height), stride = w + 2 * width;
+    rgba.clear();
+    // With a margin, so that neighbours need no bounds.
+    std::vector<std::uint8_t> own(std::size_t(stride) * (h + 2 * width), 0);
+    bool any = false;
+    for (int y = 0; y < h; ++y) {
+        const std::uint32_t* ids = image.instance_id.data() + std::size_t(y) * w;
+        std::uint8_t* row = own.data() + std::size_t(y + width) * stride + width;
+        for (int x = 0; x < w; ++x) {
+            row[x] = ids[x] < marks.size() ? marks[ids[x]] : 0;
+            any |= row[x] != 0;
+        }
+    }
+    if (!any) return false;
+    rgba.resize(std::size_t(w) * h);
+    const std::uint32_t ring[3] = {0, colors[0], colors[1]};
+    std::vector<std::uint8_t> near(std::size_t(w), 0);
+    for (int y = 0; y < h; ++y) {
+        const std::uint8_t* row = own.data() + std::size_t(y + width) * stride + width;
+        std::ranges::fill(near, std::uint8_t(0));
+        for (int d = 1; d <= width; ++d)
+            for (int x = 0; x < w; ++x)
+                near[x] = std::max({near[x], row[x - d], row[x + d], row[x - d * stride], row[x + d * stride]});
+        for (int x = 0; x < w; ++x)
+            rgba[std::size_t(y) * w + x] = near[x] > row[x] ? ring[near[x]] : 0;
+    }
+    return true;
+}
+
+} // namespace restage::view

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Display: a frame becomes 8-bit pixels for the eye: exposure and a tone curve for the picture, a false colour for the
+// guides. Nothing here changes what was rendered.
+#pragma once
+
+#include "render/film.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace restage::view {
+
+enum class ToneCurve {
+    srgb,   // clipped: what a saved PNG holds
+    filmic, // soft highlights: ACES fitted curve (Narkowicz 2016), a channel at a time
+};
+
+enum class Layer { color, albedo, normal, depth, instance, material, error };
+
+struct DisplaySettings {
+    Layer layer = Layer::color;
+    ToneCurve tone = ToneCurve::srgb;
+    float exposure = 0; // [stops]
+    float scale = 1;    // of the scene's film
+};
+
+// width * height RGBA, row 0 on top. 1280x720 takes some 5 ms on one thread. [any]
+void to_display(const render::FilmImage&, const DisplaySettings&, std::vector<std::uint32_t>& rgba);
+
+// Rings, `width` pixels thick, around what is marked: marks[instance id] is 0 (not; ids beyond the end too), 1 or 2
+// (wins over 1), colors[mark - 1] the ring's RGBA; else 0. False, and `rgba` empty: nothing marked is seen. [any]
+bool to_outlines(const render::FilmImage&, std::span<const std::uint8_t> marks, int width,
+                 std::array<std::uint32_t, 2> colors, std::vector<std::uint32_t>& rgba);
+
+} // namespace restage::view

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/live_view.hpp"
+
+#include "base/thread_priority.hpp"
+#include "view/pictures.hpp"
+#include "view/view_denoiser.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace restage::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr double coarse_budget = 0.05;   // for the first picture after a change [s]
+constexpr double coarse_pixels = 3000;   // at least: denoised, smaller pictures of a sample a pixel are dark blots
+constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
+constexpr double compile_patience = 0.15; // a document's first picture gives way to a newer request after so long [s]
+constexpr double clay_pixels = 200e3;     // some 30 ms on two cores
+constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 6, 8, 12, 16}; // each halved (rounded down) is another, or 1
+
+struct Request {
+    scene::Scene scene;
+    ViewOptions options;
+    std::uint64_t number = 0;
+    Clock::time_point time;
+    std::optional<scene::Film> film; // of the scene as it came, without what is done with a finished picture
+};
+
+} // namespace
+
+struct LiveView::Impl {
+    const plugin::Registry& registry;
+    Log& log;
+    std::function<void()> on_news;
+
+    mutable std::mutex mutex;
+    std::condition_variable wake_render;
+    bool stop = false;
+    std::optional<Request> mail; // the newest request, not yet taken
+    std::optional<render::RendererOptions> new_options;
+    std::uint64_t last_number = 0; // given out
+    bool taking = false; // a request was taken from `mail`, and is not yet known to show something else
+    std::uint64_t visible = 0; // the newest request that shows something else than the one before
+    Pictures pictures;
+    ViewStatus now;
+
+    std::thread render_thread;
+    std::optional<ViewDenoiser> denoiser;
+
+    Impl(const plugin::Registry& r, Log& l, render::RendererOptions options, std::function<void()> news)
+        : registry(r), log(l), on_news(std::move(news)), new_options(std::move(options)) {
+        denoiser.emplace(registry, ViewDenoiser::Host{
+                                       // A coarse picture is worth finishing; a fine one is given up when the scene has
+                                       // changed.
+                                       .wanted =
+                                           [this](const Frame& frame) {
+                                               const std::lock_guard lock(mutex);
+                                               return !stop && (frame.divider > 1 || visible == frame.request);
+                                           },
+                                       .done =
+                                           [this](auto frame) {
+                                               put(std::move(frame));
+                                               on_news();
+                                           },
+                                       .says = [this](const std::string& problem) { denoiser_says(problem); }});
+        render_thread = std::thread([this] { render_loop(); });
+    }
+
+    ~Impl() {
+        {
+            std::lock_guard lock(mutex);
+            stop = true;
+        }
+        wake_render.notify_all();
+        render_thread.join();
+        denoiser.reset();
+    }
+
+    void set_state(ViewState state, std::string text = {}) {
+        {
+            std::lock_guard lock(mutex);
+            now.state = state;
+            now.text = std::move(text);
+        }
+        on_news();
+    }
+    void failed(const Error& error) {
+        log.error(error.message);
+        set_state(ViewState::failed, error.message);
+    }
+
+    // --- the render thread
+    // ---------------------------------------------------------------------------------------------
+
+    struct Work { // what the render thread is at
+        std::unique_ptr<render::Renderer> renderer;
+        std::optional<Request> request;
+        scene::Version film_version = std::uint64_t(1) << 62; // of the films of other resolutions
+        std::uint64_t document = 0, variant = 0;
+        bool pictured = false; // a picture of this document was made; until then: clay
+        bool compiling = false; // as the last pass saw it
+        std::optional<scene::Film> film; // the scene's own
+        std::uint64_t shown = 0; // number of the request the film is of; 0 = none
+        glm::uvec2 size{0}; // of the full picture
+        std::uint32_t divider = 1;
+        double rate = 0; // pixels times samples a second
+        bool finished = false; // nothing to do until something new comes
+        Clock::time_point last_publish;
+        std::uint32_t published_samples = 0;
+    };
+
+    void render_loop() {
+        lower_thread_priority(5);
+        Work work;
+        for (;;) {
+            {
+                std::unique_lock lock(mutex);
+                wake_render.wait(lock, [&] { return stop || mail || new_options || (work.request && !work.finished); });
+                if (stop) return;
+                if (new_options) {
+                    auto options = std::move(*new_options);
+                    new_options.reset();
+                    lock.unlock();
+                    open(work, std::move(options));
+                    continue;
+                }
+                if (mail) {
+                    work.request = std::move(mail);
+                    mail.reset();
+                    taking = true;
+                    lock.unlock();
+                    begin(work);
+                    lock.lock();
+                    taking = false;
+                    continue;
+                }
+            }
+            advance(work);
+        }
+    }
+
+    void open(Work& work, render::RendererOptions options) {
+        set_state(ViewState::starting);
+        work.renderer.reset();
+        options.stand_ins = true; // never wait for a compiler
+        auto made = render::Renderer::create(options, render::material_lookup(registry), log);
+        work.shown = 0;
+        if (!made) return failed(made.error());
+        work.renderer = std::move(*made);
+        {
+            std::lock_guard lock(mutex);
+            now.device = work.renderer->device().info().name;
+            now.tracer = work.renderer->tracer_name();
+        }
+        work.rate = 0;
+        if (work.request) begin(work);
+    }
+
+    // A new request: the first, coarse picture; or, when nothing that shows has changed (a name, say), the same one
+    // goes on.
+    void begin(Work& work) {
+        work.finished = true; // until the scene is ready
+        if (!work.renderer) return;
+        Request& request = *work.request;
+        const glm::uvec2 size = glm::max(request.options.size, glm::uvec2(1));
+        const bool another_document = work.document != request.options.document;
+        const bool another_scene = another_document || work.variant != request.options.variant;
+        if (!another_scene && work.size == size && work.shown) {
+            const std::uint32_t before = work.renderer->samples();
+            if (!sync(work)) return;
+            if (before > 0 && work.renderer->samples() == before) {
+                request.number = work.shown;
+                work.finished = work.divider == 1 && target_met(work);
+                return;
+            }
+        }
+        work.size = size;
+        work.shown = request.number;
+        {
+            std::lock_guard lock(mutex);
+            visible = request.number;
+        }
+        work.divider = 1;
+        const double pixels = double(size.x) * size.y;
+        const double rate = work.rate > 0 ? work.rate : 1e5; // not known yet: be careful
+        for (const std::uint32_t d : dividers) {
+            if (d > 1 && pixels / (d * d) < coarse_pixels) break;
+            work.divider = d;
+            if (pixels / (d * d) <= rate * coarse_budget) break;
+        }
+        if (another_document) work.pictured = false;
+        if (another_scene) {
+            work.document = request.options.document;
+            work.variant = request.options.variant;
+            work.renderer->forget_scene();
+            set_state(ViewState::preparing);
+        }
+        if (!prepare(work)) return;
+        if (!work.pictured) show_clay(work);
+        pass(work, true);
+    }
+
+    // What stands where, at once; nobody waits for it where it cannot be had.
+    void show_clay(Work& work) {
+        const double pixels = double(work.size.x) * work.size.y;
+        std::uint32_t divider = 1;
+        while (pixels / (divider * divider) > clay_pixels)
+            ++divider;
+        auto image = work.renderer->clay(glm::max(work.size / divider, glm::uvec2(1)));
+        if (!image) return log.debug("no preview: " + image.error().message);
+        auto frame = std::make_shared<Frame>();
+        frame->image = std::move(*image);
+        frame->request = work.request->number;
+        frame->document = work.document;
+        frame->divider = divider;
+        frame->clay = true;
+        frame->seconds = seconds_since(work.request->time);
+        put(std::move(frame));
+        on_news();
+    }
+
+    // The next step of the same request: refine, or gather samples.
+    void advance(Work& work) {
+        if (!work.pictured && work.compiling) { // clay is shown: leave the processors to the compiler
+            {
+                std::unique_lock lock(mutex);
+                wake_render.wait_for(lock, std::chrono::milliseconds(20), [&] { return stop || mail || new_options; });
+                if (stop || mail || new_options) return;
+            }
+            return pass(work, true);
+        }
+        if (work.divider > 1) {
+            work.divider /= 2;
+            if (!prepare(work)) return;
+        }
+        pass(work, false);
+    }
+
+    bool prepare(Work& work) {
+        ++work.film_version;
+        if (!sync(work)) return false;
+        work.finished = false;
+        work.published_samples = 0;
+        return true;
+    }
+
+    bool sync(Work& work) {
+        scene::Scene& scene = work.request->scene;
+        const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
+        scene::Film& film = scene.film.value;
+        if (!work.request->film) {
+            work.request->film = film;
+            work.request->film->exposure = 1;
+            work.request->film->filename.clear();
+        }
+        if (std::exchange(work.film, work.request->film) != work.request->film) ++work.film_version;
+        film.width = size.x;
+        film.height = size.y;
+        film.crop = {0, 1, 0, 1};
+        scene.film.version = work.film_version;
+        auto ready = work.renderer->sync(scene);
+        if (!ready && work.renderer->lost()) ready = revive(work);
+        if (!ready) give_up(work, ready.error());
+        return bool(ready);
+    }
+
+    // The driver has stopped: once more, from the scene.
+    Result<void> revive(Work& work) {
+        set_state(ViewState::starting);
+        auto revived = work.renderer->revive(work.request->scene);
+        if (!revived) work.renderer.reset(); // until somebody chooses another device
+        return revived;
+    }
+
+    void give_up(Work& work, const Error& error) {
+        work.finished = true;
+        work.shown = 0;
+        failed(error);
+    }
+
+    bool target_met(const Work& work) const {
+        const ViewOptions& o = work.request->options;
+        return o.paused || (o.samples && work.renderer->samples() >= o.samples) ||
+               (o.seconds > 0 && seconds_since(work.request->time) >= o.seconds) ||
+               (o.error > 0 && work.renderer->samples() >= 8 && work.renderer->relative_error() <= o.error);
+    }
+
+    // One sample a pixel. The first pass of a request is always finished, so that something shows however fast the
+    // requests come.
+    void pass(Work& work, bool first) {
+        render::Renderer& renderer = *work.renderer;
+        const auto start = Clock::now();
+        const std::uint32_t before = renderer.samples();
+        bool stopped = false;
+        double said = 0; // [s]
+        auto traced = renderer.trace(1, [&] {
+            const double now_at = seconds_since(start);
+            const auto compiling = !work.pictured && now_at > said + 0.1 ? renderer.compiling() : std::nullopt;
+            {
+                std::lock_guard lock(mutex);
+                stopped = stop || ((mail || new_options) && (!first || (!work.pictured && now_at > compile_patience)));
+                if (compiling) say(*compiling);
+            }
+            if (compiling) {
+                said = now_at;
+                on_news();
+            }
+            return !stopped;
+        });
+        if (!traced && renderer.lost()) {
+            if (traced = revive(work); traced) {
+                work.published_samples = 0;
+                return;
+            }
+        }
+        if (!traced) return give_up(work, traced.error());
+        if (stopped) return; // what is new comes next
+        if (renderer.samples() <= before) work.published_samples = 0; // something compiled: the film started again
+        const double took = seconds_since(start);
+        const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
+        const double rate = double(size.x) * size.y / std::max(took, 1e-6);
+        // The first pass of new code is slow, and nothing to judge by: one fast pass counts at once, a slow one slowly.
+        work.rate = work.rate <= 0 ? rate : std::max(rate, work.rate) * 0.3 + std::min(rate, work.rate) * 0.7;
+        const auto compiling = renderer.compiling();
+        work.compiling = bool(compiling);
+        if (!compiling && !work.pictured) {
+            work.pictured = true;
+            renderer.forget_clay();
+        }
+        work.finished = work.divider == 1 && !compiling && target_met(work);
+        const bool doubled = renderer.samples() >= 2 * work.published_samples;
+        if (work.pictured &&
+            (work.finished || work.published_samples == 0 ||
+             (seconds_since(work.last_publish) > publish_interval && (doubled || renderer.samples() < 64)) ||
+             seconds_since(work.last_publish) > 10 * publish_interval))
+            publish(work);
+        {
+            std::lock_guard lock(mutex);
+            now.state = work.finished ? ViewState::done : ViewState::rendering;
+            now.samples = renderer.samples();
+            now.divider = work.divider;
+            now.samples_per_second = work.rate;
+            now.gpu_bytes = renderer.gpu_scene().bytes();
+            now.not_finite = renderer.stats().not_finite;
+            say(compiling.value_or(render::CompileProgress{}));
+        }
+        on_news();
+    }
+
+    void say(const render::CompileProgress& compiling) { // locked
+        now.compiling = compiling.what;
+        now.compiling_left = compiling.left;
+    }
+
+    void publish(Work& work) {
+        auto frame = std::make_shared<Frame>();
+        frame->image = work.renderer->image();
+        frame->request = work.request->number;
+        frame->document = work.document;
+        frame->divider = work.divider;
+        frame->seconds = seconds_since(work.request->time);
+        frame->relative_error = work.renderer->relative_error();
+        const std::uint32_t samples = work.renderer->samples();
+        // Denoise at powers of two, and the last one.
+        const bool denoise = work.request->options.denoise &&
+                             (std::bit_floor(samples) > std::bit_floor(work.published_samples) || work.finished);
+        work.published_samples = samples;
+        work.last_publish = Clock::now();
+        put(frame);
+        if (denoise) denoiser->add(std::move(frame));
+    }
+
+    void put(std::shared_ptr<const Frame> frame) { // [any]
+        std::lock_guard lock(mutex);
+        pictures.put(std::move(frame));
+    }
+
+    void denoiser_says(const std::string& problem) { // [any]
+        {
+            std::lock_guard lock(mutex);
+            if (pictures.denoiser_missing() == problem) return;
+            pictures.denoiser(problem);
+        }
+        if (!problem.empty()) log.debug("pictures stay noisy: " + problem); // the toolbar says it
+        on_news();
+    }
+};
+
+LiveView::LiveView(const plugin::Registry& registry, Log& log, render::RendererOptions options,
+                   std::function<void()> on_news)
+    : impl_(std::make_unique<Impl>(registry, log, std::move(options), std::move(on_news))) {}
+
+LiveView::~LiveView() = default;
+
+std::uint64_t LiveView::show(scene::Scene scene, const ViewOptions& options) {
+    std::uint64_t number = 0;
+    {
+        std::lock_guard lock(impl_->mutex);
+        number = ++impl_->last_number;
+        impl_->pictures.ask(options.document, options.denoise);
+        impl_->mail = Request{std::move(scene), options, number, Clock::now()};
+    }
+    impl_->wake_render.notify_one();
+    return number;
+}
+
+void LiveView::configure(render::RendererOptions options) {
+    {
+        std::lock_guard lock(impl_->mutex);
+        impl_->new_options = std::move(options);
+    }
+    impl_->wake_render.notify_one();
+}
+
+void LiveView::denoise_by(const std::string& name) { impl_->denoiser->choose(name); }
+
+std::shared_ptr<const Frame> LiveView::frame() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->pictures.raw();
+}
+
+std::shared_ptr<const Frame> LiveView::denoised() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->pictures.clean();
+}
+
+std::shared_ptr<const Frame> LiveView::best(bool want_denoised) const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->pictures.best(want_denoised);
+}
+
+ViewStatus LiveView::status() const {
+    std::lock_guard lock(impl_->mutex);
+    ViewStatus status = impl_->now;
+    const auto& raw = impl_->pictures.raw();
+    status.current = !impl_->mail && !impl_->new_options && !impl_->taking && raw && raw->request == impl_->visible;
+    return status;
+}
+
+std::string LiveView::denoiser_missing() const {
+    std::lock_guard lock(impl_->mutex);
+    return impl_->pictures.denoiser_missing();
+}
+
+} // namespace restage::view

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/view_denoiser.hpp"
+
+#include "base/thread_priority.hpp"
+#include "render/denoise.hpp"
+
+#include <utility>
+
+namespace restage::view {
+
+ViewDenoiser::ViewDenoiser(const plugin::Registry& registry, Host host) : registry_(registry), host_(std::move(host)) {
+    thread_ = std::thread([this] { run(); });
+}
+
+ViewDenoiser::~ViewDenoiser() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+// The newest, but a coarse one of the same request goes before the full one: it is there in a quarter of the time.
+void ViewDenoiser::add(std::shared_ptr<const Frame> frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!queue_.empty() && queue_.back()->request != frame->request) queue_.clear();
+        if (!queue_.empty() && (queue_.back()->divider == 1 || frame->divider > 1)) queue_.pop_back();
+        last_ = frame;
+        queue_.push_back(std::move(frame));
+    }
+    wake_.notify_one();
+}
+
+void ViewDenoiser::choose(std::string name) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (name == name_) return;
+        name_ = std::move(name);
+        chosen_ = false;
+        if (last_ && queue_.empty()) queue_.push_back(last_);
+    }
+    wake_.notify_one();
+}
+
+// False: there is none of that name, or none that can be used; it has been said.
+bool ViewDenoiser::choose_again(std::optional<plugin::DenoiserEntry>& chosen) {
+    std::string name;
+    {
+        const std::lock_guard lock(mutex_);
+        if (std::exchange(chosen_, true)) return chosen.has_value();
+        name = name_;
+    }
+    auto found = render::choose_denoiser(registry_, name);
+    chosen = found ? std::optional(*found) : std::nullopt;
+    host_.says(found ? "" : found.error().message);
+    return chosen.has_value();
+}
+
+void ViewDenoiser::run() {
+    lower_thread_priority(3); // before rendering (5): what is shown comes from here
+    std::optional<plugin::DenoiserEntry> denoiser;
+    for (;;) {
+        const bool able = choose_again(denoiser);
+        std::shared_ptr<const Frame> source;
+        {
+            std::unique_lock lock(mutex_);
+            wake_.wait(lock, [&] { return stop_ || !queue_.empty() || !chosen_; });
+            if (stop_) return;
+            if (!chosen_) continue;
+            source = std::move(queue_.front());
+            queue_.pop_front();
+        }
+        if (!able) continue;
+        bool given_up = false;
+        const auto keep_going = [&](double) {
+            {
+                const std::lock_guard lock(mutex_);
+                given_up = stop_;
+            }
+            given_up = given_up || !host_.wanted(*source);
+            return !given_up;
+        };
+        auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
+        if (!color && given_up) continue;
+        host_.says(color ? "" : color.error().message); // where it failed, pictures are shown as they are
+        if (!color) continue;
+        auto frame = std::make_shared<Frame>(*source);
+        frame->image.color = std::move(*color);
+        frame->denoised = true;
+        frame->denoiser = denoiser->table->type;
+        host_.done(std::move(frame));
+    }
+}
+
+} // namespace restage::view

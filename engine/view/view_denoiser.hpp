@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// ViewDenoiser: denoises the pictures of a LiveView on a thread of its own, the newest first. [any]
+#pragma once
+
+#include "plugin/registry.hpp"
+#include "view/live_view.hpp"
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace restage::view {
+
+class ViewDenoiser {
+  public:
+    struct Host { // all called from the thread
+        std::function<bool(const Frame&)> wanted; // false: it may be given up
+        std::function<void(std::shared_ptr<const Frame>)> done;
+        std::function<void(const std::string& problem)> says; // why pictures are not denoised; "" = they are
+    };
+    ViewDenoiser(const plugin::Registry& registry, Host host);
+    ~ViewDenoiser(); // stops within some 50 ms
+
+    void add(std::shared_ptr<const Frame> frame);
+    // By this one from now on, the last picture too; see render::choose_denoiser.
+    void choose(std::string name);
+
+  private:
+    void run();
+    bool choose_again(std::optional<plugin::DenoiserEntry>& chosen);
+
+    const plugin::Registry& registry_;
+    Host host_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stop_ = false;
+    std::deque<std::shared_ptr<const Frame>> queue_; // at most a coarse one and the full one
+    std::shared_ptr<const Frame> last_; // that was added
+    std::string name_;
+    bool chosen_ = false; // the thread knows of `name_`
+    std::thread thread_;
+};
+
+} // namespace restage::view
