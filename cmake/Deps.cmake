@@ -105,8 +105,6 @@ restage_find_package(OpenEXR CONFIG)
 restage_dep(openexr OpenEXR::OpenEXR)
 restage_find_package(ZLIB)
 restage_dep(zlib ZLIB::ZLIB)
-# Debian's OpenSubdivConfig.cmake names programs its packages do not hold, so it cannot be used.
-restage_dep_headers(opensubdiv opensubdiv/far/topologyRefiner.h LIBRARY osdCPU)
 find_package(TinyGLTF CONFIG QUIET)
 if(TARGET TinyGLTF::TinyGLTF)
     restage_dep(tinygltf TinyGLTF::TinyGLTF)
@@ -118,7 +116,6 @@ restage_find_package(JPEG) # libjpeg-turbo
 restage_dep(jpeg JPEG::JPEG)
 restage_dep_headers(webp webp/decode.h LIBRARY webp)
 restage_dep_headers(stb stb_image.h SUFFIXES stb) # headers; whoever needs the code defines STB_..._IMPLEMENTATION once
-restage_dep_headers(ply rply.h LIBRARY rply)
 
 # --- program and tests ------------------------------------------------------------------------------------------------------
 # CLI11 is header-only; compiled once here it costs each file that includes it 2 s instead of 8.
@@ -135,8 +132,6 @@ target_compile_definitions(dep_cli11 PUBLIC CLI11_COMPILE)
 add_library(dep::cli11 ALIAS dep_cli11)
 restage_find_package(fmt CONFIG)
 restage_dep(fmt fmt::fmt)
-restage_find_package(spdlog CONFIG)
-restage_dep(spdlog spdlog::spdlog)
 restage_find_package(glfw3 CONFIG)
 restage_dep(glfw glfw)
 target_compile_definitions(dep_glfw INTERFACE GLFW_INCLUDE_NONE)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Dear ImGui (docking) with its GLFW and Vulkan backends, test engine, ImGuizmo, ImPlot and portable-file-dialogs, compiled
-# from the sources in RESTAGE_DEPS_DIR, or taken from vcpkg. None of it is built unless a target links it.
+# Dear ImGui (docking) with its GLFW and Vulkan backends, test engine, ImGuizmo and ImPlot, compiled from the
+# sources in RESTAGE_DEPS_DIR, or taken from vcpkg. None of it is built unless a target links it.
 set(bundle "${RESTAGE_DEPS_DIR}/imgui-bundle/external")
 if(NOT EXISTS "${bundle}/imgui/imgui/imgui.h")
     restage_find_package(imgui CONFIG) # vcpkg's; the sources are what tools/setup unpacks
@@ -50,8 +50,3 @@ if(RESTAGE_BUILD_TESTS) # a wheel has no use for it
     # Dear ImGui calls the engine's hooks and the engine calls Dear ImGui: one links with the other.
     target_link_libraries(dep_imgui PUBLIC dep_imgui_test_engine)
 endif()
-
-add_library(dep_portable_file_dialogs INTERFACE)
-target_include_directories(dep_portable_file_dialogs SYSTEM INTERFACE 
-    "${bundle}/portable_file_dialogs/portable_file_dialogs")
-add_library(dep::portable_file_dialogs ALIAS dep_portable_file_dialogs)
