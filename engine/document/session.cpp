@@ -21,32 +21,20 @@ Result<> Session::open(const std::string& path, const ReadOptions& options) {
     return {};
 }
 
-namespace {
-
-template <class T>
-void touch(Table<T>& slots, Version version) {
-    for (std::uint32_t i = 1; i <= slots.size(); ++i) {
-        const T* item = slots.find({i});
-        slots.set({i}, item ? std::optional<T>(*item) : std::nullopt, version);
-    }
-}
-
-} // namespace
-
 void Session::take(Scene&& scene) {
     // Whoever compares versions must not take a slot of the new scene for one of the old: all of them are changed now.
     const Version now = std::max(scene.clock, scene_.clock) + 1;
     scene_ = std::move(scene);
     scene_.clock = now;
-    touch(scene_.meshes, now);
-    touch(scene_.images, now);
-    touch(scene_.textures, now);
-    touch(scene_.materials, now);
-    touch(scene_.media, now);
-    touch(scene_.groups, now);
-    touch(scene_.instances, now);
-    touch(scene_.lights, now);
-    touch(scene_.cameras, now);
+    scene_.meshes.set_versions(now);
+    scene_.images.set_versions(now);
+    scene_.textures.set_versions(now);
+    scene_.materials.set_versions(now);
+    scene_.media.set_versions(now);
+    scene_.groups.set_versions(now);
+    scene_.instances.set_versions(now);
+    scene_.lights.set_versions(now);
+    scene_.cameras.set_versions(now);
     scene_.environment.version = scene_.active_camera.version = scene_.film.version = scene_.settings.version = now;
     history_ = {};
 }

@@ -18,6 +18,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     program.add_subcommand("rays", "Rays a second in the room")->callback([&] { result = measure_rays(o); });
     program.add_subcommand("edits", "Edits of one of 1000 instances")->callback([&] { result = measure_edits(o); });
+    program.add_subcommand("copies", "Copies of a scene of many objects, and a frame of a drag")->callback([&] {
+        result = measure_copies(o);
+    });
     std::string variant, scene, folder, half1, half2;
     std::uint32_t reference_spp = 256;
     auto* features = program.add_subcommand("features", "The Cornell box and what else its scene uses");

@@ -58,6 +58,15 @@ def edits(f):
             "can start. Target: 20 ms.\n\n" + table(["edit", "ms, wall", "ms, CPU", "bytes uploaded", "pipelines made", "mesh BVHs built"], rows))
 
 
+def copies(f):
+    names = {"copy": "copy of the scene", "set_and_copy": "an object moved, and a copy", "each": "walk over all objects",
+             "find": "all objects by id", "frame": "frame of a drag: moved, copied, renderer's scene brought up to date"}
+    scenes = f["scenes"]
+    rows = [[name, *(c for s in scenes for c in (f"{1e6 * s[key]['seconds']:.1f}", s[key]["allocations"]))] for key, name in names.items()]
+    head = [c for s in scenes for c in (f"{s['instances']:,} objects, us", "allocations")]
+    return "## Copies of a scene\n\nThe live picture follows a copy of the scene.\n\n" + table(["", *head], rows)
+
+
 def features(f):
     base = statistics.median(column(f["alone"]["seconds_a_sample"], "cpu"))
     names = {"alone": "Cornell box alone", "types": "and every material type, where no ray goes",
@@ -158,7 +167,7 @@ def editor(f):
             f"Frames of the window while it renders: median {ui['median']:.0f} ms, 99 % {ui['p99']:.0f} ms (target 50 ms).\n")
 
 
-SECTIONS = {"rays": rays, "edits": edits, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "editor": editor}
+SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "editor": editor}
 
 
 def machine_line(m):

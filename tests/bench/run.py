@@ -61,6 +61,10 @@ def edits(bench):
     return bench.measure("edits")
 
 
+def copies(bench):
+    return bench.measure("copies")
+
+
 def features(bench):
     """Each variant with a cold cache once, for its machine code, and then measured warm; variants take turns."""
     rows = {}
@@ -118,7 +122,7 @@ def editor_latency(bench):
     return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
 
 
-ROWS = {"rays": rays, "edits": edits, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
+ROWS = {"rays": rays, "edits": edits, "copies": copies, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
 
 
 def main():
