@@ -21,5 +21,5 @@ void main() {
     rays.at[i].tnear = 0.0;
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
     PathArray(frame.paths).at[i] = path;
-    if (HAS_GUIDES) GuideArray(frame.guides).at[i] = GuideSample(vec3(0), vec3(0), 0.0, 0u, 0u, path.throughput.x, 0u);
+    if (HAS_GUIDES) GuideArray(frame.guides).at[i] = guide_nothing(path.throughput.x);
 }

@@ -24,17 +24,10 @@ void main() {
         next.tmax = -1.0;
         atomicAdd(CounterArray(FrameRef(push.frame).frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }
-    if (HAS_GUIDES && first) { // all but the weight, which wave_generate wrote
-        GuideArray guides = GuideArray(push.guides);
-        guides.at[i].albedo = guide.albedo;
-        guides.at[i].normal = guide.normal;
-        guides.at[i].depth = guide.depth;
-        guides.at[i].instance_id = guide.instance_id;
-        guides.at[i].material_id = guide.material_id;
-    } else if (HAS_GUIDES && guided) {
-        GuideArray(push.guides).at[i].albedo = guide.albedo;
-        GuideArray(push.guides).at[i].normal = guide.normal;
-    }
+    if (HAS_GUIDES && first)
+        guide_write(GuideArray(push.guides), i, guide);
+    else if (HAS_GUIDES && guided)
+        guide_write_behind(GuideArray(push.guides), i, guide);
     // Only what changes is written, the rest stays as the tracer and wave_generate set it.
     ShadowArray shadows = ShadowArray(push.shadows);
     shadows.at[i].tfar = shadow.tmax;

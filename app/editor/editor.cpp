@@ -101,7 +101,7 @@ bool Editor::animating() const {
 }
 
 std::shared_ptr<const view::Frame> Editor::shown_frame() const {
-    auto frame = live_->best(view.denoise && view.display.layer == view::Layer::color);
+    auto frame = live_->best(view.denoise && view.display.layer == view::picture_layer);
     return frame && frame->document == document_ ? frame : nullptr; // another scene has been opened in this very frame
 }
 

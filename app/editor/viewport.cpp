@@ -105,7 +105,7 @@ void Viewport::update_textures(Editor& e) {
     }
     view::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
-    if (frame->clay && settings.layer == view::Layer::color) settings = {};
+    if (frame->clay && settings.layer == view::picture_layer) settings = {};
     const auto same = [](const view::DisplaySettings& a, const view::DisplaySettings& b) {
         return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
     };

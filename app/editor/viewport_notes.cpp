@@ -75,14 +75,17 @@ void Viewport::draw_toolbar(Editor& e) {
         e.mark(mark);
         return changed;
     };
-    static constexpr const char* layers[] = {"Picture", "Albedo",    "Normals", "Distance",
-                                             "Objects", "Materials", "Error"};
-    int layer = int(e.view.display.layer);
+    std::vector<const char*> layers;
+    int layer = 0;
+    for (const session::LayerChoice& choice : session::layer_choices()) {
+        if (choice.name == e.view.display.layer) layer = int(layers.size());
+        layers.push_back(choice.label);
+    }
     if (combo("##layer", layer, layers, 96,
               "What is shown: the picture, what the denoiser goes by (surface colours, normals, distance), objects and "
               "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
               "toolbar.layer"))
-        e.view.display.layer = view::Layer(layer);
+        e.view.display.layer = view::layer_choices()[std::size_t(layer)].name;
     next(84 * scale);
     ImGui::SetNextItemWidth(84 * scale);
     ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");

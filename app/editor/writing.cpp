@@ -257,7 +257,7 @@ void save_image_dialog(Editor& e) {
                                 view::DisplaySettings settings = ed.view.display;
                                 settings.scale = shot->exposure;
                                 const bool seen = state->as_seen && place.extension() == ".png";
-                                if (seen && shot->denoised && settings.layer == view::Layer::color)
+                                if (seen && shot->denoised && settings.layer == view::picture_layer)
                                     shot->film.color = *shot->denoised;
                                 ed.files().last_picture = place;
                                 ed.files().jobs.start({.title = "Writing " + place.filename().string()},

@@ -28,21 +28,13 @@ FilmImage FilmImage::blank(std::uint32_t width, std::uint32_t height) {
     FilmImage image;
     image.width = width;
     image.height = height;
-    const std::size_t n = std::size_t(width) * height;
-    image.color.resize(n);
-    image.std_error.resize(n);
-    image.luminance_variance.resize(n);
-    image.albedo.resize(n);
-    image.normal.resize(n);
-    image.depth.resize(n);
-    image.instance_id.resize(n);
-    image.material_id.resize(n);
+    each_film_layer([&](const auto& layer) { (image.*layer.values).resize(image.pixels()); });
     return image;
 }
 
 FilmImage Film::read() const {
     FilmImage image = FilmImage::blank(width_, height_);
-    const std::size_t n = image.color.size();
+    const std::size_t n = image.pixels();
     const auto pixels = pixels_.span<shared::FilmPixel>();
     const auto guides = guides_.span<shared::GuidePixel>();
     for (std::size_t i = 0; i < n; ++i) {
@@ -58,15 +50,17 @@ FilmImage Film::read() const {
                 image.luminance_variance[i] = float(std::max(0.0, (p.sum_sq_luminance / count - l * l) / (count - 1)));
             }
         }
-        const auto& g = guides[i];
-        if (g.count > 0) {
-            image.albedo[i] = g.albedo / g.count;
-            image.normal[i] = g.normal / g.count;
-            image.depth[i] = g.depth / g.count;
-            image.instance_id[i] = g.instance_id;
-            image.material_id[i] = g.material_id;
-        }
     }
+    each_film_layer([&](const auto& layer) {
+        if (layer.source == LayerSource::samples) return;
+        auto& values = image.*layer.values;
+        for (std::size_t i = 0; i < n; ++i) {
+            const shared::GuidePixel& g = guides[i];
+            if (g.count <= 0) continue;
+            values[i] = layer.guide(g);
+            if (layer.source == LayerSource::mean) values[i] /= g.count;
+        }
+    });
     image.samples = least_samples();
     return image;
 }

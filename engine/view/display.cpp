@@ -63,54 +63,74 @@ std::uint32_t heat(float x) {
 
 } // namespace
 
-void to_display(const render::FilmImage& image, const DisplaySettings& settings, std::vector<std::uint32_t>& rgba) {
-    const std::size_t n = std::size_t(image.width) * image.height;
-    rgba.resize(n);
-    const Curve& tone = curve(settings.tone);
-    const Curve& plain = curve(ToneCurve::srgb);
-    switch (settings.layer) {
-        case Layer::color: {
-            const float scale = settings.scale * std::exp2(settings.exposure);
-            for (std::size_t i = 0; i < n; ++i) {
-                const glm::vec3 c = image.color[i] * scale;
-                rgba[i] = pack(tone(c.x), tone(c.y), tone(c.z));
-            }
-            return;
-        }
-        case Layer::albedo:
-            for (std::size_t i = 0; i < n; ++i)
-                rgba[i] = pack(plain(image.albedo[i].x), plain(image.albedo[i].y), plain(image.albedo[i].z));
-            return;
-        case Layer::normal:
-            for (std::size_t i = 0; i < n; ++i) {
-                const glm::vec3 c = glm::clamp(image.normal[i] * 0.5f + 0.5f, 0.f, 1.f) * 255.f;
-                rgba[i] = pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
-            }
-            return;
-        case Layer::depth: {
-            float farthest = 0;
-            for (const float z : image.depth)
-                if (std::isfinite(z)) farthest = std::max(farthest, z);
-            for (std::size_t i = 0; i < n; ++i) // near is bright
-                rgba[i] =
-                    image.depth[i] > 0 ? heat(1 - image.depth[i] / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
-            return;
-        }
-        case Layer::instance:
-        case Layer::material: {
-            const auto& ids = settings.layer == Layer::instance ? image.instance_id : image.material_id;
-            for (std::size_t i = 0; i < n; ++i)
-                rgba[i] = id_color(ids[i]);
-            return;
-        }
-        case Layer::error: // relative standard error of luminance, logarithmic from 1e-3 to 1
-            for (std::size_t i = 0; i < n; ++i) {
-                const float mean = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f));
-                const float error = std::sqrt(std::max(image.luminance_variance[i], 0.f)) / (std::abs(mean) + 0.01f);
-                rgba[i] = heat(std::log10(std::max(error, 1e-3f)) / 3 + 1);
-            }
-            return;
+namespace {
+
+using render::LayerLook;
+
+void show_color(std::span<const glm::vec3> colors, const Curve& curve, float scale, std::uint32_t* out) {
+    for (const glm::vec3& color : colors) {
+        const glm::vec3 c = color * scale;
+        *out++ = pack(curve(c.x), curve(c.y), curve(c.z));
     }
+}
+
+void show_direction(std::span<const glm::vec3> directions, std::uint32_t* out) {
+    for (const glm::vec3& direction : directions) {
+        const glm::vec3 c = glm::clamp(direction * 0.5f + 0.5f, 0.f, 1.f) * 255.f;
+        *out++ = pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
+    }
+}
+
+void show_distance(std::span<const float> distances, std::uint32_t* out) { // near is bright
+    float farthest = 0;
+    for (const float z : distances)
+        if (std::isfinite(z)) farthest = std::max(farthest, z);
+    for (const float z : distances)
+        *out++ = z > 0 ? heat(1 - z / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
+}
+
+// Relative standard error of luminance, logarithmic from 1e-3 to 1.
+void show_error(const render::FilmImage& image, std::uint32_t* out) {
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float mean = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f));
+        const float error = std::sqrt(std::max(image.luminance_variance[i], 0.f)) / (std::abs(mean) + 0.01f);
+        out[i] = heat(std::log10(std::max(error, 1e-3f)) / 3 + 1);
+    }
+}
+
+} // namespace
+
+std::span<const LayerChoice> layer_choices() {
+    static const std::vector<LayerChoice> choices = [] {
+        std::vector<LayerChoice> all;
+        render::each_film_layer([&](const auto& layer) {
+            if (layer.look != LayerLook::hidden) all.push_back({layer.name, layer.label});
+        });
+        all.push_back({error_layer.data(), "Error"});
+        return all;
+    }();
+    return choices;
+}
+
+void to_display(const render::FilmImage& image, const DisplaySettings& settings, std::vector<std::uint32_t>& rgba) {
+    rgba.resize(image.pixels());
+    if (settings.layer == error_layer) return show_error(image, rgba.data());
+    render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
+        if (settings.layer != layer.name) return;
+        const std::vector<V>& values = image.*layer.values;
+        if constexpr (std::is_same_v<V, glm::vec3>) {
+            if (layer.look == LayerLook::light)
+                show_color(values, curve(settings.tone), settings.scale * std::exp2(settings.exposure), rgba.data());
+            else if (layer.look == LayerLook::direction)
+                show_direction(values, rgba.data());
+            else
+                show_color(values, curve(ToneCurve::srgb), 1, rgba.data());
+        } else if constexpr (std::is_same_v<V, float>) {
+            show_distance(values, rgba.data());
+        } else {
+            std::ranges::transform(values, rgba.begin(), id_color);
+        }
+    });
 }
 
 bool to_outlines(const render::FilmImage& image, std::span<const std::uint8_t> marks, int width,

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace restage::view {
@@ -17,10 +18,15 @@ enum class ToneCurve {
     filmic, // soft highlights: ACES fitted curve (Narkowicz 2016), a channel at a time
 };
 
-enum class Layer { color, albedo, normal, depth, instance, material, error };
+// What of a film can be shown: its layers (render/film_layers.hpp), by name, and the relative error.
+struct LayerChoice {
+    const char *name, *label;
+};
+std::span<const LayerChoice> layer_choices();
+inline constexpr std::string_view picture_layer = "color", error_layer = "error";
 
 struct DisplaySettings {
-    Layer layer = Layer::color;
+    std::string_view layer = picture_layer; // one of the choices
     ToneCurve tone = ToneCurve::srgb;
     float exposure = 0; // [stops]
     float scale = 1;    // of the scene's film

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
 namespace restage::view {
 
@@ -36,24 +37,34 @@ struct Moments {
 void merge_pixel(std::span<const PicturePart> parts, std::size_t i, FilmImage& out) {
     Moments<glm::dvec3> color;
     Moments<double> light;
-    glm::dvec3 albedo(0), normal(0);
-    double depth = 0;
     for (const PicturePart& part : parts) {
         const FilmImage& film = *part.film;
         const double n = film.samples;
         const glm::dvec3 error = film.std_error[i];
         color.add(film.color[i], error * error, n);
         light.add(luminance(film.color[i]), film.luminance_variance[i], n);
-        albedo += n * glm::dvec3(film.albedo[i]);
-        normal += n * glm::dvec3(film.normal[i]);
-        depth += n * film.depth[i];
     }
     out.color[i] = color.mean();
     out.std_error[i] = glm::sqrt(color.variance_of_mean());
     out.luminance_variance[i] = float(light.variance_of_mean());
-    out.albedo[i] = albedo / color.n;
-    out.normal[i] = normal / color.n;
-    out.depth[i] = float(depth / color.n);
+}
+
+// Ids and other layers of the first sample stay those of `out`.
+template <class V>
+void merge_means(std::span<const PicturePart> parts, const render::FilmLayer<V>& layer, FilmImage& out) {
+    if constexpr (!std::is_same_v<V, std::uint32_t>) {
+        using Sum = std::conditional_t<std::is_same_v<V, float>, double, glm::dvec3>;
+        double samples = 0;
+        std::vector<Sum> sums(out.pixels(), Sum(0));
+        for (const PicturePart& part : parts) {
+            const double n = part.film->samples;
+            samples += n;
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] += n * Sum((part.film->*layer.values)[i]);
+        }
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            (out.*layer.values)[i] = V(sums[i] / samples);
+    }
 }
 
 // Channel `name` of a layer: its place in the interleaved values, or none.
@@ -62,25 +73,38 @@ std::ptrdiff_t place(const io::ExrLayer& layer, const std::string& name) {
     return found == layer.channels.end() ? -1 : found - layer.channels.begin();
 }
 
-// f(pixel, values of the channels `names` there) where the image has a layer with all of them.
-template <class V, class F>
-bool each_pixel(const io::ExrImage& image, const std::string& name, const std::vector<V> io::ExrLayer::* values,
-                std::initializer_list<const char*> names, F&& f) {
-    const io::ExrLayer* layer = image.find(name);
-    if (!layer || (layer->*values).empty()) return false;
+// The places of a film layer's channels in the layer of a file, or nothing where it lacks one.
+template <class V>
+std::vector<std::size_t> places(const io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& layer) {
+    const io::ExrLayer* in = image.find(name);
+    if (!in || (std::is_same_v<V, std::uint32_t> ? in->integers.empty() : in->values.empty())) return {};
     std::vector<std::size_t> at;
-    for (const char* channel : names) {
-        const std::ptrdiff_t found = place(*layer, channel);
-        if (found < 0) return false;
+    for (std::size_t k = 0; k < sizeof(V) / 4; ++k) {
+        const std::ptrdiff_t found = place(*in, layer.channels[k]);
+        if (found < 0) return {};
         at.push_back(std::size_t(found));
     }
-    std::vector<V> here(at.size());
-    for (std::size_t i = 0; i < std::size_t{image.width} * image.height; ++i) {
-        for (std::size_t k = 0; k < at.size(); ++k)
-            here[k] = (layer->*values)[i * layer->channels.size() + at[k]];
-        f(i, here);
-    }
-    return true;
+    return at;
+}
+
+// The mirror of write_picture's add_layer().
+template <class V>
+void read_layer(const io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& layer,
+                FilmImage& film) {
+    const std::vector<std::size_t> at = places(image, name, layer);
+    const io::ExrLayer& in = *image.find(name);
+    const std::size_t stride = in.channels.size();
+    std::vector<V>& values = film.*layer.values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if constexpr (std::is_same_v<V, std::uint32_t>) {
+            values[i] = in.integers[i * stride + at[0]];
+        } else if constexpr (std::is_same_v<V, float>) {
+            const float v = in.values[i * stride + at[0]];
+            values[i] = layer.source == render::LayerSource::samples ? v * v : v;
+        } else {
+            for (int k = 0; k < 3; ++k)
+                values[i][k] = in.values[i * stride + at[std::size_t(k)]];
+        }
 }
 
 std::string metadata(const StoredPicture& p, const char* key) {
@@ -143,6 +167,9 @@ Result<FilmImage> merge_films(std::span<const PicturePart> parts) {
     out.samples = std::uint32_t(std::min<std::uint64_t>(samples, ~0u));
     for (std::size_t i = 0; i < out.color.size(); ++i)
         merge_pixel(parts, i, out);
+    render::each_film_layer([&](const auto& layer) {
+        if (layer.source == render::LayerSource::mean) merge_means(parts, layer, out);
+    });
     return out;
 }
 
@@ -175,33 +202,24 @@ Result<StoredPicture> read_picture(const std::string& path) {
         return fail(path +
                     ": does not say how many samples it has; only pictures that `restage render` wrote as .exr "
                     "can be continued and merged");
-    const auto to = [](std::vector<glm::vec3>& where) {
-        return [&where](std::size_t i, const std::vector<float>& v) { where[i] = {v[0], v[1], v[2]}; };
-    };
-    constexpr auto floats = &io::ExrLayer::values;
     // Errors are those of the path-traced picture; where it was denoised, that is the layer "noisy".
-    if (!each_pixel(image, image.find("noisy") ? "noisy" : "", floats, {"R", "G", "B"}, to(film.color)))
-        return fail(path + ": has no colours");
-    const bool has_errors = each_pixel(image, "stderr", floats, {"R", "G", "B"}, to(film.std_error)) &&
-                            each_pixel(image, "stderr", floats, {"Y"}, [&](std::size_t i, const std::vector<float>& v) {
-                                film.luminance_variance[i] = v[0] * v[0];
-                            });
-    if (!has_errors)
+    const auto& color = std::get<0>(render::film_layers);
+    const std::string traced = image.find("noisy") ? "noisy" : "";
+    if (places(image, traced, color).empty()) return fail(path + ": has no colours");
+    read_layer(image, traced, color, film);
+    std::set<std::string> lacking{""};
+    render::each_film_layer([&](const auto& layer) {
+        if (places(image, layer.in_file, layer).empty()) lacking.insert(layer.in_file);
+    });
+    if (lacking.contains("stderr"))
         return fail(path +
                     ": has no layer \"stderr\" with R, G, B and Y, so that nothing can be added to it; render "
                     "with --aov all or stderr");
-    out.layers.insert("stderr");
-    if (each_pixel(image, "albedo", floats, {"R", "G", "B"}, to(film.albedo))) out.layers.insert("albedo");
-    if (each_pixel(image, "normal", floats, {"X", "Y", "Z"}, to(film.normal))) out.layers.insert("normal");
-    if (each_pixel(image, "depth", floats, {"Z"},
-                   [&](std::size_t i, const std::vector<float>& v) { film.depth[i] = v[0]; }))
-        out.layers.insert("depth");
-    if (each_pixel(image, "id", &io::ExrLayer::integers, {"instance", "material"},
-                   [&](std::size_t i, const std::vector<std::uint32_t>& v) {
-                       film.instance_id[i] = v[0];
-                       film.material_id[i] = v[1];
-                   }))
-        out.layers.insert("id");
+    render::each_film_layer([&](const auto& layer) {
+        if (lacking.contains(layer.in_file)) return;
+        read_layer(image, layer.in_file, layer, film);
+        out.layers.insert(layer.in_file);
+    });
     return out;
 }
 

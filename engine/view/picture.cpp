@@ -4,29 +4,54 @@
 #include "io/exr.hpp"
 #include "io/image_file.hpp"
 
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <type_traits>
 
 namespace restage::view {
 
 namespace {
 
-// R, G, B, and Y: the error of luminance, which those of the channels do not tell because channels err together.
-std::vector<float> standard_errors(const render::FilmImage& film, float exposure) {
-    std::vector<float> out;
-    out.reserve(film.std_error.size() * 4);
-    for (std::size_t i = 0; i < film.std_error.size(); ++i) {
-        const glm::vec3& e = film.std_error[i];
-        for (const float error : {e.r, e.g, e.b, std::sqrt(film.luminance_variance[i])})
-            out.push_back(error * exposure);
-    }
-    return out;
+// Film layers of one name in a file are one layer there, with the channels of all of them.
+io::ExrLayer& layer_of(io::ExrImage& image, const std::string& name) {
+    for (io::ExrLayer& layer : image.layers)
+        if (layer.name == name) return layer;
+    return image.layers.emplace_back(io::ExrLayer{.name = name, .channels = {}});
 }
 
-} // namespace
-
-namespace {
+// `scale`: the exposure, for what it applies to. A variance is written as its root, the standard error: of luminance, as
+// those of the channels do not tell it, because channels err together.
+template <class V>
+void add_layer(io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& from,
+               const std::vector<V>& values, float scale) {
+    using T = std::conditional_t<std::is_same_v<V, std::uint32_t>, std::uint32_t, float>;
+    constexpr std::size_t count = sizeof(V) / sizeof(T);
+    io::ExrLayer& layer = layer_of(image, name);
+    if constexpr (std::is_same_v<T, std::uint32_t>) layer.type = io::ExrType::uint32;
+    auto& held = [&]() -> std::vector<T>& {
+        if constexpr (std::is_same_v<T, float>)
+            return layer.values;
+        else
+            return layer.integers;
+    }();
+    const std::size_t before = layer.channels.size(), stride = before + count;
+    layer.channels.insert(layer.channels.end(), from.channels.begin(), from.channels.begin() + count);
+    std::vector<T> all(values.size() * stride);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::copy_n(held.data() + i * before, before, &all[i * stride]);
+        T* out = &all[i * stride + before];
+        if constexpr (std::is_same_v<V, glm::vec3>)
+            for (int k = 0; k < 3; ++k)
+                out[k] = values[i][k] * scale;
+        else if constexpr (std::is_same_v<V, float>)
+            *out = from.source == render::LayerSource::samples ? std::sqrt(values[i]) * scale : values[i];
+        else
+            *out = values[i];
+    }
+    held = std::move(all);
+}
 
 std::string extension_of(const std::string& path) { // in lower case
     std::string extension = std::filesystem::path(path).extension().string();
@@ -35,17 +60,24 @@ std::string extension_of(const std::string& path) { // in lower case
     return extension;
 }
 
-constexpr std::string_view layers[] = {"stderr", "albedo", "normal", "depth", "id"};
 } // namespace
+
+std::vector<std::string> aov_names() {
+    std::vector<std::string> names;
+    render::each_film_layer([&](const auto& layer) {
+        if (*layer.in_file && (names.empty() || names.back() != layer.in_file)) names.push_back(layer.in_file);
+    });
+    return names;
+}
 
 Result<void> check_aovs(const std::string& aovs) {
     if (aovs == "all" || aovs == "none") return {};
     for (std::string_view rest = aovs;;) {
         const std::size_t comma = std::min(rest.find(','), rest.size());
         const std::string_view name = rest.substr(0, comma);
-        if (std::find(std::begin(layers), std::end(layers), name) == std::end(layers))
-            return fail("there is no layer \"" + std::string(name) +
-                        "\"; there are stderr, albedo, normal, depth and id (commas between), all, or none");
+        if (const auto names = aov_names(); std::ranges::find(names, name) == names.end())
+            return fail(fmt::format("there is no layer \"{}\"; there are {} and {} (commas between), all, or none", name,
+                                    fmt::join(names.begin(), names.end() - 1, ", "), names.back()));
         if (comma == rest.size()) return {};
         rest.remove_prefix(comma + 1);
     }
@@ -68,46 +100,25 @@ Result<void> check_picture_path(const std::string& path) {
 Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& o) {
     RESTAGE_CHECK(check_aovs(o.aovs));
     const render::FilmImage& film = picture.film;
-    const auto scaled = [&](const std::vector<glm::vec3>& in, float scale) {
-        std::vector<float> out(in.size() * 3);
-        for (std::size_t i = 0; i < in.size(); ++i)
-            for (int k = 0; k < 3; ++k)
-                out[i * 3 + k] = in[i][k] * scale;
-        return out;
-    };
     const auto& color = picture.denoised ? *picture.denoised : film.color;
+    io::ExrImage image{.width = film.width, .height = film.height, .metadata = o.metadata};
+    const auto& seen = std::get<0>(render::film_layers);
+    add_layer(image, "", seen, color, picture.exposure);
     const std::string extension = extension_of(path);
     if (extension != ".exr") {
         scene::PixelData pixels{
-            .width = film.width, .height = film.height, .channels = 3, .values = scaled(color, picture.exposure)};
+            .width = film.width, .height = film.height, .channels = 3, .values = std::move(image.layers[0].values)};
         if (extension == ".png") return io::write_png(path, pixels, o.exposure_stops);
         if (extension == ".jpg" || extension == ".jpeg") return io::write_jpg(path, pixels, o.exposure_stops);
         return io::write_image(path, pixels);
     }
-    const auto wanted = [&](const char* name) {
-        return o.aovs == "all" || ("," + o.aovs + ",").find(std::string(",") + name + ",") != std::string::npos;
-    };
-    const std::vector<std::string> rgb{"R", "G", "B"};
-    io::ExrImage image{.width = film.width, .height = film.height, .metadata = o.metadata};
-    image.layers.push_back({.name = "", .channels = rgb, .values = scaled(color, picture.exposure)});
-    if (picture.denoised)
-        image.layers.push_back({.name = "noisy", .channels = rgb, .values = scaled(film.color, picture.exposure)});
-    if (wanted("stderr"))
-        image.layers.push_back(
-            {.name = "stderr", .channels = {"R", "G", "B", "Y"}, .values = standard_errors(film, picture.exposure)});
-    if (wanted("albedo")) image.layers.push_back({.name = "albedo", .channels = rgb, .values = scaled(film.albedo, 1)});
-    if (wanted("normal"))
-        image.layers.push_back({.name = "normal", .channels = {"X", "Y", "Z"}, .values = scaled(film.normal, 1)});
-    if (wanted("depth")) image.layers.push_back({.name = "depth", .channels = {"Z"}, .values = film.depth});
-    if (wanted("id")) {
-        std::vector<std::uint32_t> ids(film.instance_id.size() * 2);
-        for (std::size_t i = 0; i < film.instance_id.size(); ++i) {
-            ids[2 * i] = film.instance_id[i];
-            ids[2 * i + 1] = film.material_id[i];
-        }
-        image.layers.push_back(
-            {.name = "id", .channels = {"instance", "material"}, .type = io::ExrType::uint32, .integers = ids});
-    }
+    if (picture.denoised) add_layer(image, "noisy", seen, film.color, picture.exposure);
+    render::each_film_layer([&](const auto& layer) {
+        const bool wanted = o.aovs == "all" || ("," + o.aovs + ",").find(std::string(",") + layer.in_file + ",") != std::string::npos;
+        if (!*layer.in_file || !wanted) return;
+        add_layer(image, layer.in_file, layer, film.*layer.values,
+                  layer.source == render::LayerSource::samples ? picture.exposure : 1);
+    });
     return io::write_exr(path, image);
 }
 

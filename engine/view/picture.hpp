@@ -20,10 +20,12 @@ struct Picture {
 };
 
 struct PictureOptions {
-    std::string aovs = "all"; // comma-separated: stderr albedo normal depth id | all | none
+    std::string aovs = "all"; // comma-separated aov_names(), or all, or none
     float exposure_stops = 0; // PNG and JPEG only
     std::map<std::string, std::string> metadata;
 };
+// The layers that an .exr can have beside the picture: stderr, albedo, ...
+std::vector<std::string> aov_names();
 // Names of layers that there are, commas between, or all, or none; an error lists them.
 Result<void> check_aovs(const std::string& aovs);
 // Before hours are spent: can a picture be written there at all?

@@ -9,6 +9,7 @@
 #include "view/merge_pictures.hpp"
 #include "view/picture.hpp"
 
+#include <fmt/ranges.h>
 #include <nanobind/stl/map.h>
 #include <cmath>
 #include <cstring>
@@ -37,9 +38,13 @@ A view(nb::handle self, std::vector<V>& data) {
         return A(at, {p.film.height, p.film.width}, self);
 }
 
-template <class A, auto Member>
-void array(nb::class_<Picture>& c, const char* name, const char* doc) {
-    c.def_prop_ro(name, [](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*Member); }, doc);
+template <class V>
+void array(nb::class_<Picture>& c, const render::FilmLayer<V>& layer) {
+    using A = std::conditional_t<std::is_same_v<V, glm::vec3>, Rgb, std::conditional_t<std::is_same_v<V, float>, Scalar, Ids>>;
+    c.def_prop_ro(
+        layer.name,
+        [values = layer.values](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*values); },
+        layer.doc);
 }
 
 nb::object mask(const Owner& p, nb::handle thing) {
@@ -153,10 +158,10 @@ void from_bytes(const nb::handle h, std::vector<V>& v) {
 
 nb::tuple get_state(const Picture& p) {
     const auto& f = p.film;
-    return nb::make_tuple(f.width, f.height, f.samples, bytes(f.color), bytes(f.std_error), bytes(f.luminance_variance),
-                          bytes(f.albedo), bytes(f.normal), bytes(f.depth), bytes(f.instance_id), bytes(f.material_id),
-                          bytes(p.denoised), p.seed, p.first_sample, p.seconds, p.finished, p.not_finite, p.scene,
-                          p.device, p.tracer, p.denoiser);
+    nb::list layers;
+    render::each_film_layer([&](const auto& layer) { layers.append(bytes(f.*layer.values)); });
+    return nb::make_tuple(f.width, f.height, f.samples, layers, bytes(p.denoised), p.seed, p.first_sample, p.seconds,
+                          p.finished, p.not_finite, p.scene, p.device, p.tracer, p.denoiser);
 }
 
 void set_state(Picture& p, const nb::tuple& t) {
@@ -166,24 +171,19 @@ void set_state(Picture& p, const nb::tuple& t) {
     f.width = nb::cast<std::uint32_t>(t[0]);
     f.height = nb::cast<std::uint32_t>(t[1]);
     f.samples = nb::cast<std::uint32_t>(t[2]);
-    from_bytes(t[3], f.color);
-    from_bytes(t[4], f.std_error);
-    from_bytes(t[5], f.luminance_variance);
-    from_bytes(t[6], f.albedo);
-    from_bytes(t[7], f.normal);
-    from_bytes(t[8], f.depth);
-    from_bytes(t[9], f.instance_id);
-    from_bytes(t[10], f.material_id);
-    from_bytes(t[11], p.denoised);
-    p.seed = nb::cast<std::uint32_t>(t[12]);
-    p.first_sample = nb::cast<std::uint32_t>(t[13]);
-    p.seconds = nb::cast<double>(t[14]);
-    p.finished = nb::cast<bool>(t[15]);
-    p.not_finite = nb::cast<std::map<std::string, std::uint64_t>>(t[16]);
-    p.scene = nb::cast<std::string>(t[17]);
-    p.device = nb::cast<std::string>(t[18]);
-    p.tracer = nb::cast<std::string>(t[19]);
-    p.denoiser = nb::cast<std::string>(t[20]);
+    const auto layers = nb::cast<nb::list>(t[3]);
+    std::size_t at = 0;
+    render::each_film_layer([&](const auto& layer) { from_bytes(layers[at++], f.*layer.values); });
+    from_bytes(t[4], p.denoised);
+    p.seed = nb::cast<std::uint32_t>(t[5]);
+    p.first_sample = nb::cast<std::uint32_t>(t[6]);
+    p.seconds = nb::cast<double>(t[7]);
+    p.finished = nb::cast<bool>(t[8]);
+    p.not_finite = nb::cast<std::map<std::string, std::uint64_t>>(t[9]);
+    p.scene = nb::cast<std::string>(t[10]);
+    p.device = nb::cast<std::string>(t[11]);
+    p.tracer = nb::cast<std::string>(t[12]);
+    p.denoiser = nb::cast<std::string>(t[13]);
 }
 
 } // namespace
@@ -210,24 +210,18 @@ void denoise(Picture& p, const std::string& quality, unsigned threads, const std
 }
 
 void bind_picture(nb::module_& m) {
+    const std::string save_doc = fmt::format(
+        "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where there "
+        "is one.\n"
+        "aovs: of an .exr, comma-separated {}; all; none. exposure: of a .png or .jpg [stops].",
+        fmt::join(session::aov_names(), ", "));
     nb::class_<Picture> c(
         m, "Picture",
         "A rendered picture. Its arrays look into its memory (writing into them changes it); row 0 is the top.\n"
         "Colours are linear sRGB radiance times the exposure of the scene.");
-    array<Rgb, &render::FilmImage::color>(c, "color", "float32 (H, W, 3): the picture, not denoised.");
-    array<Rgb, &render::FilmImage::std_error>(
-        c, "std_error", "float32 (H, W, 3): standard error of `color`; 0 with less than two samples.");
-    array<Rgb, &render::FilmImage::albedo>(
-        c, "albedo",
-        "float32 (H, W, 3): reflectance, 0 to 1, of the first surface that is no mirror "
-        "or smooth glass.");
-    array<Rgb, &render::FilmImage::normal>(
-        c, "normal", "float32 (H, W, 3): shading normal there, world space; a mean, not unit at edges.");
-    array<Scalar, &render::FilmImage::depth>(
-        c, "depth", "float32 (H, W): mean distance of the first hit [scene units]; 0 = nothing.");
-    array<Ids, &render::FilmImage::instance_id>(c, "object_id",
-                                                "uint32 (H, W): Object.id that the first sample hit; 0 = nothing.");
-    array<Ids, &render::FilmImage::material_id>(c, "material_id", "uint32 (H, W): Material.id there; 0 = nothing.");
+    render::each_film_layer([&](const auto& layer) {
+        if (*layer.name) array(c, layer);
+    });
     c.def_prop_ro(
          "denoised",
          [](nb::handle self) -> nb::object {
@@ -268,12 +262,7 @@ void bind_picture(nb::module_& m) {
             "of\nits plugin; \"\" = the one that came with Restage. Returns the picture.")
         .def_ro("denoiser", &Picture::denoiser, "Who made `denoised`: \"oidn high\"; none.")
         .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f,
-             "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where "
-             "there "
-             "is one.\n"
-             "aovs: of an .exr, comma-separated stderr, albedo, normal, depth, id; all; none. exposure: of a .png or "
-             ".jpg "
-             "[stops].")
+             save_doc.c_str())
         .def("_repr_png_", &png_of, "For notebooks: what save() writes as .png.")
         .def("__array__", &as_array, "dtype"_a = nb::none(), "copy"_a = nb::none(),
              "float32 (H, W, 3), a copy: the denoised picture where there is one, else `color`.",

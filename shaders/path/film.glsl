@@ -10,6 +10,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FrameRef { FrameData frame; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FilmArray { FilmPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GuidePixelArray { GuidePixel at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GuideArray { GuideSample at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer CounterArray { uint at[]; };
 
 const float INFINITE = 1e30;
@@ -26,6 +27,28 @@ bool film_add(inout FilmPixel f, vec3 c) {
     f.sum_sq_luminance += sqr(luminance(c));
     f.count += 1.0;
     return fits;
+}
+
+// Of a sample that meets nothing. weight: of the pixel filter; < 0: this surface guides nobody.
+GuideSample guide_nothing(float weight) {
+    GuideSample g;
+    g.albedo = g.normal = vec3(0);
+    g.depth = 0.0;
+    g.instance_id = g.material_id = 0u;
+    g.weight = weight;
+    return g;
+}
+// Field by field: all but the weight, which is there already; and, behind mirrors and glass, what looks through them.
+void guide_write(GuideArray guides, uint i, GuideSample g) {
+    guides.at[i].albedo = g.albedo;
+    guides.at[i].normal = g.normal;
+    guides.at[i].depth = g.depth;
+    guides.at[i].instance_id = g.instance_id;
+    guides.at[i].material_id = g.material_id;
+}
+void guide_write_behind(GuideArray guides, uint i, GuideSample g) {
+    guides.at[i].albedo = g.albedo;
+    guides.at[i].normal = g.normal;
 }
 
 void guide_add(inout GuidePixel g, GuideSample a) {

@@ -11,6 +11,7 @@
 #include "lib/light.glsl"
 #include "lib/sampler.glsl"
 #include "path/escape.glsl"
+#include "path/film.glsl"
 #include "path/surface.glsl"
 #include "shared/path_data.h"
 
@@ -31,7 +32,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     next.tmax = -1.0;
     next.tmin = 0.0;
     shadow_contribution = vec3(0);
-    guide = GuideSample(vec3(0), vec3(0), 0.0, 0u, 0u, 1.0, 0u);
+    guide = guide_nothing(1.0);
     vec3 wo_world = -ray.direction;
     uint depth = path.flags & PATH_DEPTH_MASK;
     bool specular = (path.flags & PATH_SPECULAR) != 0u;
