@@ -7,9 +7,10 @@
 #include "document/session.hpp"
 #include "io/strict.hpp"
 #include "progress.hpp"
+#include "render/tracers.hpp"
 #include "scene/tables.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -27,6 +28,18 @@ double now_seconds() {
 }
 
 } // namespace
+
+void add_device_options(CLI::App& command, render::RendererOptions& o) {
+    const std::vector<std::string> tracers = render::tracer_names();
+    command.add_option("--tracer", o.tracer, fmt::format("{} (default: by device)", fmt::join(tracers, " or ")))
+        ->check(CLI::IsMember(tracers));
+    command.add_option("--device", o.device,
+                       "Vulkan device: its number from 0 or part of its name (default: the best one)");
+    command.add_option("--threads", o.threads, "Threads of the embree tracer (0 = all)")
+        ->check(CLI::Range(0u, 1024u))
+        ->capture_default_str();
+    command.add_flag("--validation", o.validation, "Turn Vulkan's validation layers on");
+}
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
     auto* spp = command.add_option("--spp", o.spp, "Samples a pixel (default: what the scene says)")
@@ -72,14 +85,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"mis", "light", "bsdf"}))
         ->capture_default_str();
     command.add_option("--seed", o.renderer.seed, "Seed of the random numbers")->capture_default_str();
-    command.add_option("--tracer", o.renderer.tracer, "embree or vulkan (default: by device)")
-        ->check(CLI::IsMember({"embree", "vulkan"}));
-    command.add_option("--device", o.renderer.device,
-                       "Vulkan device: its number from 0 or part of its name (default: the best one)");
-    command.add_option("--threads", o.renderer.threads, "Threads of the embree tracer (0 = all)")
-        ->check(CLI::Range(0u, 1024u))
-        ->capture_default_str();
-    command.add_flag("--validation", o.renderer.validation, "Turn Vulkan's validation layers on");
+    add_device_options(command, o.renderer);
 }
 
 Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context) {

@@ -34,7 +34,9 @@ struct RenderOptions {
     bool studio = false; // light it with one
 };
 
-// Adds the options of the renderer and the targets to a command.
+// --tracer, --device, --threads, --validation.
+void add_device_options(CLI::App& command, render::RendererOptions& options);
+// Those, and the other options of the renderer and the targets of a command.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
 // For tests: what RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES in the environment says, see gpu::DeviceFault; null = nothing.

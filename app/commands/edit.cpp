@@ -25,14 +25,7 @@ void add_edit(CLI::App& program, Context& context) {
     command->add_option("--autosave", o->autosave_seconds, "Keep a recovery copy of unsaved work, so often [s]")
         ->check(CLI::Range(0.2, 86400.0))
         ->capture_default_str();
-    command->add_option("--tracer", o->renderer.tracer, "embree or vulkan (default: by device)")
-        ->check(CLI::IsMember({"embree", "vulkan"}));
-    command->add_option("--device", o->renderer.device,
-                        "Vulkan device: its number from 0 or part of its name (default: the best one)");
-    command->add_option("--threads", o->renderer.threads, "Threads of the embree tracer (0 = all)")
-        ->check(CLI::Range(0u, 1024u))
-        ->capture_default_str();
-    command->add_flag("--validation", o->renderer.validation, "Turn Vulkan's validation layers on");
+    add_device_options(*command, o->renderer);
     add_example(*command, "restage edit room.pbrt");
     command->callback([&context, o, size] {
         context.choose([&context, o, size]() -> Result<int> {

@@ -150,10 +150,8 @@ Metadata metadata_of(const Options& o, render::Renderer& renderer, const scene::
 Result<void> add_to(const view::StoredPicture& before, Picture& picture, Metadata& metadata, std::uint32_t first,
                     std::uint32_t seed) {
     const auto names = view::aov_names();
-    view::StoredPicture now{.film = std::move(picture.film),
-                               .layers = {names.begin(), names.end()},
-                               .metadata = metadata,
-                               .ranges = {}};
+    view::StoredPicture now{
+        .film = std::move(picture.film), .layers = {names.begin(), names.end()}, .metadata = metadata, .ranges = {}};
     now.ranges = {{seed, first, now.film.samples}};
     const float e = std::exchange(picture.exposure, 1.f); // files have it in their numbers
     for (std::size_t i = 0; i < now.film.color.size(); ++i) {
@@ -340,7 +338,7 @@ void add_render(CLI::App& program, Context& context) {
     resume->excludes(command->get_option("--error"));
     command
         ->add_option("--aov", o->picture.aovs,
-                     fmt::format("Layers of an .exr: all, none, or some of {}", fmt::join(session::aov_names(), ",")))
+                     fmt::format("Layers of an .exr: all, none, or some of {}", fmt::join(view::aov_names(), ",")))
         ->capture_default_str();
     command->add_option("--exposure", o->picture.exposure_stops, "Brighten a .png or .jpg [stops]")
         ->check(CLI::Range(-64.f, 64.f))

@@ -77,7 +77,7 @@ void Viewport::draw_toolbar(Editor& e) {
     };
     std::vector<const char*> layers;
     int layer = 0;
-    for (const session::LayerChoice& choice : session::layer_choices()) {
+    for (const view::LayerChoice& choice : view::layer_choices()) {
         if (choice.name == e.view.display.layer) layer = int(layers.size());
         layers.push_back(choice.label);
     }

@@ -34,22 +34,22 @@ struct FilmImage {
 
 enum class LayerSource {
     samples, // sums and squares of the film: color and its errors; scaled by exposure
-    mean,    // of all samples' guides
-    first,   // of the first sample's guide
+    mean, // of all samples' guides
+    first, // of the first sample's guide
 };
 enum class LayerLook { hidden, light, reflectance, direction, distance, number }; // in the viewport
 
 template <class V>
 struct FilmLayer {
-    std::vector<V> FilmImage::*values;
-    const char* name;   // of its array in Python
+    std::vector<V> FilmImage::* values;
+    const char* name; // of its array in Python
     const char* in_file; // the .exr layer its channels belong to; layers of one name are one there
     std::array<const char*, 3> channels; // as many as V has
     LayerSource source;
     V (*guide)(const shared::GuidePixel&); // the value, or for a mean the sum; null for what comes of samples
     LayerLook look;
     const char* label; // in menus
-    const char* doc;   // for Python
+    const char* doc; // for Python
 };
 
 inline constexpr std::array<const char*, 3> rgb_channels{"R", "G", "B"};

@@ -3,10 +3,11 @@
 
 #include "base/file.hpp"
 #include "render/clay.hpp"
+#include "render/tracers.hpp"
 #include "scene/projection.hpp"
 #include "scene/validate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 
@@ -29,18 +30,18 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     if (self->options_.cache_dir.empty())
         if (auto cache = cache_dir()) self->options_.cache_dir = std::move(*cache); // without: the device says so
 
-    const std::string& wanted = options.tracer;
-    if (!wanted.empty() && wanted != "embree" && wanted != "vulkan")
-        return fail("there is no tracer \"" + wanted + "\"; there are embree and vulkan");
+    if (!options.tracer.empty() && !find_tracer(options.tracer))
+        return fail(
+            fmt::format("there is no tracer \"{}\"; there are {}", options.tracer, fmt::join(tracer_names(), " and ")));
     RESTAGE_CHECK(self->open());
     return self;
 }
 
 Result<void> Renderer::open() {
-    const std::string& wanted = options_.tracer;
+    const TracerKind* kind = find_tracer(options_.tracer); // null: by device
     RESTAGE_TRY(device_, gpu::Device::create({.select = options_.device,
                                               .validation = options_.validation,
-                                              .require_ray_tracing = wanted == "vulkan",
+                                              .require_ray_tracing = kind && kind->needs_ray_tracing,
                                               .cache_dir = options_.cache_dir,
                                               .fault = options_.fault},
                                              *log_));
@@ -48,8 +49,7 @@ Result<void> Renderer::open() {
     compiler_ = std::make_unique<gpu::ShaderCompiler>(
         gpu::ShaderCompilerOptions{.include_dirs = {options_.shader_dir}, .cache_dir = spirv_cache});
     const auto& info = device_->info();
-    const bool use_vulkan =
-        wanted == "vulkan" || (wanted.empty() && info.ray_tracing && info.type != gpu::DeviceType::cpu);
+    if (!kind) kind = &best_tracer(info);
     const TracerContext context{.device = *device_,
                                 .compiler = *compiler_,
                                 .jobs = jobs_,
@@ -57,11 +57,7 @@ Result<void> Renderer::open() {
                                 .shader_dir = options_.shader_dir,
                                 .strategy = options_.strategy,
                                 .stand_ins = options_.stand_ins};
-    if (use_vulkan) {
-        RESTAGE_TRY(tracer_, make_vulkan_tracer(context));
-    } else {
-        RESTAGE_TRY(tracer_, make_embree_tracer(context));
-    }
+    RESTAGE_TRY(tracer_, kind->make(context));
     log_->debug(fmt::format("device: {} ({}); tracer: {}", info.name, info.driver, tracer_->name()));
     forget_scene();
     return {};

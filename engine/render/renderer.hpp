@@ -14,7 +14,7 @@ namespace restage::render {
 
 struct RendererOptions {
     std::string device;            // index or part of a name; empty = the best
-    std::string tracer;            // "embree", "vulkan"; empty = by device: vulkan on GPUs with ray tracing
+    std::string tracer;            // a name of tracers.hpp; empty = by device: vulkan on GPUs with ray tracing
     bool validation = false;
     unsigned threads = 0;          // for Embree; 0 = all
     std::uint32_t seed = 0;

@@ -73,7 +73,4 @@ class Tracer {
     TraceStats stats_;
 };
 
-Result<std::unique_ptr<Tracer>> make_embree_tracer(const TracerContext& context); // wavefront, see embree_tracer.cpp
-Result<std::unique_ptr<Tracer>> make_vulkan_tracer(const TracerContext& context); // ray-tracing pipeline
-
 } // namespace restage::render

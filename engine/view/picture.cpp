@@ -21,8 +21,8 @@ io::ExrLayer& layer_of(io::ExrImage& image, const std::string& name) {
     return image.layers.emplace_back(io::ExrLayer{.name = name, .channels = {}});
 }
 
-// `scale`: the exposure, for what it applies to. A variance is written as its root, the standard error: of luminance, as
-// those of the channels do not tell it, because channels err together.
+// `scale`: the exposure, for what it applies to. A variance is written as its root, the standard error: of luminance,
+// as those of the channels do not tell it, because channels err together.
 template <class V>
 void add_layer(io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& from,
                const std::vector<V>& values, float scale) {
@@ -76,8 +76,8 @@ Result<void> check_aovs(const std::string& aovs) {
         const std::size_t comma = std::min(rest.find(','), rest.size());
         const std::string_view name = rest.substr(0, comma);
         if (const auto names = aov_names(); std::ranges::find(names, name) == names.end())
-            return fail(fmt::format("there is no layer \"{}\"; there are {} and {} (commas between), all, or none", name,
-                                    fmt::join(names.begin(), names.end() - 1, ", "), names.back()));
+            return fail(fmt::format("there is no layer \"{}\"; there are {} and {} (commas between), all, or none",
+                                    name, fmt::join(names.begin(), names.end() - 1, ", "), names.back()));
         if (comma == rest.size()) return {};
         rest.remove_prefix(comma + 1);
     }
@@ -114,7 +114,8 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
     }
     if (picture.denoised) add_layer(image, "noisy", seen, film.color, picture.exposure);
     render::each_film_layer([&](const auto& layer) {
-        const bool wanted = o.aovs == "all" || ("," + o.aovs + ",").find(std::string(",") + layer.in_file + ",") != std::string::npos;
+        const bool wanted =
+            o.aovs == "all" || ("," + o.aovs + ",").find(std::string(",") + layer.in_file + ",") != std::string::npos;
         if (!*layer.in_file || !wanted) return;
         add_layer(image, layer.in_file, layer, film.*layer.values,
                   layer.source == render::LayerSource::samples ? picture.exposure : 1);

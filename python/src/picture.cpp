@@ -40,7 +40,8 @@ A view(nb::handle self, std::vector<V>& data) {
 
 template <class V>
 void array(nb::class_<Picture>& c, const render::FilmLayer<V>& layer) {
-    using A = std::conditional_t<std::is_same_v<V, glm::vec3>, Rgb, std::conditional_t<std::is_same_v<V, float>, Scalar, Ids>>;
+    using A = std::conditional_t<std::is_same_v<V, glm::vec3>, Rgb,
+                                 std::conditional_t<std::is_same_v<V, float>, Scalar, Ids>>;
     c.def_prop_ro(
         layer.name,
         [values = layer.values](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*values); },
@@ -214,7 +215,7 @@ void bind_picture(nb::module_& m) {
         "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where there "
         "is one.\n"
         "aovs: of an .exr, comma-separated {}; all; none. exposure: of a .png or .jpg [stops].",
-        fmt::join(session::aov_names(), ", "));
+        fmt::join(view::aov_names(), ", "));
     nb::class_<Picture> c(
         m, "Picture",
         "A rendered picture. Its arrays look into its memory (writing into them changes it); row 0 is the top.\n"
@@ -245,7 +246,7 @@ void bind_picture(nb::module_& m) {
         .def_ro("not_finite", &Picture::not_finite,
                 "Samples that were left out because they were no finite numbers: by material type.")
         .def_ro("device", &Picture::device, "The Vulkan device.")
-        .def_ro("tracer", &Picture::tracer, "embree or vulkan.")
+        .def_ro("tracer", &Picture::tracer, "Name of the tracer.")
         .def("mask", &mask, "thing"_a,
              "bool (H, W): where the first hit is of this object, group, selection or material.",
              nb::sig(
@@ -261,8 +262,7 @@ void bind_picture(nb::module_& m) {
             "id "
             "of\nits plugin; \"\" = the one that came with Restage. Returns the picture.")
         .def_ro("denoiser", &Picture::denoiser, "Who made `denoised`: \"oidn high\"; none.")
-        .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f,
-             save_doc.c_str())
+        .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f, save_doc.c_str())
         .def("_repr_png_", &png_of, "For notebooks: what save() writes as .png.")
         .def("__array__", &as_array, "dtype"_a = nb::none(), "copy"_a = nb::none(),
              "float32 (H, W, 3), a copy: the denoised picture where there is one, else `color`.",

@@ -190,7 +190,7 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "and\n"
         "Picture.finished is False. Ctrl-C raises KeyboardInterrupt. Other Python threads run meanwhile, and may "
         "edit:\n"
-        "a copy is rendered. first_sample: see restage.merge. tracer: embree or vulkan; device: part of its name.\n"
+        "a copy is rendered. first_sample: see restage.merge. tracer: see Picture.tracer; device: part of its name.\n"
         "denoiser: see Picture.denoise.",
         nb::sig("def render(self, size: tuple[int, int] | None = None, samples: int | None = None, "
                 "seconds: float | None = None, error: float | None = None, seed: int = 0, denoise: bool | str = False, "

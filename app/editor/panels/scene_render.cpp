@@ -4,6 +4,7 @@
 #include "scene_panel.hpp"
 
 #include "base/jobs.hpp"
+#include "render/tracers.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -12,6 +13,7 @@
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
+#include <vector>
 
 namespace restage::editor {
 
@@ -125,11 +127,17 @@ void machine_rows(Editor& e) {
     const view::ViewStatus status = e.live().status();
     render::RendererOptions options = e.options().renderer;
     SceneState& state = e.panel_state->scene;
-    form_row("Ray tracing", "Embree: on the processor. Vulkan: on the graphics card, where it can");
-    static constexpr const char* tracers[] = {"Automatic", "Embree", "Vulkan"};
-    int tracer = options.tracer == "embree" ? 1 : options.tracer == "vulkan" ? 2 : 0;
-    if (ImGui::Combo("##tracer", &tracer, tracers, IM_ARRAYSIZE(tracers))) {
-        options.tracer = tracer == 1 ? "embree" : tracer == 2 ? "vulkan" : "";
+    std::vector<const char*> labels{"Automatic"};
+    std::string help;
+    int tracer = 0;
+    for (const render::TracerKind& kind : render::tracer_kinds()) {
+        if (kind.name == options.tracer) tracer = int(labels.size());
+        labels.push_back(kind.label);
+        help += fmt::format("{}{}: {}", help.empty() ? "" : ". ", kind.label, kind.says);
+    }
+    form_row("Ray tracing", help.c_str());
+    if (ImGui::Combo("##tracer", &tracer, labels.data(), int(labels.size()))) {
+        options.tracer = tracer > 0 ? render::tracer_kinds()[std::size_t(tracer - 1)].name : "";
         e.later([&e, options] { e.configure_renderer(options); });
     }
     if (!status.tracer.empty()) tip(("In use: " + status.tracer).c_str());
