@@ -153,20 +153,6 @@ void fields(V& v, scene::Origin& o) {
     v("format", o.format);
 }
 
-// f.operator()<T>(name of its table) for every kind of thing, those first that others refer to.
-template <class F>
-void each_kind(F&& f) {
-    f.template operator()<scene::Mesh>("meshes");
-    f.template operator()<scene::Image>("images");
-    f.template operator()<scene::Texture>("textures");
-    f.template operator()<scene::Material>("materials");
-    f.template operator()<scene::Medium>("media");
-    f.template operator()<scene::Group>("groups");
-    f.template operator()<scene::Instance>("instances");
-    f.template operator()<scene::Light>("lights");
-    f.template operator()<scene::Camera>("cameras");
-}
-
 // Names of choices, in order of their values.
 template <class E>
 struct Names;

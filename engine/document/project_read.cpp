@@ -58,20 +58,18 @@ class Reader : public ValueReader {
         if (const auto base = j.find("base"); base != j.end()) RESTAGE_CHECK(read_base(*base));
 
         json unknown = json::object();
-        static const std::set<std::string_view> known{"restage",       "recovery", "base",    "environment",
-                                                      "active_camera", "film",     "settings"};
-        std::set<std::string> kinds;
-        each_kind([&]<class T>(const char* kind) {
-            kinds.insert(kind);
-            if (const auto part = j.find(kind); part != j.end()) read_things<T>(kind, *part, unknown);
+        std::set<std::string_view> known{"restage", "recovery", "base"};
+        each_kind([&]<class T>(const Kind<T>& kind) {
+            known.insert(kind.plural);
+            if (const auto part = j.find(kind.plural); part != j.end()) read_things<T>(kind.plural, *part, unknown);
         });
         const Scene& base = doc_.base.scene;
-        single(j, "environment", base.environment.value, unknown);
-        single(j, "active_camera", base.active_camera.value, unknown);
-        single(j, "film", base.film.value, unknown);
-        single(j, "settings", base.settings.value, unknown);
+        each_single([&](const auto& single) {
+            known.insert(single.name);
+            read_single(j, single.name, (base.*single.one).value, unknown);
+        });
         for (const auto& [key, value] : j.items())
-            if (!known.contains(key) && !kinds.contains(key)) unknown[key] = value;
+            if (!known.contains(key)) unknown[key] = value;
         if (!unknown.empty()) doc_.unknown = unknown.dump();
 
         if (!error_.empty()) return fail(error_);
@@ -161,9 +159,11 @@ class Reader : public ValueReader {
         base.format = imported.importer;
         doc_.report = std::move(imported.report);
         base_changed_ = !j.contains("hash") || j["hash"] != fmt::format("{:016x}", base.hash);
-        each_kind([&]<class T>(const char* kind) {
-            const bool has = j.contains("sizes") && j["sizes"].contains(kind) && j["sizes"][kind].is_number_unsigned();
-            sizes_[kind_name<T>] = has ? j["sizes"][kind].template get<std::uint32_t>() : table<T>(base.scene).size();
+        const json sizes = j.contains("sizes") ? j["sizes"] : json::object();
+        each_kind([&](const auto& kind) {
+            const auto size = sizes.find(kind.plural);
+            const bool has = size != sizes.end() && size->is_number_unsigned();
+            sizes_[kind.name] = has ? size->template get<std::uint32_t>() : (base.scene.*kind.table).size();
         });
         return {};
     }
@@ -237,7 +237,7 @@ class Reader : public ValueReader {
     // --- things
     // --------------------------------------------------------------------------------------------------------
     template <class T>
-    void single(const json& j, const char* name, const T& before, json& unknown) {
+    void read_single(const json& j, const char* name, const T& before, json& unknown) {
         const auto found = j.find(name);
         if (found == j.end()) return;
         where_ = name;

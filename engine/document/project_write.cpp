@@ -23,14 +23,14 @@ class Writer {
   public:
     Writer(const ProjectContent& content, const std::filesystem::path& folder) : content_(content), folder_(folder) {
         // New things are numbered one after the other behind the base's: holes that undone edits left are no news.
-        each_kind([&]<class T>(const char* kind) {
-            const auto& base = table<T>(content.base.scene);
+        each_kind([&]<class T>(const Kind<T>& kind) {
+            const auto& base = content.base.scene.*kind.table;
             std::uint32_t next = base.size();
-            auto& numbers = numbers_[kind_name<T>];
-            table<T>(content.scene).each([&](Id<T> id, const T&) {
+            auto& numbers = numbers_[kind.name];
+            (content.scene.*kind.table).each([&](Id<T> id, const T&) {
                 if (id.value > base.size()) numbers[id.value] = ++next;
             });
-            sizes_[kind] = base.size();
+            sizes_[kind.plural] = base.size();
         });
         content.base.scene.meshes.each([&](Id<Mesh> id, const Mesh& m) { known_[m.data.get()] = {{"of", ref(id)}}; });
         content.base.scene.images.each([&](Id<Image> id, const Image& i) { known_[i.data.get()] = {{"of", ref(id)}}; });
@@ -49,13 +49,17 @@ class Writer {
             j["base"]["sizes"] = sizes_;
         }
         const Scene &base = content_.base.scene, &now = content_.scene;
-        single(j, "environment", base.environment.value, now.environment.value);
-        if (base.active_camera.value != now.active_camera.value) j["active_camera"] = ref(now.active_camera.value);
-        single(j, "film", base.film.value, now.film.value);
-        single(j, "settings", base.settings.value, now.settings.value);
-        each_kind([&]<class T>(const char* kind) {
+        each_single([&]<class T>(const Single<T>& single) {
+            const T &before = (base.*single.one).value, &after = (now.*single.one).value;
+            if constexpr (std::is_same_v<T, Id<Camera>>) {
+                if (before != after) j[single.name] = ref(after);
+            } else {
+                changed_single(j, single.name, before, after);
+            }
+        });
+        each_kind([&]<class T>(const Kind<T>& kind) {
             json part = things<T>();
-            if (!part.empty()) j[kind] = std::move(part);
+            if (!part.empty()) j[kind.plural] = std::move(part);
         });
         return j;
     }
@@ -229,7 +233,7 @@ class Writer {
     }
 
     template <class T>
-    void single(json& j, const char* name, const T& before, const T& now) {
+    void changed_single(json& j, const char* name, const T& before, const T& now) {
         if (before == now) return;
         const json a = to_json(before), b = to_json(now);
         j[name] = a.is_object() && b.is_object() ? difference(a, b) : b;

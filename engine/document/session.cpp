@@ -26,16 +26,8 @@ void Session::take(Scene&& scene) {
     const Version now = std::max(scene.clock, scene_.clock) + 1;
     scene_ = std::move(scene);
     scene_.clock = now;
-    scene_.meshes.set_versions(now);
-    scene_.images.set_versions(now);
-    scene_.textures.set_versions(now);
-    scene_.materials.set_versions(now);
-    scene_.media.set_versions(now);
-    scene_.groups.set_versions(now);
-    scene_.instances.set_versions(now);
-    scene_.lights.set_versions(now);
-    scene_.cameras.set_versions(now);
-    scene_.environment.version = scene_.active_camera.version = scene_.film.version = scene_.settings.version = now;
+    each_table(scene_, [&](auto& table) { table.set_versions(now); });
+    each_single([&](const auto& single) { (scene_.*single.one).version = now; });
     history_ = {};
 }
 

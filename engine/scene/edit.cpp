@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/edit.hpp"
 
-#include "scene/tables.hpp"
-
 #include <algorithm>
-#include <type_traits>
 
 namespace restage::scene {
 
 namespace {
-
-template <class T>
-auto& one(Scene& scene) {
-    if constexpr (std::is_same_v<T, std::optional<Environment>>)
-        return scene.environment;
-    else if constexpr (std::is_same_v<T, Id<Camera>>)
-        return scene.active_camera;
-    else if constexpr (std::is_same_v<T, Film>)
-        return scene.film;
-    else {
-        static_assert(std::is_same_v<T, Settings>);
-        return scene.settings;
-    }
-}
 
 template <class T>
 void apply_change(Scene& scene, const Change<T>& change) {
@@ -34,7 +17,7 @@ void apply_change(Scene& scene, const Change<T>& change) {
 
 template <class T>
 void apply_change(Scene& scene, const ChangeOne<T>& change) {
-    auto& slot = one<T>(scene);
+    auto& slot = single<T>(scene);
     assert(slot.value == change.before);
     slot.value = change.after;
     slot.version = scene.clock;

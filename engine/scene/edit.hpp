@@ -3,7 +3,7 @@
 // shared, so this is small). Insert has no before, remove no after. apply() is the only writer of a Scene.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/tables.hpp"
 
 #include <string>
 #include <variant>
@@ -21,10 +21,10 @@ struct ChangeOne {
     T before, after;
 };
 
+template <class... T, class... U>
+std::variant<Change<T>..., ChangeOne<U>...> any_change(const std::tuple<Kind<T>...>&, const std::tuple<Single<U>...>&);
 using AnyChange =
-    std::variant<Change<Mesh>, Change<Image>, Change<Texture>, Change<Material>, Change<Medium>, Change<Group>,
-                 Change<Instance>, Change<Light>, Change<Camera>, ChangeOne<std::optional<Environment>>,
-                 ChangeOne<Id<Camera>>, ChangeOne<Film>, ChangeOne<Settings>>;
+    decltype(any_change(kinds, singles)); // a Change<T> for each kind, a ChangeOne<T> for each single thing
 
 struct Edit {
     std::string label; // "Move chair": what the history shows

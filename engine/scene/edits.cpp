@@ -120,44 +120,33 @@ Result<Edit> remove_instances(const Scene& scene, std::span<const Id<Instance>> 
 
 Edit remove_unused(const Scene& scene) {
     // Marked = reachable from instances, environment and settings. Unmarked things may refer to each other.
-    std::set<std::pair<int, std::uint32_t>> marked;
+    std::set<std::pair<std::string_view, std::uint32_t>> marked; // kind, id
     const auto mark = [&](auto& self, auto id) -> void {
-        using T = std::remove_cvref_t<decltype(id)>;
-        const auto go = [&]<class X>(int kind, const Table<X>& slots, Id<X> target) {
-            if (const X* item = slots.find(target); item && marked.insert({kind, target.value}).second)
-                if constexpr (requires { visit_references(*item, [](auto) {}); })
-                    visit_references(*item, [&](auto next) { self(self, next); });
+        const auto go = [&]<class X>(Id<X> target) {
+            if (const X* item = table<X>(scene).find(target);
+                item && marked.insert({kind_name<X>, target.value}).second)
+                visit_references(*item, [&](auto next) { self(self, next); });
         };
-        if constexpr (std::is_same_v<T, Id<Mesh>>)
-            go(0, scene.meshes, id);
-        else if constexpr (std::is_same_v<T, Id<Image>>)
-            go(1, scene.images, id);
-        else if constexpr (std::is_same_v<T, Id<Texture>>)
-            go(2, scene.textures, id);
-        else if constexpr (std::is_same_v<T, Id<Material>>)
-            go(3, scene.materials, id);
-        else if constexpr (std::is_same_v<T, Id<Medium>>)
-            go(4, scene.media, id);
-        else if constexpr (std::is_same_v<T, Id<Group>>)
-            go(5, scene.groups, id);
+        go(id);
     };
     scene.instances.each(
         [&](auto, const Instance& i) { visit_references(i, [&](auto target) { mark(mark, target); }); });
-    if (scene.environment.value) mark(mark, scene.environment.value->image);
-    mark(mark, scene.settings.value.camera_medium);
+    each_single([&](const auto& single) {
+        visit_references((scene.*single.one).value, [&](auto target) { mark(mark, target); });
+    });
 
     Edit edit{"Remove what is not used", {}};
-    const auto sweep = [&]<class T>(int kind, const Table<T>& slots) {
-        slots.each([&](Id<T> id, const T& item) {
-            if (!marked.contains({kind, id.value})) edit.changes.push_back(Change<T>{id, item, std::nullopt});
-        });
-    };
-    sweep(5, scene.groups);
-    sweep(4, scene.media);
-    sweep(3, scene.materials);
-    sweep(2, scene.textures);
-    sweep(1, scene.images);
-    sweep(0, scene.meshes);
+    each_table(scene, [&]<class T>(const Table<T>& table) {
+        // What stands in the scene is used by itself; the rest lives by what refers to it.
+        if constexpr (!std::is_same_v<T, Instance> && !std::is_same_v<T, Light> && !std::is_same_v<T, Camera>) {
+            std::vector<AnyChange> unused;
+            table.each([&](Id<T> id, const T& item) {
+                if (!marked.contains({kind_name<T>, id.value})) unused.push_back(Change<T>{id, item, std::nullopt});
+            });
+            // What refers goes before what it refers to.
+            edit.changes.insert(edit.changes.begin(), unused.begin(), unused.end());
+        }
+    });
     return edit;
 }
 

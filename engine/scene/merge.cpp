@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 namespace restage::scene {
@@ -39,13 +40,12 @@ glm::dmat3 turn(glm::dvec3 from, glm::dvec3 to) {
     return glm::dmat3(2.0 * glm::outerProduct(around, around)) - glm::dmat3(1);
 }
 
-// New ids for the live things of one table, in order, after those that are there.
+// New ids for the live things of one table, in order, from `first` on.
 template <class T>
 class Ids {
   public:
-    Ids(const Table<T>& into, const Table<T>& from) {
-        std::uint32_t next = into.next().value;
-        from.each([&](Id<T> id, const T&) { map_[id.value] = {next++}; });
+    explicit Ids(const Table<T>& from, std::uint32_t first) {
+        from.each([&](Id<T> id, const T&) { map_[id.value] = {first++}; });
     }
     Id<T> operator()(Id<T> old) const {
         const auto it = map_.find(old.value);
@@ -54,6 +54,22 @@ class Ids {
 
   private:
     std::unordered_map<std::uint32_t, Id<T>> map_;
+};
+
+// What else becomes of a thing in its new place.
+struct Place {
+    glm::dmat4 frame;
+    Id<Group> group; // around all of them
+    template <class T>
+    void put(T&) const {}
+    void put(Group& g) const {
+        if (!g.parent) g.parent = group;
+    }
+    void put(Instance& i) const {
+        if (!i.group) i.group = group;
+        i.object_to_world = frame * i.object_to_world;
+    }
+    void put(Light& l) const { l.light_to_world = frame * l.light_to_world; }
 };
 
 template <class T>
@@ -95,69 +111,34 @@ Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
 
     Merged result;
     result.edit.label = "Insert " + name;
-    const Ids<Mesh> meshes(into.meshes, from.meshes);
-    const Ids<Image> images(into.images, from.images);
-    const Ids<Texture> textures(into.textures, from.textures);
-    const Ids<Material> materials(into.materials, from.materials);
-    const Ids<Medium> media(into.media, from.media);
-    const Ids<Instance> instances(into.instances, from.instances);
-    const Ids<Light> lights(into.lights, from.lights);
-    const glm::dmat4 frame = frame_change(into, from);
-
     // A group around them all comes first, so its own come after it.
     const bool several = !name.empty() && from.instances.live() + from.lights.live() > 1;
-    std::uint32_t next_group = into.groups.next().value;
-    if (several) result.group = {next_group++};
-    std::unordered_map<std::uint32_t, Id<Group>> groups;
-    from.groups.each([&](Id<Group> id, const Group&) { groups[id.value] = {next_group++}; });
-    const auto group = [&](Id<Group> old) { return old ? groups.at(old.value) : result.group; };
-
-    const auto add = [&]<class T>(const Table<T>& table_into, const Table<T>& table_from, const auto& id_of,
-                                  auto&& adapt) {
-        std::set<std::string> taken = names_of(table_into);
-        table_from.each([&](Id<T> id, const T& item) {
-            T copy = item;
-            copy.name = free_name(copy.name, taken);
-            adapt(copy);
-            result.edit.changes.push_back(Change<T>{id_of(id), std::nullopt, std::move(copy)});
-        });
-    };
-    const auto adapt_params = [&](ParamSet& params) {
-        ParamSet changed;
-        for (const auto& entry : params.entries()) {
-            Value value = entry.value;
-            value.texture = textures(value.texture);
-            value.material = materials(value.material);
-            changed.set(entry.id, std::move(value));
+    if (several) result.group = into.groups.next();
+    const auto ids = std::apply(
+        [&]<class... T>(const Kind<T>&... kind) {
+            return std::tuple{Ids<T>(from.*kind.table, (into.*kind.table).next().value +
+                                                           (std::is_same_v<T, Group> && several ? 1u : 0u))...};
+        },
+        kinds);
+    const Place place{.frame = frame_change(into, from), .group = result.group};
+    each_kind([&]<class T>(const Kind<T>& kind) {
+        if constexpr (!std::is_same_v<T, Camera>) {
+            std::set<std::string> taken = names_of(into.*kind.table);
+            if constexpr (std::is_same_v<T, Group>)
+                if (several)
+                    result.edit.changes.push_back(Change<Group>{
+                        result.group, std::nullopt, Group{.name = free_name(name, taken), .parent = {}, .origin = {}}});
+            (from.*kind.table).each([&](Id<T> id, const T& item) {
+                T copy = item;
+                copy.name = free_name(copy.name, taken);
+                visit_references(copy, [&]<class X>(Id<X>& target) { target = std::get<Ids<X>>(ids)(target); });
+                place.put(copy);
+                result.edit.changes.push_back(Change<T>{std::get<Ids<T>>(ids)(id), std::nullopt, std::move(copy)});
+            });
         }
-        params = std::move(changed);
-    };
-    add(into.meshes, from.meshes, meshes, [](Mesh&) {});
-    add(into.images, from.images, images, [](Image&) {});
-    add(into.textures, from.textures, textures, [&](Texture& t) {
-        t.image = images(t.image);
-        adapt_params(t.params);
     });
-    add(into.materials, from.materials, materials, [&](Material& m) { adapt_params(m.params); });
-    add(into.media, from.media, media, [](Medium&) {});
-    if (several) {
-        std::set<std::string> taken = names_of(into.groups);
-        result.edit.changes.push_back(Change<Group>{result.group, std::nullopt,
-                                                    Group{.name = free_name(name, taken), .parent = {}, .origin = {}}});
-    }
-    add(
-        into.groups, from.groups, [&](Id<Group> id) { return groups.at(id.value); },
-        [&](Group& g) { g.parent = group(g.parent); });
-    add(into.instances, from.instances, instances, [&](Instance& i) {
-        i.mesh = meshes(i.mesh);
-        i.material = materials(i.material);
-        i.group = group(i.group);
-        i.alpha_texture = textures(i.alpha_texture);
-        if (i.media) i.media = MediumInterface{media(i.media->interior), media(i.media->exterior)};
-        i.object_to_world = frame * i.object_to_world;
-    });
-    add(into.lights, from.lights, lights, [&](Light& l) { l.light_to_world = frame * l.light_to_world; });
-    from.instances.each([&](Id<Instance> id, const Instance&) { result.instances.push_back(instances(id)); });
+    from.instances.each(
+        [&](Id<Instance> id, const Instance&) { result.instances.push_back(std::get<Ids<Instance>>(ids)(id)); });
     return result;
 }
 

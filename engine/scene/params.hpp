@@ -51,6 +51,16 @@ class ParamSet {
         bool operator==(const Entry&) const = default;
     };
     const std::vector<Entry>& entries() const { return entries_; }
+    template <class F>
+    void each_value(F&& f) { // f(Value&)
+        for (Entry& entry : entries_)
+            f(entry.value);
+    }
+    template <class F>
+    void each_value(F&& f) const {
+        for (const Entry& entry : entries_)
+            f(entry.value);
+    }
 
   private:
     std::vector<Entry> entries_;

@@ -1,58 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
-// table<T>(scene): the table that holds T, for code that is the same for every kind of thing; kind_name<T> for
-// messages.
+// The kinds of things and the single things a scene holds, listed once: edits, validation, merging, references and
+// projects walk these lists. Those that others refer to come first.
 #pragma once
 
 #include "scene/scene.hpp"
 
-#include <type_traits>
+#include <string_view>
+#include <tuple>
 
 namespace restage::scene {
 
-template <class T, class S>
-auto& table(S& scene) { // S: Scene or const Scene
-    if constexpr (std::is_same_v<T, Mesh>)
-        return scene.meshes;
-    else if constexpr (std::is_same_v<T, Image>)
-        return scene.images;
-    else if constexpr (std::is_same_v<T, Texture>)
-        return scene.textures;
-    else if constexpr (std::is_same_v<T, Material>)
-        return scene.materials;
-    else if constexpr (std::is_same_v<T, Medium>)
-        return scene.media;
-    else if constexpr (std::is_same_v<T, Group>)
-        return scene.groups;
-    else if constexpr (std::is_same_v<T, Instance>)
-        return scene.instances;
-    else if constexpr (std::is_same_v<T, Light>)
-        return scene.lights;
-    else {
-        static_assert(std::is_same_v<T, Camera>);
-        return scene.cameras;
-    }
-}
+template <class T>
+struct Kind {
+    using type = T;
+    const char* name;   // of one, in messages
+    const char* plural; // in project files
+    Table<T> Scene::* table;
+};
+inline constexpr std::tuple kinds{
+    Kind<Mesh>{"mesh", "meshes", &Scene::meshes},
+    Kind<Image>{"image", "images", &Scene::images},
+    Kind<Texture>{"texture", "textures", &Scene::textures},
+    Kind<Material>{"material", "materials", &Scene::materials},
+    Kind<Medium>{"medium", "media", &Scene::media},
+    Kind<Group>{"group", "groups", &Scene::groups},
+    Kind<Instance>{"instance", "instances", &Scene::instances},
+    Kind<Light>{"light", "lights", &Scene::lights},
+    Kind<Camera>{"camera", "cameras", &Scene::cameras},
+};
 
 template <class T>
-inline constexpr const char* kind_name = "";
-template <>
-inline constexpr const char* kind_name<Mesh> = "mesh";
-template <>
-inline constexpr const char* kind_name<Image> = "image";
-template <>
-inline constexpr const char* kind_name<Texture> = "texture";
-template <>
-inline constexpr const char* kind_name<Material> = "material";
-template <>
-inline constexpr const char* kind_name<Medium> = "medium";
-template <>
-inline constexpr const char* kind_name<Group> = "group";
-template <>
-inline constexpr const char* kind_name<Instance> = "instance";
-template <>
-inline constexpr const char* kind_name<Light> = "light";
-template <>
-inline constexpr const char* kind_name<Camera> = "camera";
+struct Single {
+    using type = T;
+    const char* name; // in project files
+    const char* who;  // in messages
+    Scene::One<T> Scene::* one;
+};
+inline constexpr std::tuple singles{
+    Single<std::optional<Environment>>{"environment", "the environment", &Scene::environment},
+    Single<Id<Camera>>{"active_camera", "the active camera", &Scene::active_camera},
+    Single<Film>{"film", "the film", &Scene::film},
+    Single<Settings>{"settings", "the medium of the camera", &Scene::settings}, // what it refers to
+};
+
+// f(Kind<T>) for each; and f(const Single<T>&).
+template <class F>
+void each_kind(F&& f) {
+    std::apply([&](const auto&... kind) { (f(kind), ...); }, kinds);
+}
+template <class F>
+void each_single(F&& f) {
+    std::apply([&](const auto&... single) { (f(single), ...); }, singles);
+}
+
+// What holds a T, for code that is the same for every kind of thing. S: Scene or const Scene.
+template <class T, class S>
+auto& table(S& scene) {
+    return scene.*std::get<Kind<T>>(kinds).table;
+}
+template <class T, class S>
+auto& single(S& scene) {
+    return scene.*std::get<Single<T>>(singles).one;
+}
+template <class T>
+inline constexpr const char* kind_name = std::get<Kind<T>>(kinds).name;
+
+// f(Table<T>&) for each.
+template <class S, class F>
+void each_table(S& scene, F&& f) {
+    each_kind([&](const auto& kind) { f(scene.*kind.table); });
+}
 
 // The first live thing of that name, or none.
 template <class T>

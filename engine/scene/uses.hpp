@@ -3,36 +3,46 @@
 // place, for_each_reference.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/tables.hpp"
 
+#include <concepts>
 #include <string>
 #include <vector>
 
 namespace restage::scene {
 
-// Calls visitor(Id<X>) for each reference a thing holds, none (0) excluded.
-template <class V>
-void visit_references(const ParamSet& params, V&& visitor) {
-    for (const auto& entry : params.entries()) {
-        if (entry.value.texture) visitor(entry.value.texture);
-        if (entry.value.material) visitor(entry.value.material);
-    }
+template <class T, class U>
+concept Of = std::same_as<std::remove_const_t<T>, U>; // U or const U
+
+// Calls visitor(Id<X>&) for each reference that a thing holds, none (0) excluded; const where the thing is.
+template <class T, class V>
+void visit_references(T&, V&&) {} // meshes, images, media, lights, cameras, the film: none
+template <Of<Id<Camera>> T, class V>
+void visit_references(T& camera, V&& visitor) {
+    if (camera) visitor(camera);
 }
-template <class V>
-void visit_references(const Texture& texture, V&& visitor) {
+template <Of<ParamSet> T, class V>
+void visit_references(T& params, V&& visitor) {
+    params.each_value([&](auto& value) {
+        if (value.texture) visitor(value.texture);
+        if (value.material) visitor(value.material);
+    });
+}
+template <Of<Texture> T, class V>
+void visit_references(T& texture, V&& visitor) {
     if (texture.image) visitor(texture.image);
     visit_references(texture.params, visitor);
 }
-template <class V>
-void visit_references(const Material& material, V&& visitor) {
+template <Of<Material> T, class V>
+void visit_references(T& material, V&& visitor) {
     visit_references(material.params, visitor);
 }
-template <class V>
-void visit_references(const Group& group, V&& visitor) {
+template <Of<Group> T, class V>
+void visit_references(T& group, V&& visitor) {
     if (group.parent) visitor(group.parent);
 }
-template <class V>
-void visit_references(const Instance& instance, V&& visitor) {
+template <Of<Instance> T, class V>
+void visit_references(T& instance, V&& visitor) {
     if (instance.mesh) visitor(instance.mesh);
     if (instance.material) visitor(instance.material);
     if (instance.group) visitor(instance.group);
@@ -42,22 +52,27 @@ void visit_references(const Instance& instance, V&& visitor) {
         if (instance.media->exterior) visitor(instance.media->exterior);
     }
 }
+template <Of<std::optional<Environment>> T, class V>
+void visit_references(T& environment, V&& visitor) {
+    if (environment && environment->image) visitor(environment->image);
+}
+template <Of<Settings> T, class V>
+void visit_references(T& settings, V&& visitor) {
+    if (settings.camera_medium) visitor(settings.camera_medium);
+}
 
 // visitor(Id<X> target, std::string who) for every reference in the scene; who: 'instance "chair"'.
 template <class V>
 void for_each_reference(const Scene& scene, V&& visitor) {
-    const auto of = [&](const char* kind, const auto& item) {
-        visit_references(item, [&](auto target) { visitor(target, std::string(kind) + " \"" + item.name + "\""); });
-    };
-    scene.textures.each([&](auto, const Texture& t) { of("texture", t); });
-    scene.materials.each([&](auto, const Material& m) { of("material", m); });
-    scene.groups.each([&](auto, const Group& g) { of("group", g); });
-    scene.instances.each([&](auto, const Instance& i) { of("instance", i); });
-    if (scene.environment.value && scene.environment.value->image)
-        visitor(scene.environment.value->image, std::string("the environment"));
-    if (scene.active_camera.value) visitor(scene.active_camera.value, std::string("the active camera"));
-    if (scene.settings.value.camera_medium)
-        visitor(scene.settings.value.camera_medium, std::string("the medium of the camera"));
+    each_table(scene, [&]<class T>(const Table<T>& table) {
+        table.each([&](Id<T>, const T& item) {
+            visit_references(
+                item, [&](auto target) { visitor(target, std::string(kind_name<T>) + " \"" + item.name + "\""); });
+        });
+    });
+    each_single([&](const auto& single) {
+        visit_references((scene.*single.one).value, [&](auto target) { visitor(target, std::string(single.who)); });
+    });
 }
 
 // Everything that refers to `id`, by name.

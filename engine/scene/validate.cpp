@@ -104,19 +104,15 @@ void check_things(const Scene& scene, Findings& out) {
         for (ValueProblem& p : value_problems(thing))
             out.add(p.severity, p.kind, std::move(p.sentence));
     };
-    const auto each = [&](auto, const auto& thing) { add(thing); };
-    scene.meshes.each(each);
-    scene.images.each(each);
-    scene.textures.each(each);
-    scene.materials.each(each);
-    scene.media.each(each);
-    scene.instances.each([&](auto, const Instance& i) {
-        if (!i.mesh) out.error("instance", called(i) + " has no mesh");
-        if (!i.material) out.error("instance", called(i) + " has no material");
-        add(i);
+    each_table(scene, [&]<class T>(const Table<T>& table) {
+        table.each([&](Id<T>, const T& thing) {
+            if constexpr (std::is_same_v<T, Instance>) {
+                if (!thing.mesh) out.error("instance", called(thing) + " has no mesh");
+                if (!thing.material) out.error("instance", called(thing) + " has no material");
+            }
+            add(thing);
+        });
     });
-    scene.lights.each(each);
-    scene.cameras.each(each);
     if (scene.environment.value) add(*scene.environment.value);
     if (!scene.active_camera.value) out.error("camera", no_camera);
     add(scene.film.value);
