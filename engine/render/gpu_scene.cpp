@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -50,11 +51,17 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
                         scene.environment.version != seen_.environment || scene.meshes.version() != seen_.meshes;
     if (meshes) RESTAGE_CHECK(sync_meshes(scene, changes));
     if (textures) RESTAGE_CHECK(sync_textures(scene, changes));
-    if (materials || instances) // an instance may bring in a type
+    // An instance may bring in a type. Where it does not, only what was changed is looked at.
+    const bool all = meshes || materials || !same_materials_in_use(scene);
+    if (instances && !all)
+        std::ranges::fill(emission_changed_, char(0));
+    else if (materials || instances)
         RESTAGE_CHECK(sync_materials(scene, changes));
-    if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes));
+    if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes, all));
     if (lights || !changes.instances.empty() || (textures && (features_.emission_textures || features_.light_alpha)))
-        RESTAGE_CHECK(sync_lights(scene, changes));
+        RESTAGE_CHECK(sync_lights(
+            scene, changes,
+            all || scene.lights.version() != seen_.lights || scene.environment.version != seen_.environment));
     RESTAGE_CHECK(sync_root(scene, changes));
     changes.shaders |= plugins;
     changes.film = first_ || scene.film.version != seen_.film;

@@ -106,8 +106,9 @@ class GpuScene {
     Result<void> sync_meshes(const scene::Scene&, SceneChanges&);
     Result<void> sync_textures(const scene::Scene&, SceneChanges&);
     Result<void> sync_materials(const scene::Scene&, SceneChanges&);
-    Result<void> sync_instances(const scene::Scene&, SceneChanges&);
-    Result<void> sync_lights(const scene::Scene&, SceneChanges&);
+    bool same_materials_in_use(const scene::Scene&) const; // although instances were changed
+    Result<void> sync_instances(const scene::Scene&, SceneChanges&, bool all);
+    Result<void> sync_lights(const scene::Scene&, SceneChanges&, bool all);
     Result<void> sync_root(const scene::Scene&, SceneChanges&);
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
@@ -141,8 +142,16 @@ class GpuScene {
     std::vector<std::optional<scene::MaterialEmission>> emission_; // by MaterialData index
     std::vector<char> emission_changed_; // the same, since the last sync
     std::vector<char> has_gaps_; // by MaterialData index: a mix with a share of no surface
+    // By Id<Instance>::value:
     std::vector<char> traced_, border_, flat_; // flat: no ray can be turned into its object space
+    std::vector<char> quadric_; // one that rays may hit
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
+    std::vector<std::uint32_t> used_material_; // of what is not hidden; 0 = none
+    struct Box {
+        glm::dvec3 lower{1e300}, upper{-1e300};
+    };
+    static Box world_box(const scene::Scene&, const scene::Instance&);
+    std::vector<Box> boxes_; // world space, of what rays can hit; else empty
     EnvironmentMap environment_;
 
     GpuArray<shared::InstanceData> instances_{"instances"};
@@ -160,9 +169,12 @@ class GpuScene {
     GpuArray<shared::SceneData> scene_data_{"scene"};
     LightTable light_table_;
     double radius_ = 1; // of what is visible
+    std::uint32_t quadrics_ = 0; // how many rays may hit
+    bool lights_touched_ = false; // by the last sync_instances: something that shines, or did
+    bool reads_files_ = false; // some material in use does: they may have changed
     glm::vec2 filter_weight_{1};
     std::uint32_t filter_entries_ = 0;
-    bool light_alpha_ = false, glow_ = false, quadrics_ = false; // of SceneFeatures
+    bool light_alpha_ = false, glow_ = false; // of SceneFeatures
 
     struct Versions {
         scene::Version meshes = 0, images = 0, textures = 0, materials = 0, instances = 0, lights = 0, media = 0,

@@ -53,8 +53,11 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         for (const auto& e : m->params.entries())
             if (e.value.type == RESTAGE_MATERIAL) self(self, e.value.material, depth + 1);
     };
-    scene.instances.each([&](Id<scene::Instance>, const scene::Instance& i) {
-        if (!i.hidden) use(use, i.material, 0);
+    used_material_.assign(scene.instances.size() + 1, 0);
+    scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& i) {
+        if (i.hidden) return;
+        used_material_[id.value] = i.material.value;
+        use(use, i.material, 0);
     });
 
     const auto old_types = types_;
@@ -73,6 +76,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     mix_amount_.assign(records.size(), 0.5f);
     mix_texture_.assign(records.size(), 0);
     std::vector<std::optional<scene::MaterialEmission>> emission(records.size());
+    reads_files_ = false;
     tables_.begin();
     const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type,
                           std::span<const DeviceTable> tables = {}) {
@@ -122,6 +126,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             record.type = index;
             return;
         }
+        reads_files_ |= type.plugin.source && type.plugin.source->table_reader();
         const auto tables = tables_.find(type.plugin, m.params);
         if (!tables) { // its file is missing or broken: grey, until it is mended
             pack(record, {}, fallback);
@@ -255,7 +260,18 @@ bool traceable(const glm::dmat4& object_to_world) {
 
 } // namespace
 
-Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes) {
+bool GpuScene::same_materials_in_use(const Scene& scene) const {
+    if (first_ || reads_files_) return false;
+    bool same = true;
+    scene.instances.each_changed(seen_.instances, [&](Id<scene::Instance> id, const scene::Instance* in) {
+        const std::uint32_t used = in && !in->hidden ? in->material.value : 0;
+        same &= used == (id.value < used_material_.size() ? used_material_[id.value] : 0);
+    });
+    return same;
+}
+
+// all: also those whose mesh or material was changed, not they themselves.
+Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes, bool all) {
     const std::uint32_t n = scene.instances.size() + 1;
     const std::uint32_t old = std::uint32_t(traced_.size());
     if (instances_.size() != n) {
@@ -263,14 +279,17 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         traced_.resize(n, 0);
         border_.resize(n, 0);
         flat_.resize(n, 0);
+        quadric_.resize(n, 0);
         mesh_of_.resize(n);
+        boxes_.resize(n);
+        used_material_.resize(n, 0);
     }
-    quadrics_ = false;
+    lights_touched_ = false;
     std::vector<char> replaced(scene.meshes.size() + 1);
     for (auto id : changes.meshes)
         replaced[id.value] = 1;
-    for (std::uint32_t i = 1; i < n; ++i) {
-        const Id<scene::Instance> id{i};
+    const auto sync_one = [&](Id<scene::Instance> id) {
+        const std::uint32_t i = id.value;
         const auto* in = scene.instances.find(id);
         const auto* material = in ? scene.materials.find(in->material) : nullptr;
         // `interface`: rays pass; what it may be is a border of media, or a lamp (pbrt-v3's; pbrt-v4 has none)
@@ -286,7 +305,9 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
             flat_[i] = flat;
         }
         const bool there = in && !in->hidden && !flat_[i] && mesh(in->mesh);
-        quadrics_ |= there && mesh(in->mesh)->quadric;
+        const bool quadric = there && mesh(in->mesh)->quadric;
+        quadrics_ = quadrics_ + quadric - (quadric_[i] != 0);
+        quadric_[i] = quadric;
         const bool invisible = in && !scene.textures.find(in->alpha_texture) && !(in->alpha > 0);
         const bool traced = there && !invisible && (!nothing || in->emission);
         const bool border = there && (gaps || nothing) && in->media && in->media->interior != in->media->exterior;
@@ -295,20 +316,28 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes)
         if (!moved_in_or_out && scene.instances.version(id) <= seen_.instances &&
             instances_[i].material == (nothing ? 0 : m) && !emission_changed_[m] &&
             gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
-            continue; // the usual case, cheaply
+            return; // the usual case, cheaply
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         if (traced && nothing) record.flags |= INSTANCE_PASSES;
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
+        lights_touched_ |= ((record.flags | instances_[i].flags) & (INSTANCE_EMITS | INSTANCE_PASSES)) != 0;
+        boxes_[i] = traced ? world_box(scene, *in) : Box{};
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; another zero is uploaded, no harm
         if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
-            continue; // another name
+            return; // another name
         instances_.set(i, record);
         traced_[i] = traced;
         border_[i] = border;
         mesh_of_[i] = its_mesh;
         changes.instances.push_back(id);
-    }
+    };
+    if (all)
+        for (std::uint32_t i = 1; i < n; ++i)
+            sync_one({i});
+    else
+        scene.instances.each_changed(seen_.instances,
+                                     [&](Id<scene::Instance> id, const scene::Instance*) { sync_one(id); });
     return instances_.flush(*device_);
 }
 
@@ -333,7 +362,21 @@ std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instan
     return out;
 }
 
-Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
+GpuScene::Box GpuScene::world_box(const Scene& scene, const scene::Instance& instance) {
+    const scene::MeshData& mesh = *scene.meshes[instance.mesh].data;
+    Box box;
+    for (int k = 0; k < 8; ++k) {
+        const glm::dvec3 corner(k & 1 ? mesh.upper.x : mesh.lower.x, k & 2 ? mesh.upper.y : mesh.lower.y,
+                                k & 4 ? mesh.upper.z : mesh.lower.z);
+        const glm::dvec3 p(instance.object_to_world * glm::dvec4(corner, 1));
+        box.lower = glm::min(box.lower, p);
+        box.upper = glm::max(box.upper, p);
+    }
+    return box;
+}
+
+// all: also those that were not changed themselves.
+Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bool all) {
     const auto& env = scene.environment.value;
     if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
         const auto* image = env ? scene.images.find(env->image) : nullptr;
@@ -349,18 +392,15 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes) {
     }
     // Radius of the scene: of what is visible, about its centre.
     glm::dvec3 lower(1e300), upper(-1e300);
-    scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& i) {
-        if (!traced_[id.value]) return;
-        const auto& mesh = *scene.meshes[i.mesh].data;
-        for (int k = 0; k < 8; ++k) {
-            const glm::dvec3 corner(k & 1 ? mesh.upper.x : mesh.lower.x, k & 2 ? mesh.upper.y : mesh.lower.y,
-                                    k & 4 ? mesh.upper.z : mesh.lower.z);
-            const glm::dvec3 p(i.object_to_world * glm::dvec4(corner, 1));
-            lower = glm::min(lower, p);
-            upper = glm::max(upper, p);
-        }
-    });
+    for (const Box& box : boxes_) {
+        lower = glm::min(lower, box.lower);
+        upper = glm::max(upper, box.upper);
+    }
+    const double radius = std::exchange(radius_, 1);
     radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
+
+    // Nothing that shines was changed, and what the sky and distant lights reach is as large as it was.
+    if (!all && !lights_touched_ && (radius == radius_ || (!env && scene.lights.live() == 0))) return {};
 
     light_alpha_ = glow_ = false;
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
@@ -475,7 +515,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     f.emission_textures = std::ranges::any_of(emission_, [](const auto& e) { return e && e->texture; });
     f.light_alpha = light_alpha_;
     f.glow = glow_;
-    f.quadrics = quadrics_;
+    f.quadrics = quadrics_ > 0;
     const auto* camera = scene.cameras.find(scene.active_camera.value);
     f.camera = camera ? std::uint32_t(camera->projection) : CAMERA_PERSPECTIVE;
     f.borders = std::ranges::find(border_, 1) != border_.end();
