@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What ARCHITECTURE.md promises of "to add X, touch Y": a new layer of the film, tracer or kind of thing is named where
+it is said to be, and nowhere else."""
+import pathlib
+import re
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCES = {".cpp", ".hpp", ".glsl", ".comp", ".rgen", ".rchit", ".rahit", ".rmiss", ".h"}
+LAYERS = (ROOT / "engine/render/film_layers.hpp").read_text()
+
+
+def naming(pattern, *folders):
+    """The files below the folders that hold the pattern."""
+    return {str(p.relative_to(ROOT)) for f in folders for p in (ROOT / f).rglob("*")
+            if p.suffix in SOURCES and re.search(pattern, p.read_text())}
+
+
+def guides():
+    """(field of GuidePixel, name, layer in files, label in menus) of each layer that a path fills."""
+    rows = re.findall(r'\.name = "(\w*)".*?\.in_file = "(\w*)".*?\.guide = (.*?),\s*\.look.*?\.label = "(\w*)"', LAYERS, re.S)
+    return [(re.search(r"g\.(\w+)", guide).group(1), name, file, label) for name, file, guide, label in rows if "g." in guide]
+
+
+def test_layers_of_the_film_are_found_here():
+    assert {g[0] for g in guides()} == {"albedo", "normal", "depth", "instance_id", "material_id"}
+
+
+@pytest.mark.parametrize("field, name, file, label", guides())
+def test_a_layer_of_the_film_is_named_in_four_files(field, name, file, label):
+    shaders = naming(rf"\b(g|a|guide|guides\.at\[i\])\.{field}\b", "shaders")
+    assert shaders <= {"shaders/path/film.glsl", "shaders/path/step.glsl", "shaders/check_lab.glsl"}  # the lab's is a BSDF's
+    words = "|".join({name, file, label} - {"", "id"})
+    assert naming(rf'"({words})"', "engine/render", "engine/view", "app/commands", "python/src") <= {"engine/render/film_layers.hpp"}
+    assert naming(rf'"{label}"', "app/editor") == set()
+
+
+def test_a_tracer_is_named_in_the_list_and_its_file():
+    names = re.findall(r'\.name = "(\w+)"', (ROOT / "engine/render/tracers.cpp").read_text())
+    assert len(names) >= 2
+    for name in names:
+        assert naming(rf'"{name}"', "engine", "app", "python/src") == {"engine/render/tracers.cpp", f"engine/render/{name}_tracer.cpp"}
+
+
+def test_the_tables_of_a_scene_are_listed_once():
+    tables = re.findall(r"^    Table<\w+> (\w+);", (ROOT / "engine/scene/scene.hpp").read_text(), re.M)
+    assert len(tables) == 9
+    for table in tables:
+        assert naming(rf"&Scene::{table}\b", "engine", "app", "python/src") == {"engine/scene/tables.hpp"}
