@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `restage`: understands the command line, runs one command, returns its exit code (see ExitCode).
 
+#include "base/version.hpp"
 #include "commands/commands.hpp"
 #include "usage.hpp"
 
@@ -27,7 +28,7 @@ int run(int argc, char** argv) {
     Context context;
     CLI::App program{"Restage: edit, path-trace, denoise and convert 3D scenes."};
     program.name("restage");
-    program.set_version_flag("-V,--version", "restage " RESTAGE_VERSION);
+    program.set_version_flag("-V,--version", std::string("restage ") + restage::version());
     program.set_help_flag("-h,--help", "Show this help and exit");
     program.require_subcommand(0, 1);
     program.fallthrough(); // options of the program are understood after the command as well

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage render SCENE -o out.exr: a scene file becomes a picture.
 #include "base/file.hpp"
+#include "base/version.hpp"
 #include "commands.hpp"
 #include "document/assign.hpp"
 #include "frames.hpp"
@@ -137,7 +138,7 @@ Result<void> go_on(Options& o, const view::StoredPicture& before, const scene::S
 Metadata metadata_of(const Options& o, render::Renderer& renderer, const scene::Scene& scene) {
     const view::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.samples()}};
     Metadata metadata = what_is_rendered(o, scene);
-    metadata.merge(Metadata{{"restage:version", RESTAGE_VERSION},
+    metadata.merge(Metadata{{"restage:version", version()},
                             {"restage:device", renderer.device().info().name},
                             {"restage:tracer", renderer.tracer_name()},
                             {"restage:samples", std::to_string(renderer.samples())},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "final_render.hpp"
 
+#include "base/version.hpp"
 #include "editor.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
@@ -122,7 +123,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
         }
     }
     const auto& stats = renderer->stats();
-    finished->how = {.metadata = {{"restage:version", plugin::host_version},
+    finished->how = {.metadata = {{"restage:version", version()},
                                   {"restage:scene", scene_name},
                                   {"restage:device", renderer->device().info().name},
                                   {"restage:tracer", renderer->tracer_name()},

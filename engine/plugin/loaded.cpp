@@ -2,6 +2,7 @@
 #include "plugin/loaded.hpp"
 
 #include "base/file.hpp"
+#include "base/version.hpp"
 #include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
 #include "plugin/tables.hpp"
@@ -116,7 +117,7 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
         return fail(library.string() + ": says its version is \"" + (table->version ? table->version : "") +
                     "\", the manifest says \"" + manifest.version + "\"");
     if (!table->query) return fail(library.string() + ": has no query function");
-    host_ = {.c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = host_version, .service = host_service},
+    host_ = {.c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = version(), .service = host_service},
              .log_table = {.size = sizeof(RestageLog1), .log = host_log},
              .log = &log,
              .id = manifest.id};

@@ -28,8 +28,6 @@
 
 namespace restage::plugin {
 
-inline constexpr const char* host_version = "0.1.0";
-
 enum class State { loaded, refused };
 
 struct Entry {

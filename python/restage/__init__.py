@@ -31,7 +31,7 @@ from .bsdf import Bsdf, BsdfSample
 from . import spread
 from .checking import CheckReport, CheckStep, check
 
-__version__ = "0.1.0"
+__version__ = _core.version()
 
 _here = _pathlib.Path(__file__).parent
 # In a wheel all is inside the package; in a build tree or an installed one the package is lib/python/restage.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The module restage._core; the package restage (python/restage) gives its contents their public names.
+#include "base/version.hpp"
 #include "collections.hpp"
 #include "picture.hpp"
 
@@ -8,6 +9,7 @@ NB_MODULE(_core, m) {
     m.doc() = "Restage's engine for Python; import restage instead.";
     nb::exception<Failure>(m, "Error", PyExc_RuntimeError).doc() =
         "What could not be done, as one sentence: what, where (file:line:column), what to do about it.";
+    m.def("version", &restage::version, "Of Restage. For the package itself, whose __version__ it is.");
     m.def("set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
     m.def("home", &Host::home, "Where they are.");
     nb::set_leak_warnings(false); // sessions in globals live until the process ends

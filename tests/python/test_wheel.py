@@ -59,5 +59,7 @@ def test_a_wheel_works_in_a_fresh_environment(cornell, program, tmp_path):
     plugins, mean, shape = run(python, "-c", SCRIPT, env=environment, cwd=tmp_path).split(maxsplit=2)
     assert int(plugins) > 15 and shape.strip() == "(32, 32, 3)"
     assert float(mean) == pytest.approx(float(cornell.render(size=(32, 32), samples=8, seed=5).color.mean()), rel=1e-5)
-    assert "0.1.0" in run(tmp_path / "venv/bin/restage", "--version", env=environment)
+    said = run(tmp_path / "venv/bin/restage", "--version", env=environment).split()
+    assert said[0] == "restage" and wheel.name.startswith(f"restage-{said[1]}-")
+    assert run(python, "-c", "import restage; print(restage.__version__)", env=environment, cwd=tmp_path).strip() == said[1]
     assert "material diffuse" in run(python, "-m", "restage", "plugins", env=environment)
