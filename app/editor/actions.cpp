@@ -2,15 +2,18 @@
 #include "actions.hpp"
 
 #include "copy_paste.hpp"
+#include "document/session.hpp"
 #include "editor.hpp"
-#include "final_render.hpp"
 #include "io/material_emission.hpp"
 #include "panels/outliner.hpp"
+#include "plugin/registry.hpp"
 #include "query/navigation.hpp"
 #include "query/support.hpp"
 #include "query/touching.hpp"
 #include "saving.hpp"
 #include "scene/edits_light.hpp"
+#include "view/live_view.hpp"
+#include "viewport.hpp"
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -23,9 +26,9 @@ namespace restage::editor {
 
 namespace {
 
-bool has_selection(const Editor& e) { return !e.selection.empty(); }
-bool has_objects(const Editor& e) { return !e.selection.instances().empty(); }
-bool has_scene(const Editor& e) { return e.scene().instances.live() > 0; }
+bool has_selection(const PanelContext& e) { return !e.selection.empty(); }
+bool has_objects(const PanelContext& e) { return !e.selection.instances().empty(); }
+bool has_scene(const PanelContext& e) { return e.scene().instances.live() > 0; }
 
 void remove_selected(Editor& e) {
     const auto ids = e.selection.instances();
@@ -95,7 +98,7 @@ void set_camera_to_view(Editor& e) {
     });
 }
 
-bool view_is_apart(const Editor& e) { return e.views.now().has_value(); }
+bool view_is_apart(const PanelContext& e) { return e.views.now().has_value(); }
 
 void drop_to_floor(Editor& e) {
     const auto ids = e.selection.instances();
@@ -122,7 +125,7 @@ void select_touching(Editor& e) {
     e.selection.set(more, Selection::Mode::add);
 }
 
-GroupId group_of_selection(const Editor& e) {
+GroupId group_of_selection(const PanelContext& e) {
     const scene::Instance* active = e.scene().instances.find(e.selection.active());
     return active ? e.selection.click_group(e.scene(), e.selection.active()) : GroupId{};
 }
@@ -175,12 +178,17 @@ void select_all(Editor& e) {
     e.selection.set(all);
 }
 
+// What needs no more of the editor than panels have.
+template <void (*what)(PanelContext&)>
+void run(Editor& e) {
+    what(e);
+}
 template <GizmoMode mode>
 void set_gizmo(Editor& e) {
     e.view.gizmo = mode;
 }
 template <GizmoMode mode>
-bool is_gizmo(const Editor& e) {
+bool is_gizmo(const PanelContext& e) {
     return e.view.gizmo == mode;
 }
 
@@ -196,39 +204,39 @@ constexpr auto actions = std::to_array<Action>({
     {"file.save_as", "Save as...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S, 0, "The project under another name",
      has_scene, [](Editor& e) { save_as(e); }},
     {"file.revert", "Revert...", 0, 0, "Back to what was opened or saved last",
-     [](const Editor& e) { return !e.session().path().empty() && e.session().modified(); }, revert},
+     [](const PanelContext& e) { return !e.session().path().empty() && e.session().modified(); }, revert},
     {"file.export", "Export...", ImGuiMod_Ctrl | ImGuiKey_E, 0, "A scene file for other programs", has_scene,
-     export_dialog},
+     run<export_dialog>},
     {"file.save_image", "Save picture...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_E, 0,
-     "The live picture as it is now", has_scene, save_image_dialog},
+     "The live picture as it is now", has_scene, run<save_image_dialog>},
     {"file.final", "Final picture...", ImGuiMod_Ctrl | ImGuiKey_R, 0,
-     "Render in full size and quality in the background, denoise, write", has_scene, final_render_dialog},
+     "Render in full size and quality in the background, denoise, write", has_scene, run<final_render_dialog>},
     {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks when something is not saved", nullptr,
      [](Editor& e) { e.request_quit(); }},
     {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Take the last change back",
-     [](const Editor& e) { return e.session().history().position() > 0; }, [](Editor& e) { e.undo(); }},
+     [](const PanelContext& e) { return e.session().history().position() > 0; }, [](Editor& e) { e.undo(); }},
     {"edit.redo", "Redo", ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z,
      "Do again what was taken back",
-     [](const Editor& e) { return e.session().history().position() < e.session().history().size(); },
+     [](const PanelContext& e) { return e.session().history().position() < e.session().history().size(); },
      [](Editor& e) { e.redo(); }},
     {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
      "A second one beside it; copies of objects share geometry and material", has_selection, duplicate_selected},
     {"edit.copy", "Copy", ImGuiMod_Ctrl | ImGuiKey_C, 0,
-     "Objects or a light into the clipboard, for this or another window of Restage", has_selection, copy_selected},
+     "Objects or a light into the clipboard, for this or another window of Restage", has_selection, run<copy_selected>},
     {"edit.paste", "Paste", ImGuiMod_Ctrl | ImGuiKey_V, 0,
      "What was copied, here or in another window; a material goes to what is selected", has_scene, paste},
     {"edit.delete", "Delete", ImGuiKey_Delete, ImGuiKey_X, "Remove what is selected", has_selection, remove_selected},
     {"edit.group", "Group", ImGuiMod_Ctrl | ImGuiKey_G, 0, "From now on a click picks all of what is selected now",
-     has_objects, group_selected},
+     has_objects, run<group_selected>},
     {"edit.ungroup", "Ungroup", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_G, 0,
      "A click picks single objects of the selected group again",
-     [](const Editor& e) { return bool(group_of_selection(e)); }, [](Editor& e) { ungroup(e, group_of_selection(e)); }},
+     [](const PanelContext& e) { return bool(group_of_selection(e)); }, [](Editor& e) { ungroup(e, group_of_selection(e)); }},
     {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Let the selected objects fall onto what is below", has_objects,
      drop_to_floor},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
     {"select.none", "None", ImGuiKey_Escape, 0, "Select nothing; leave the entered group; before that, close the help",
-     [](const Editor& e) { return e.panel_open("Help") || has_selection(e) || e.selection.entered(); },
+     [](const PanelContext& e) { return e.panel_open("Help") || has_selection(e) || e.selection.entered(); },
      [](Editor& e) {
          if (e.panel_open("Help")) return e.open_panel("Help", false);
          e.selection.clear();
@@ -250,19 +258,19 @@ constexpr auto actions = std::to_array<Action>({
          e.selection.clear();
      }},
     {"select.unlock_all", "Unlock all", 0, 0, "Every object can be picked again",
-     [](const Editor& e) { return !e.locked.empty(); }, [](Editor& e) { e.locked.clear(); }},
+     [](const PanelContext& e) { return !e.locked.empty(); }, [](Editor& e) { e.locked.clear(); }},
     {"view.frame_selected", "Frame selected", ImGuiKey_F, ImGuiKey_KeypadDecimal,
      "Move the camera so that the selection fills the picture", has_selection,
      [](Editor& e) { frame_bounds(e, e.selection.bounds(e.scene())); }},
     {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is seen", has_scene,
      [](Editor& e) { frame_bounds(e, scene::world_bounds(e.scene())); }},
     {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0,
-     "To where the camera was when opened", [](const Editor& e) { return e.opened_camera() != nullptr; },
+     "To where the camera was when opened", [](const PanelContext& e) { return e.opened_camera() != nullptr; },
      [](Editor& e) { e.look_from(e.opened_camera()->camera_to_world, {}, "Camera of the file"); }},
     {"view.back", "Back", ImGuiKey_LeftBracket, 0, "To where you looked from before; no undo of anything",
-     [](const Editor& e) { return e.views.can_back(); }, [](Editor& e) { e.views.back(); }},
+     [](const PanelContext& e) { return e.views.can_back(); }, [](Editor& e) { e.views.back(); }},
     {"view.forward", "Forward", ImGuiKey_RightBracket, 0, "To where you looked from after that",
-     [](const Editor& e) { return e.views.can_forward(); }, [](Editor& e) { e.views.forward(); }},
+     [](const PanelContext& e) { return e.views.can_forward(); }, [](Editor& e) { e.views.forward(); }},
     {"view.camera", "Look through the camera", ImGuiMod_Ctrl | ImGuiKey_Home, 0,
      "To the scene's camera, which looking around leaves where it is", view_is_apart,
      [](Editor& e) { e.views.go(std::nullopt); }},
@@ -272,11 +280,11 @@ constexpr auto actions = std::to_array<Action>({
     {"view.lock_camera", "Lock camera", 0, 0,
      "Looking around leaves the scene's camera where it is. Off: the camera goes along, and each move can be undone",
      nullptr, [](Editor& e) { e.view.camera_locked = !e.view.camera_locked; },
-     [](const Editor& e) { return e.view.camera_locked; }},
+     [](const PanelContext& e) { return e.view.camera_locked; }},
     {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene,
      bookmark},
     {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next view that was kept",
-     [](const Editor& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
+     [](const PanelContext& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
     {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
      is_gizmo<GizmoMode::select>},
     {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G, "Handles that move. Shift: a copy, Ctrl: in steps, Alt: up and down", nullptr,
@@ -286,22 +294,22 @@ constexpr auto actions = std::to_array<Action>({
     {"view.gizmo_scale", "Scale tool", ImGuiKey_R, ImGuiKey_S, "Handles that stretch. Shift: a copy, Ctrl: in steps", nullptr,
      set_gizmo<GizmoMode::scale>, is_gizmo<GizmoMode::scale>},
     {"view.local", "Local axes", ImGuiKey_L, 0, "Handles along the object's own axes instead of the world's", nullptr,
-     [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const Editor& e) { return e.view.local_axes; }},
+     [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const PanelContext& e) { return e.view.local_axes; }},
     {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
-     [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const Editor& e) { return e.view.denoise; }},
+     [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const PanelContext& e) { return e.view.denoise; }},
     {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles, numbers and messages over the picture", nullptr,
      [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
-     [](const Editor& e) { return e.view.show_overlays; }},
+     [](const PanelContext& e) { return e.view.show_overlays; }},
     {"view.inspect", "Pixel values", ImGuiKey_I, 0, "Radiance, error, object and distance of the pixel under the mouse",
      nullptr, [](Editor& e) { e.view.inspect_pixels = !e.view.inspect_pixels; },
-     [](const Editor& e) { return e.view.inspect_pixels; }},
+     [](const PanelContext& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
-     [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const Editor& e) { return e.view.show_panels; }},
+     [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const PanelContext& e) { return e.view.show_panels; }},
     {"view.reset_layout", "Reset layout", 0, 0, "Every panel where it was at the first start", nullptr,
      [](Editor& e) { e.reset_layout(); }},
     {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0,
      "Every shortcut, and how to get around", nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
-     [](const Editor& e) { return e.panel_open("Help"); }},
+     [](const PanelContext& e) { return e.panel_open("Help"); }},
 });
 
 } // namespace
@@ -331,7 +339,7 @@ std::string key_text(ImGuiKeyChord key) {
     return text;
 }
 
-std::string label_of(const Editor& e, const Action& action) {
+std::string label_of(const PanelContext& e, const Action& action) {
     const std::string_view id = action.id;
     const scene::History& history = e.session().history();
     const std::string_view step = id == "edit.undo"   ? history.undo_label()
@@ -354,7 +362,7 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
     const auto pressed = [&](ImGuiKeyChord key) {
         return keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key);
     };
-    if (editor.viewport.dragging(editor)) { // an undo would pull what is dragged from under the mouse
+    if (editor.viewport.dragging()) { // an undo would pull what is dragged from under the mouse
         // Whatever is held with it: Shift, where a copy is dragged.
         const bool escape =
             keys ? std::ranges::any_of(*keys,
@@ -382,7 +390,7 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         run([&](ImGuiKeyChord key) { return key == one; });
 }
 
-void menu_item(Editor& editor, std::string_view id) {
+void menu_item(PanelContext& editor, std::string_view id) {
     const Action* action = find_action(id);
     if (!action) return;
     const bool enabled = !action->enabled || action->enabled(editor);
@@ -395,7 +403,7 @@ void menu_item(Editor& editor, std::string_view id) {
     editor.mark(action->id);
 }
 
-bool action_button(Editor& editor, std::string_view id, const char* label) {
+bool action_button(PanelContext& editor, std::string_view id, const char* label) {
     const Action* action = find_action(id);
     if (!action) return false;
     const bool on = action->checked && action->checked(editor);

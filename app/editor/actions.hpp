@@ -3,8 +3,9 @@
 // the command palette; a button asks for an action by its id.
 #pragma once
 
+#include "preferences.hpp"
+
 #include <imgui.h>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,8 +14,7 @@
 namespace restage::editor {
 
 class Editor;
-
-enum class KeyPreset { standard, blender };
+class PanelContext;
 
 struct Action {
     const char* id;       // "edit.undo"; the part before the dot is its menu
@@ -22,22 +22,22 @@ struct Action {
     ImGuiKeyChord key;    // 0 = none
     ImGuiKeyChord blender_key; // of the Blender-like preset; 0 = the same
     const char* tooltip;  // one sentence
-    bool (*enabled)(const Editor&); // null = always
+    bool (*enabled)(const PanelContext&); // null = always
     void (*run)(Editor&);
-    bool (*checked)(const Editor&) = nullptr; // null = it is no switch
+    bool (*checked)(const PanelContext&) = nullptr; // null = it is no switch
 };
 
 std::span<const Action> all_actions();
 const Action* find_action(std::string_view id);
 ImGuiKeyChord key_of(const Action& action, KeyPreset preset);
 std::string key_text(ImGuiKeyChord key); // "Ctrl+Z", "?"; "" = none
-std::string label_of(const Editor& editor, const Action& action); // with what it would undo: "Undo Move chair"
+std::string label_of(const PanelContext& editor, const Action& action); // with what it would undo: "Undo Move chair"
 
 // Runs what keys ask for, once a frame; while text is typed or a dialog is open they are left alone. `keys`: see
 // Editor::frame.
 void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys);
 // A menu entry, or a button, of that action, with its shortcut and tooltip.
-void menu_item(Editor& editor, std::string_view id);
-bool action_button(Editor& editor, std::string_view id, const char* label = nullptr);
+void menu_item(PanelContext& editor, std::string_view id);
+bool action_button(PanelContext& editor, std::string_view id, const char* label = nullptr);
 
 } // namespace restage::editor

@@ -2,7 +2,7 @@
 #include "background.hpp"
 
 #include "base/thread_priority.hpp"
-#include "editor.hpp"
+#include "panel_context.hpp"
 #include "theme.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ double BackgroundJobs::progress() const {
     return jobs_[0]->done_;
 }
 
-void BackgroundJobs::update(Editor& editor) {
+void BackgroundJobs::update(PanelContext& editor) {
     for (std::size_t i = 0; i < jobs_.size();) {
         if (!jobs_[i]->finished_) {
             ++i;

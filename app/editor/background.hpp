@@ -17,7 +17,7 @@
 
 namespace restage::editor {
 
-class Editor;
+class PanelContext;
 
 class BackgroundJob {
   public:
@@ -37,7 +37,7 @@ class BackgroundJob {
     std::mutex mutex_;
     double done_ = 0;
     std::string stage_;
-    std::function<void(Editor&)> then_;
+    std::function<void(PanelContext&)> then_;
     std::thread thread_;
 };
 
@@ -52,10 +52,10 @@ class BackgroundJobs {
         bool pauses_picture = false; // the live picture leaves the processor to it
     };
     // `work` runs on a thread; what it returns is done on the main thread, unless it was cancelled.
-    using Work = std::function<std::function<void(Editor&)>(BackgroundJob&)>;
+    using Work = std::function<std::function<void(PanelContext&)>(BackgroundJob&)>;
     void start(Options options, Work work);
 
-    void update(Editor& editor); // [main] once a frame, inside it: bars, and what is finished
+    void update(PanelContext& editor); // [main] once a frame, inside it: bars, and what is finished
     bool running() const { return !jobs_.empty(); }
     bool picture_paused() const;
     double progress() const; // of the first; 0..1

@@ -2,8 +2,11 @@
 #include "copy_paste.hpp"
 
 #include "document/clipboard.hpp"
+#include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -14,7 +17,7 @@ namespace restage::editor {
 
 namespace {
 
-void copy(Editor& e, const document::Selected& selected, const std::string& what) {
+void copy(PanelContext& e, const document::Selected& selected, const std::string& what) {
     const auto text = document::copy_text(e.session(), selected);
     if (!text) {
         e.notices.add(LogLevel::error, text.error().message);
@@ -51,7 +54,7 @@ void add(Editor& e, const document::Copy& copied) {
 
 } // namespace
 
-void copy_selected(Editor& e) {
+void copy_selected(PanelContext& e) {
     const auto& ids = e.selection.instances();
     if (const scene::Light* light = e.scene().lights.find(e.selection.light()))
         copy(e, {.light = e.selection.light()}, light->name);
@@ -60,12 +63,12 @@ void copy_selected(Editor& e) {
              ids.size() == 1 ? e.scene().instances[ids[0]].name : std::to_string(ids.size()) + " objects");
 }
 
-void copy_material(Editor& e, scene::Id<scene::Material> id) {
+void copy_material(PanelContext& e, scene::Id<scene::Material> id) {
     if (const scene::Material* material = e.scene().materials.find(id))
         copy(e, {.material = id}, "material " + material->name);
 }
 
-bool newer_in_clipboard(const Editor& e) {
+bool newer_in_clipboard(const PanelContext& e) {
     const char* held = ImGui::GetClipboardText();
     return held && document::is_copy(held) && e.copied.text != held;
 }
@@ -95,19 +98,19 @@ void paste(Editor& e) {
     // What names files reads them.
     e.files().jobs.start(
         {.title = "Pasting"},
-        [text = std::move(text), &registry = e.registry()](BackgroundJob&) -> std::function<void(Editor&)> {
+        [text = std::move(text), &registry = e.registry(), &e](BackgroundJob&) -> std::function<void(PanelContext&)> {
             auto copied = document::read_copy(text, registry);
             if (!copied)
-                return [message = copied.error().message](Editor& editor) {
+                return [message = copied.error().message](PanelContext& editor) {
                     editor.notices.add(LogLevel::error, message);
                 };
-            return [copied = std::make_shared<const document::Copy>(std::move(*copied))](Editor& editor) {
-                editor.later([&editor, copied] { add(editor, *copied); });
+            return [copied = std::make_shared<const document::Copy>(std::move(*copied)), &e](PanelContext&) {
+                e.later([&e, copied] { add(e, *copied); });
             };
         });
 }
 
-glm::dvec3 aside(const Editor& e, const scene::Bounds& bounds) {
+glm::dvec3 aside(const PanelContext& e, const scene::Bounds& bounds) {
     const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
     int axis = 0;
     for (int i = 1; i < 3; ++i)

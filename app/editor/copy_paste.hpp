@@ -12,6 +12,7 @@
 namespace restage::editor {
 
 class Editor;
+class PanelContext;
 
 // What this window put into the clipboard last, to know it again.
 struct Copied {
@@ -19,12 +20,12 @@ struct Copied {
     std::vector<std::pair<scene::Id<scene::Instance>, scene::Instance>> instances; // as they were
 };
 
-void copy_selected(Editor& editor);
-void copy_material(Editor& editor, scene::Id<scene::Material> material);
+void copy_selected(PanelContext& editor);
+void copy_material(PanelContext& editor, scene::Id<scene::Material> material);
 // Objects and lights are put where they were, beside what is there already; a material goes to what is selected.
 void paste(Editor& editor);
-bool newer_in_clipboard(const Editor& editor); // something of another window's
+bool newer_in_clipboard(const PanelContext& editor); // something of another window's
 // To the right of something as large as this, seen from the camera, along a world axis: where a copy of it is seen.
-glm::dvec3 aside(const Editor& editor, const scene::Bounds& bounds);
+glm::dvec3 aside(const PanelContext& editor, const scene::Bounds& bounds);
 
 } // namespace restage::editor

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drag.hpp"
 
-#include "editor.hpp"
+#include "document/session.hpp"
+#include "panel_context.hpp"
 #include "scene/edits_light.hpp"
 
 #include <cmath>
@@ -84,7 +85,7 @@ glm::dvec3 DragPath::update(bool lift, const Mouse& mouse, std::optional<glm::dv
     return now_;
 }
 
-void begin_drag(Editor& e, Drag& drag, bool copy) {
+void begin_drag(PanelContext& e, Drag& drag, bool copy) {
     const scene::Scene& s = e.scene();
     drag.active = true;
     drag.copied = false;
@@ -115,16 +116,17 @@ void begin_drag(Editor& e, Drag& drag, bool copy) {
     }
 }
 
-void ask_drag(Editor& e, const Drag& drag, const glm::dmat4& by, const char* verb) {
+void ask_drag(PanelContext& e, const Drag& drag, const glm::dmat4& by, const char* verb) {
     e.edit(
         [d = drag, by, verb = drag.copied ? "Copy" : verb](const scene::Scene& now) { return place(now, d, by, verb); },
         "drag");
 }
 
-void cancel_drag(Editor& e, Drag& drag) {
+void cancel_drag(PanelContext& e, Drag& drag) {
     if (!drag.active) return;
-    e.later([&e, originals = drag.originals, light = drag.original_light, copied = drag.copied] {
-        e.session_for_changes().cancel_gesture();
+    e.change([&e, originals = drag.originals, light = drag.original_light,
+              copied = drag.copied](document::Session& session) {
+        session.cancel_gesture();
         if (!copied) return;
         if (light)
             e.selection.set_light(light);

@@ -14,7 +14,7 @@
 
 namespace restage::editor {
 
-class Editor;
+class PanelContext;
 
 // How far a moved thing is from where it was, as the mouse goes: over the plane of `up` or along an axis handle, and
 // along `up` while Alt is held. A change between both goes on from where the thing is then.
@@ -55,10 +55,10 @@ struct Drag {
 };
 
 // Notes what is dragged, or copies of it, and where it is.
-void begin_drag(Editor& editor, Drag& drag, bool copy);
-// Asks that it is where `by` brings it from there. Editor::end_gesture() ends it.
-void ask_drag(Editor& editor, const Drag& drag, const glm::dmat4& by, const char* verb);
+void begin_drag(PanelContext& editor, Drag& drag, bool copy);
+// Asks that it is where `by` brings it from there. PanelContext::end_gesture() ends it.
+void ask_drag(PanelContext& editor, const Drag& drag, const glm::dmat4& by, const char* verb);
 // What it changed is taken back, and no step of the history is left.
-void cancel_drag(Editor& editor, Drag& drag);
+void cancel_drag(PanelContext& editor, Drag& drag);
 
 } // namespace restage::editor

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor::drop and what becomes of an inserted file: things arrive where the mouse is.
+// PanelContext::drop and what becomes of an inserted file: things arrive where the mouse is.
 #include "drop.hpp"
 
+#include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
 #include "io/image_file.hpp"
+#include "opening.hpp"
+#include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
 #include "saving.hpp"
+#include "scene/edits.hpp"
 #include "scene/sky.hpp"
+#include "view/live_view.hpp"
+#include "viewport.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iterator>
@@ -38,14 +45,14 @@ constexpr std::initializer_list<const char*> picture_files = {"png",  "jpg", "jp
                                                               "webp", "hdr", "exr",  "pfm"};
 
 // The object a file let go there is for; asked of the scene, not of the picture, which may be of another moment.
-InstanceId target_at(const Editor& e, glm::dvec2 film) {
+InstanceId target_at(const PanelContext& e, glm::dvec2 film) {
     if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
     const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
     const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
     return hits.empty() ? InstanceId{} : hits[0].instance;
 }
 
-const scene::Material* material_of(const Editor& e, InstanceId id) {
+const scene::Material* material_of(const PanelContext& e, InstanceId id) {
     const scene::Instance* instance = e.scene().instances.find(id);
     return instance ? e.scene().materials.find(instance->material) : nullptr;
 }
@@ -87,15 +94,15 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
 }
 
 // A file that the material there looks up.
-bool takes_table(const Editor& e, const std::string& extension, InstanceId on) {
+bool takes_table(const PanelContext& e, const std::string& extension, InstanceId on) {
     const scene::Material* material = material_of(e, on);
     const auto plugin = material ? e.registry().find_material(material->type) : std::nullopt;
     const auto reader = plugin ? plugin->source->table_reader() : nullptr;
     return reader && std::ranges::find(reader->extensions(), extension) != reader->extensions().end();
 }
 
-void drop_table(Editor& e, const fs::path& path, InstanceId on) {
-    ask_scope(e, {on}, path.filename().string(), [path](Editor& editor, const MaterialScope& scope) {
+void drop_table(PanelContext& e, const fs::path& path, InstanceId on) {
+    ask_scope(e, {on}, path.filename().string(), [path](PanelContext& editor, const MaterialScope& scope) {
         editor.edit([scope, file = path.string(), &registry = editor.registry()](const scene::Scene& s) {
             return edit_in_scope(s, scope,
                                  [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
@@ -112,29 +119,29 @@ void drop_table(Editor& e, const fs::path& path, InstanceId on) {
 }
 
 // Reads it on a thread, then calls `with` on the main one.
-void with_image(Editor& e, const fs::path& path,
-                std::function<void(Editor&, std::shared_ptr<const scene::PixelData>)> with) {
+void with_image(PanelContext& e, const fs::path& path,
+                std::function<void(PanelContext&, std::shared_ptr<const scene::PixelData>)> with) {
     e.files().jobs.start({.title = "Reading " + path.filename().string()},
-                         [path, with = std::move(with)](BackgroundJob&) -> std::function<void(Editor&)> {
+                         [path, with = std::move(with)](BackgroundJob&) -> std::function<void(PanelContext&)> {
                              auto pixels = io::read_image(path.string(), RESTAGE_SRGB);
                              if (!pixels)
-                                 return [message = pixels.error().message](Editor& editor) {
+                                 return [message = pixels.error().message](PanelContext& editor) {
                                      editor.notices.add(LogLevel::error, message);
                                  };
                              return [with, data = std::make_shared<const scene::PixelData>(std::move(*pixels))](
-                                        Editor& editor) { with(editor, data); };
+                                        PanelContext& editor) { with(editor, data); };
                          });
 }
 
-void drop_image(Editor& e, const fs::path& path, InstanceId on) {
+void drop_image(PanelContext& e, const fs::path& path, InstanceId on) {
     if (becomes_sky(extension_of(path), on))
-        return with_image(e, path, [path](Editor& editor, std::shared_ptr<const scene::PixelData> data) {
+        return with_image(e, path, [path](PanelContext& editor, std::shared_ptr<const scene::PixelData> data) {
             editor.edit([path, data = std::move(data), up = editor.up()](const scene::Scene& s) {
                 return Result<scene::Edit>(scene::image_sky(s, path.string(), data, up));
             });
         });
-    ask_scope(e, {on}, path.filename().string(), [path](Editor& editor, const MaterialScope& scope) {
-        with_image(editor, path, [path, scope](Editor& ed, std::shared_ptr<const scene::PixelData> data) {
+    ask_scope(e, {on}, path.filename().string(), [path](PanelContext& editor, const MaterialScope& scope) {
+        with_image(editor, path, [path, scope](PanelContext& ed, std::shared_ptr<const scene::PixelData> data) {
             ed.edit([path, scope, data = std::move(data), &registry = ed.registry()](const scene::Scene& s) {
                 return edit_in_scope(s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) {
                     return make_texture(now, registry, id, path, data);
@@ -146,7 +153,7 @@ void drop_image(Editor& e, const fs::path& path, InstanceId on) {
 
 } // namespace
 
-void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
+void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     const glm::dvec2 film = viewport.film_point(screen);
     const bool over = film.x >= 0 && film.y >= 0 && film.x < 1 && film.y < 1;
     const InstanceId on = target_at(*this, film);
@@ -166,7 +173,7 @@ void Editor::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     }
 }
 
-void preview_drop(Editor& e, const fs::path& path, ImVec2 screen) {
+void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
     const std::string extension = extension_of(path), name = path.stem().string();
     const InstanceId on = target_at(e, e.viewport.film_point(screen));
     const bool picture = is_one_of(extension, picture_files), table = !picture && takes_table(e, extension, on);
@@ -200,8 +207,8 @@ void preview_drop(Editor& e, const fs::path& path, ImVec2 screen) {
     }
 }
 
-void ask_scope(Editor& e, const std::vector<InstanceId>& objects, const std::string& what,
-               std::function<void(Editor&, const MaterialScope&)> then) {
+void ask_scope(PanelContext& e, const std::vector<InstanceId>& objects, const std::string& what,
+               std::function<void(PanelContext&, const MaterialScope&)> then) {
     const scene::Material* material = objects.empty() ? nullptr : material_of(e, objects.back());
     const auto id = material ? e.scene().instances[objects.back()].material : scene::Id<scene::Material>{};
     std::vector<InstanceId> mine; // those that have it
@@ -214,7 +221,7 @@ void ask_scope(Editor& e, const std::vector<InstanceId>& objects, const std::str
         mine.size() == 1 ? "Only " + e.scene().instances[mine[0]].name : fmt::format("Only these {}", mine.size());
     e.show_modal("Shared material", [text = fmt::format("{} goes onto the material \"{}\", which {} objects have.",
                                                         what, material->name, users),
-                                     these, users, mine, then = std::move(then)](Editor& editor) {
+                                     these, users, mine, then = std::move(then)](PanelContext& editor) {
         dialog_width(420);
         ImGui::TextWrapped("%s", text.c_str());
         ImGui::Spacing();
@@ -252,7 +259,7 @@ Result<scene::Edit> edit_in_scope(
 }
 
 void Editor::place_inserted(const io::ImportedScene& imported) {
-    const Opening::Request& request = opening_.request();
+    const Opening::Request& request = opening_->request();
     // The middle of its underside comes to stand on what is seen there.
     const query::ViewRay ray =
         query::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
@@ -260,7 +267,7 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
     const scene::Bounds all = scene::world_bounds(scene());
     const double away = all.empty() ? 1 : std::max(glm::length(all.center() - ray.origin), 1e-6);
     const glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
-    const auto made = session_.insert(imported, request.path.string(), document::Session::Stand{at, up_});
+    const auto made = session_->insert(imported, request.path.string(), document::Session::Stand{at, up_});
     if (!made) {
         notices.add(LogLevel::error, made.error().message);
         return;

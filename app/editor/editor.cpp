@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "editor.hpp"
 
+#include "actions.hpp"
+#include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
 #include "fonts.hpp"
 #include "layout.hpp"
+#include "opening.hpp"
 #include "panels/panels.hpp"
 #include "panels/state.hpp"
+#include "plugin/registry.hpp"
 #include "query/navigation.hpp"
-#include "recovery_dialog.hpp"
 #include "saving.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
+#include "viewport.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -23,15 +28,7 @@
 namespace restage::editor {
 
 Editor::Editor(plugin::Registry& registry, Log& log, Notices& shown, EditorOptions options)
-    : notices(shown),
-      options_(std::move(options)),
-      log_(log),
-      registry_(registry),
-      session_(registry),
-      live_(std::make_unique<view::LiveView>(registry, log, options_.renderer, options_.wake)),
-      opening_(registry, options_.wake, options_.isolate),
-      files_(std::make_unique<Files>(options_.config_dir, options_.autosave_seconds, options_.wake)) {
-    panel_state = std::make_unique<PanelState>(options_.wake);
+    : PanelContext(registry, log, shown, std::move(options)) {
     for (const Panel& panel : all_panels())
         panels_open_[panel.title] = panel.open;
     preferences = remembered_ = read_preferences(options_.config_dir);
@@ -44,44 +41,10 @@ Editor::Editor(plugin::Registry& registry, Log& log, Notices& shown, EditorOptio
 
 Editor::~Editor() = default;
 
-const scene::Camera& Editor::camera() const {
-    if (!views.now()) return scene_camera();
-    seen_from_ = scene_camera();
-    seen_from_.camera_to_world = *views.now();
-    return seen_from_;
-}
-
-void Editor::look_from(const glm::dmat4& camera_to_world, const std::string& gesture, const char* label) {
-    if (view.camera_locked) {
-        later([this, camera_to_world, gesture] { views.go(camera_to_world, gesture); });
-        return;
-    }
-    edit(
-        [camera_to_world, label](const scene::Scene& s) {
-            const scene::Camera* camera = s.cameras.find(s.active_camera.value);
-            if (!camera) return Result<scene::Edit>(fail("the scene has no camera"));
-            scene::Camera moved = *camera;
-            moved.camera_to_world = camera_to_world;
-            return scene::set_camera(s, s.active_camera.value, moved, label);
-        },
-        gesture);
-}
-
 void Editor::follow_camera() {
     const glm::dmat4& now = scene_camera().camera_to_world;
     if (camera_place_ && *camera_place_ != now) views.go(std::nullopt, view.camera_locked ? "" : "camera");
     camera_place_ = now;
-}
-
-const scene::Camera& Editor::scene_camera() const {
-    static const scene::Camera none;
-    const scene::Camera* found = scene().cameras.find(camera_id());
-    return found ? *found : none;
-}
-
-double Editor::film_aspect() const {
-    const scene::Film& film = scene().film.value;
-    return double(std::max(film.width, 1u)) / std::max(film.height, 1u);
 }
 
 namespace {
@@ -93,24 +56,15 @@ std::string title_name(const document::Session& session) {
 } // namespace
 
 std::string Editor::title() const {
-    return fmt::format("{}{} - Restage", session_.modified() ? "* " : "", title_name(session_));
+    return fmt::format("{}{} - Restage", session_->modified() ? "* " : "", title_name(*session_));
 }
 
 bool Editor::animating() const {
-    return notices.fading() || opening_.running() || files_->jobs.running() || !pending_.empty() || !modals_.empty();
-}
-
-std::shared_ptr<const view::Frame> Editor::shown_frame() const {
-    auto frame = live_->best(view.denoise && view.display.layer == view::picture_layer);
-    return frame && frame->document == document_ ? frame : nullptr; // another scene has been opened in this very frame
+    return notices.fading() || opening_->running() || files_->jobs.running() || !pending_.empty() || !modals_.empty();
 }
 
 // --- asking
 // ------------------------------------------------------------------------------------------------------------
-
-void Editor::edit(Builder builder, std::string gesture) {
-    pending_.push_back({.builder = std::move(builder), .gesture = std::move(gesture)});
-}
 
 void Editor::open(const std::filesystem::path& path) {
     const auto absolute = std::filesystem::absolute(path).lexically_normal();
@@ -124,18 +78,18 @@ void Editor::insert(const std::filesystem::path& path, std::optional<glm::dvec2>
 }
 
 void Editor::adopt_scene(scene::Scene scene) {
-    session_.adopt(std::move(scene));
+    session_->adopt(std::move(scene));
     document_changed();
 }
 
 void Editor::undo() {
-    const std::string label(session_.history().undo_label());
-    if (session_.undo()) notices.add(LogLevel::info, "Undone: " + label);
+    const std::string label(session_->history().undo_label());
+    if (session_->undo()) notices.add(LogLevel::info, "Undone: " + label);
 }
 
 void Editor::redo() {
-    const std::string label(session_.history().redo_label());
-    if (session_.redo()) notices.add(LogLevel::info, "Redone: " + label);
+    const std::string label(session_->history().redo_label());
+    if (session_->redo()) notices.add(LogLevel::info, "Redone: " + label);
 }
 
 void Editor::request_quit() {
@@ -146,7 +100,7 @@ void Editor::request_quit() {
 // --- a frame
 // -----------------------------------------------------------------------------------------------------------
 
-void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
+void Editor::frame(const std::vector<int>* keys) {
     marks_.clear();
     hovered_before = std::exchange(hovered, {});
     drop_target_before = std::exchange(drop_target, {});
@@ -165,7 +119,7 @@ void Editor::frame(const std::vector<ImGuiKeyChord>* keys) {
         end_gesture_ = true;
     apply_pending();
     if (!options_.config_dir.empty()) {
-        files_->autosave.update(session_, ImGui::GetTime());
+        files_->autosave.update(*session_, ImGui::GetTime());
         if (std::string problem = files_->autosave.take_problem();
             !problem.empty() && problem != files_->autosave_problem) // once, not each minute
             notices.add(LogLevel::error, files_->autosave_problem = std::move(problem));
@@ -185,12 +139,12 @@ void Editor::remember_preferences() {
 }
 
 void Editor::follow_opening() {
-    auto result = opening_.take();
+    auto result = opening_->take();
     if (!result) return;
-    const Opening::Request& request = opening_.request();
+    const Opening::Request& request = opening_->request();
     if (!*result) {
-        if (opening_.problem() != document::BaseProblem::none)
-            ask_for_base(result->error().message, opening_.problem() == document::BaseProblem::changed);
+        if (opening_->problem() != document::BaseProblem::none)
+            ask_for_base(result->error().message, opening_->problem() == document::BaseProblem::changed);
         else
             notices.add(LogLevel::error, result->error().message);
         return;
@@ -200,18 +154,18 @@ void Editor::follow_opening() {
         return;
     }
     if (request.purpose == Opening::Purpose::recover) {
-        session_.adopt_recovered(std::move(*(*result)->document));
+        session_->adopt_recovered(std::move(*(*result)->document));
         // The old file goes when there is a new one.
-        files_->autosave.write_now(session_, ImGui::GetTime());
+        files_->autosave.write_now(*session_, ImGui::GetTime());
         if (std::filesystem::exists(files_->autosave.file())) document::discard_recoverable({.file = request.path});
     } else {
-        session_.adopt(std::move(*(*result)->document));
+        session_->adopt(std::move(*(*result)->document));
         files_->recent.add_file(request.path);
     }
     document_changed();
-    const auto approximated = session_.report().count(RESTAGE_APPROXIMATED),
-               dropped = session_.report().count(RESTAGE_DROPPED);
-    notices.add(LogLevel::info, fmt::format("{}: {} objects", title_name(session_), scene().instances.live()));
+    const auto approximated = session_->report().count(RESTAGE_APPROXIMATED),
+               dropped = session_->report().count(RESTAGE_DROPPED);
+    notices.add(LogLevel::info, fmt::format("{}: {} objects", title_name(*session_), scene().instances.live()));
     if (approximated + dropped > 0)
         notices.add(LogLevel::warning,
                     fmt::format("Import report: {} approximated, {} dropped", approximated, dropped));
@@ -252,7 +206,7 @@ std::string unreadable_scripts(const scene::Scene& s) {
 
 void Editor::document_changed() {
     ++document_;
-    original_ = session_.base().file.empty() ? scene() : session_.base().scene;
+    original_ = session_->base().file.empty() ? scene() : session_->base().scene;
     selection = {};
     views = {};
     camera_place_.reset();
@@ -267,35 +221,35 @@ void Editor::document_changed() {
 }
 
 void Editor::ask_for_base(const std::string& message, bool some_fits) {
-    show_modal("The scene of this project", [message, some_fits, request = opening_.request()](Editor& e) {
+    show_modal("The scene of this project", [this, message, some_fits, request = opening_->request()](PanelContext&) {
         dialog_width(480);
         ImGui::TextWrapped("%s", message.c_str());
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Find it...")) {
             stay = false;
-            browse(e, {.title = "Where is the scene?",
-                       .start = request.path.parent_path(),
-                       .done = [request](Editor& editor, const std::filesystem::path& base) {
-                           Opening::Request again = request;
-                           again.base = base;
-                           editor.open_now(std::move(again));
-                       }});
+            browse(*this, {.title = "Where is the scene?",
+                           .start = request.path.parent_path(),
+                           .done = [this, request](PanelContext&, const std::filesystem::path& base) {
+                               Opening::Request again = request;
+                               again.base = base;
+                               open_now(std::move(again));
+                           }});
         }
-        e.mark("base.find");
+        mark("base.find");
         ImGui::SameLine();
         if (some_fits) {
             if (ImGui::Button("Leave these changes out")) {
                 stay = false;
                 Opening::Request again = request;
                 again.drop_lost = true;
-                e.later([&e, again] { e.open_now(again); });
+                later([this, again] { open_now(again); });
             }
-            e.mark("base.drop");
+            mark("base.drop");
             ImGui::SameLine();
         }
         if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
-        e.mark("base.cancel");
+        mark("base.cancel");
         return stay;
     });
 }
@@ -309,11 +263,11 @@ void Editor::apply_pending() {
             pending.work();
             continue;
         }
-        if (auto changed = session_.edit(pending.builder(scene()), pending.gesture); !changed)
+        if (auto changed = session_->edit(pending.builder(scene()), pending.gesture); !changed)
             notices.add(LogLevel::error, changed.error().message);
     }
     if (std::exchange(end_gesture_, false)) {
-        session_.end_gesture();
+        session_->end_gesture();
         views.end_gesture();
     }
     follow_camera();
@@ -322,7 +276,7 @@ void Editor::apply_pending() {
 
 void Editor::refresh_picture() {
     const scene::Settings& settings = scene().settings.value;
-    const Shown wanted{.version = session_.version(),
+    const Shown wanted{.version = session_->version(),
                        .plugins = registry_.version(),
                        .view = views.version(),
                        .size = picture_size_,
@@ -379,13 +333,6 @@ void Editor::presented(double frame_seconds) {
 // --- panels
 // ------------------------------------------------------------------------------------------------------------
 
-bool Editor::panel_open(std::string_view title) const {
-    const auto found = panels_open_.find(title);
-    return found != panels_open_.end() && found->second;
-}
-
-void Editor::open_panel(std::string_view title, bool open) { panels_open_[std::string(title)] = open; }
-
 void Editor::draw_menu() {
     if (!ImGui::BeginMainMenuBar()) return;
     std::string_view last;
@@ -434,19 +381,6 @@ void Editor::draw_menu() {
     ImGui::EndMainMenuBar();
 }
 
-namespace {
-
-// Dear ImGui finds the size and place of a window in its first frames: what is in it is not where a click would find
-// it.
-bool settled(const ImGuiWindow* window) {
-    for (; window; window = window->ParentWindow)
-        if (window->Appearing || window->Hidden || window->AutoFitFramesX > 0 || window->AutoFitFramesY > 0)
-            return false;
-    return true;
-}
-
-} // namespace
-
 void Editor::draw_panels() {
     draw_menu();
     const ImGuiViewport* main = ImGui::GetMainViewport();
@@ -481,9 +415,7 @@ void Editor::draw_panels() {
             ImGui::Begin(panel.title, picture ? nullptr : &open,
                          picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
         if (picture) ImGui::PopStyleVar();
-        const ImGuiWindow* window = ImGui::GetCurrentWindow();
-        if (const ImRect tab = window->DC.DockTabItemRect; window->DockNode && settled(window->DockNode->HostWindow))
-            marks_[std::string("tab.") + panel.title] = {{tab.Min.x, tab.Min.y, tab.Max.x, tab.Max.y}};
+        marks_.tab(std::string("tab.") + panel.title);
         if (visible) panel.draw(*this);
         ImGui::End();
     }
@@ -501,18 +433,14 @@ void Editor::configure_renderer(const render::RendererOptions& renderer) {
     live_->configure(renderer);
 }
 
-void Editor::show_modal(std::string title, std::function<bool(Editor&)> body) {
-    modals_.push_back({std::move(title), std::move(body)});
-}
-
 void Editor::draw_modals() {
     if (modals_.empty()) return;
     Modal& modal = modals_.front(); // one at a time
     if (modal.frames == 0) ImGui::OpenPopup(modal.title.c_str());
     // It finds its size in its first frames; then it can be moved, until the window has another size.
     const ImVec2 center = ImGui::GetMainViewport()->GetCenter(), space = ImGui::GetMainViewport()->Size;
-    if (modal.space.x != space.x || modal.space.y != space.y) modal.frames = std::min(modal.frames, 1);
-    modal.space = space;
+    if (modal.width != space.x || modal.height != space.y) modal.frames = std::min(modal.frames, 1);
+    modal.width = space.x, modal.height = space.y;
     if (++modal.frames < 5) ImGui::SetNextWindowPos(center, ImGuiCond_Always, {0.5f, 0.5f});
     bool keep = true;
     if (ImGui::BeginPopupModal(modal.title.c_str(), nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -523,16 +451,6 @@ void Editor::draw_modals() {
         keep = false;
     }
     if (!keep) modals_.pop_front();
-}
-
-void Editor::mark(const std::string& name) {
-    if (!settled(ImGui::GetCurrentWindow())) return;
-    const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-    marks_[name] = {{a.x, a.y, b.x, b.y}, ImGui::GetItemID()};
-}
-
-void Editor::mark(const std::string& name, ImVec2 lower, ImVec2 upper) {
-    if (settled(ImGui::GetCurrentWindow())) marks_[name] = {{lower.x, lower.y, upper.x, upper.y}};
 }
 
 } // namespace restage::editor

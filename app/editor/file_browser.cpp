@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "file_browser.hpp"
 
-#include "editor.hpp"
 #include "files.hpp"
+#include "panel_context.hpp"
 #include "theme.hpp"
 
 #include <fmt/chrono.h>
@@ -106,7 +106,7 @@ fs::path home() {
 
 class Browser {
   public:
-    Browser(Editor& e, BrowseOptions options)
+    Browser(PanelContext& e, BrowseOptions options)
         : options_(std::move(options)), wake_(e.options().wake), typed_(options_.name) {
         const auto& folders = e.files().recent.folders();
         std::error_code none;
@@ -114,19 +114,19 @@ class Browser {
         typed_ = options_.name;
     }
 
-    bool draw(Editor& e); // false = done with
+    bool draw(PanelContext& e); // false = done with
 
   private:
     void go(const fs::path& folder, const std::string& make = {});
     void accept(const fs::path& path);
-    bool act(Editor& e); // on what accept() found out; true = chosen
+    bool act(PanelContext& e); // on what accept() found out; true = chosen
     std::string select(int step); // the name of what is selected then
     void update_shown();
     bool fits(const FileEntry& entry) const;
-    void draw_places(Editor& e, float height);
-    void draw_list(Editor& e, float height);
-    void draw_name(Editor& e);
-    bool draw_buttons(Editor& e);
+    void draw_places(PanelContext& e, float height);
+    void draw_list(PanelContext& e, float height);
+    void draw_name(PanelContext& e);
+    bool draw_buttons(PanelContext& e);
     static int on_key(ImGuiInputTextCallbackData* data);
 
     BrowseOptions options_;
@@ -219,7 +219,7 @@ void Browser::accept(const fs::path& path) {
     asked_kind_ = ask<Kind>(wake_, [path = asked_path_] { return kind_of(path); });
 }
 
-bool Browser::act(Editor& e) {
+bool Browser::act(PanelContext& e) {
     if (!asked_kind_ || !asked_kind_->done) return false;
     const Kind kind = asked_kind_->answer;
     asked_kind_.reset();
@@ -276,7 +276,7 @@ int Browser::on_key(ImGuiInputTextCallbackData* data) {
     return 0;
 }
 
-void Browser::draw_places(Editor& e, float height) {
+void Browser::draw_places(PanelContext& e, float height) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     ImGui::BeginChild("places", {170 * scale, height}, ImGuiChildFlags_Borders);
     std::error_code none;
@@ -297,7 +297,7 @@ void Browser::draw_places(Editor& e, float height) {
     ImGui::EndChild();
 }
 
-void Browser::draw_list(Editor& e, float height) {
+void Browser::draw_list(PanelContext& e, float height) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     if (!ImGui::BeginTable("files", 3,
                            ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable |
@@ -355,7 +355,7 @@ void Browser::draw_list(Editor& e, float height) {
     ImGui::EndTable();
 }
 
-void Browser::draw_name(Editor& e) {
+void Browser::draw_name(PanelContext& e) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(options_.save ? "Name" : options_.folder ? "Folder" : "File");
     ImGui::SameLine();
@@ -378,7 +378,7 @@ void Browser::draw_name(Editor& e) {
     }
 }
 
-bool Browser::draw_buttons(Editor& e) {
+bool Browser::draw_buttons(PanelContext& e) {
     if (!replace_.empty()) {
         ImGui::TextColored(colors::warning, "%s exists already.", replace_.filename().string().c_str());
         ImGui::SameLine();
@@ -433,7 +433,7 @@ bool Browser::draw_buttons(Editor& e) {
     return stay;
 }
 
-bool Browser::draw(Editor& e) {
+bool Browser::draw(PanelContext& e) {
     const bool chosen = act(e); // its last frame is drawn like the others
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 room = ImGui::GetMainViewport()->WorkSize;
@@ -482,10 +482,10 @@ std::string completion(const std::string& typed, const std::vector<FileEntry>& n
     return common.substr(typed.size()) + (one && first->folder ? "/" : "");
 }
 
-void browse(Editor& editor, BrowseOptions options) {
+void browse(PanelContext& editor, BrowseOptions options) {
     const std::string title = options.title;
     auto browser = std::make_shared<Browser>(editor, std::move(options));
-    editor.show_modal(title, [browser](Editor& e) { return browser->draw(e); });
+    editor.show_modal(title, [browser](PanelContext& e) { return browser->draw(e); });
 }
 
 } // namespace restage::editor

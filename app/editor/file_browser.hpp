@@ -12,7 +12,7 @@
 
 namespace restage::editor {
 
-class Editor;
+class PanelContext;
 
 struct FileFilter {
     std::string label;                   // "Scenes"
@@ -27,11 +27,11 @@ struct BrowseOptions {
     std::filesystem::path start; // a folder; "" = the last used one
     std::string name;            // at first in the field
     std::string extension;       // put behind a name without one, when saving: ".restage"
-    std::function<void(Editor&, const std::filesystem::path&)> done;
+    std::function<void(PanelContext&, const std::filesystem::path&)> done;
 };
 
 // Shows it as a modal.
-void browse(Editor& editor, BrowseOptions options);
+void browse(PanelContext& editor, BrowseOptions options);
 
 struct FileEntry {
     std::string name;

@@ -5,12 +5,30 @@
 
 #include "background.hpp"
 #include "document/recovery.hpp"
-#include "recent.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace restage::editor {
+
+// The files that were opened or saved last and the folders they are in, remembered in the configuration folder.
+class Recent {
+  public:
+    explicit Recent(std::filesystem::path file); // "" = nothing is remembered
+    void add_file(const std::filesystem::path& path); // and its folder
+    void add_folder(const std::filesystem::path& path);
+    void clear();
+    const std::vector<std::string>& files() const { return files_; } // the latest first
+    const std::vector<std::string>& folders() const { return folders_; }
+
+  private:
+    void save() const;
+
+    std::filesystem::path file_;
+    std::vector<std::string> files_, folders_;
+};
 
 struct Files {
     Files(const std::filesystem::path& config, double autosave_seconds, std::function<void()> wake)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "final_render.hpp"
-
+// Final pictures: the scene at its film's full size, by a renderer of its own in the background.
 #include "base/version.hpp"
-#include "editor.hpp"
+#include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "panel_context.hpp"
+#include "plugin/registry.hpp"
 #include "render/denoise.hpp"
 #include "render/renderer.hpp"
 #include "saving.hpp"
@@ -36,9 +37,9 @@ double now_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-using Done = std::function<void(Editor&)>;
+using Done = std::function<void(PanelContext&)>;
 Done say(LogLevel level, std::string text) {
-    return [level, text = std::move(text)](Editor& e) { e.notices.add(level, text); };
+    return [level, text = std::move(text)](PanelContext& e) { e.notices.add(level, text); };
 }
 
 struct Finished {
@@ -51,22 +52,22 @@ struct Finished {
 Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
     const auto written = view::write_picture(path.string(), done->picture, done->how);
     if (written) return say(LogLevel::info, path.string() + ": " + done->text);
-    return [done, path, reason = written.error().message](Editor& e) {
+    return [done, path, reason = written.error().message](PanelContext& e) {
         show_failure(e, {.title = "The final picture was not written",
                          .reason = reason,
-                         .again = [done, path](Editor& ed) { write(done, path)(ed); },
+                         .again = [&e, done, path] { write(done, path)(e); },
                          .elsewhere =
-                             [done, path](Editor& ed) {
-                                 browse(ed, {.title = "Final picture as",
-                                             .save = true,
-                                             .filters = {{"Pictures", {"exr", "png", "hdr", "pfm"}}, {"All files", {}}},
-                                             .start = path.parent_path(),
-                                             .name = path.filename().string(),
-                                             .extension = ".exr",
-                                             .done = [done](Editor& again, const fs::path& place) {
-                                                 again.files().last_picture = place;
-                                                 write(done, place)(again);
-                                             }});
+                             [&e, done, path] {
+                                 browse(e, {.title = "Final picture as",
+                                            .save = true,
+                                            .filters = {{"Pictures", {"exr", "png", "hdr", "pfm"}}, {"All files", {}}},
+                                            .start = path.parent_path(),
+                                            .name = path.filename().string(),
+                                            .extension = ".exr",
+                                            .done = [done](PanelContext& again, const fs::path& place) {
+                                                again.files().last_picture = place;
+                                                write(done, place)(again);
+                                            }});
                              }});
     };
 }
@@ -139,7 +140,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     return write(finished, wish.path);
 }
 
-void start(Editor& e, const Wish& wish) {
+void start(PanelContext& e, const Wish& wish) {
     e.files().last_picture = wish.path;
     const fs::path path(e.session().path());
     scene::Scene seen = e.scene();
@@ -156,12 +157,12 @@ void start(Editor& e, const Wish& wish) {
 
 } // namespace
 
-void final_render_dialog(Editor& e) {
+void final_render_dialog(PanelContext& e) {
     auto wish = std::make_shared<Wish>();
     wish->samples = std::max(e.scene().settings.value.samples, 1u);
     wish->denoise = !e.registry().denoisers().empty();
     wish->denoiser = e.preferences.denoiser;
-    e.show_modal("Final picture", [wish](Editor& editor) {
+    e.show_modal("Final picture", [wish](PanelContext& editor) {
         const scene::Film& film = editor.scene().film.value;
         dialog_width(360);
         form_row("Size", "Of the picture: change it in the Scene panel, under Picture");
@@ -207,7 +208,7 @@ void final_render_dialog(Editor& e) {
                                                     : path.parent_path(),
                             .name = (path.empty() ? "untitled" : path.stem().string()) + ".exr",
                             .extension = ".exr",
-                            .done = [wish](Editor& ed, const fs::path& place) {
+                            .done = [wish](PanelContext& ed, const fs::path& place) {
                                 wish->path = place;
                                 start(ed, *wish);
                             }});

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gizmo.hpp"
 
-#include "editor.hpp"
+#include "panel_context.hpp"
 #include "query/navigation.hpp"
 #include "scene/projection.hpp"
+#include "viewport.hpp"
 
 #include <ImGuizmo.h>
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
@@ -29,7 +31,7 @@ glm::dmat3 rotation_of(const glm::dmat4& m) {
     return r;
 }
 
-DragPath::Mouse mouse_of(const Editor& e) {
+DragPath::Mouse mouse_of(const PanelContext& e) {
     const ImVec2 at = ImGui::GetIO().MousePos;
     return {query::view_ray(e.camera(), e.viewport.film_point(at), e.film_aspect()),
             glm::normalize(glm::dvec3(e.camera().camera_to_world[1]))};
@@ -42,8 +44,8 @@ void release_gizmo() {
     ImGuizmo::Enable(true);
 }
 
-GizmoState draw_gizmo(Editor& e, ImVec2 corner, ImVec2 size) {
-    Drag& drag = e.gizmo_drag;
+GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
+    Drag& drag = e.viewport.gizmo_drag;
     // Handles are straight; what a spherical camera sees is not. The camera's panel says so.
     if (e.selection.empty() || e.view.gizmo == GizmoMode::select || scene::is_spherical(e.camera())) {
         drag = {};

@@ -6,7 +6,7 @@
 
 namespace restage::editor {
 
-class Editor;
+class PanelContext;
 
 struct GizmoState {
     bool wants_mouse = false; // a handle is under it, or dragged
@@ -14,7 +14,7 @@ struct GizmoState {
 };
 
 // Draws the handles over the picture (its rectangle on screen) and asks for the changes.
-GizmoState draw_gizmo(Editor& editor, ImVec2 corner, ImVec2 size);
+GizmoState draw_gizmo(PanelContext& editor, ImVec2 corner, ImVec2 size);
 // Lets go of them.
 void release_gizmo();
 

@@ -3,6 +3,7 @@
 
 #include "base/thread_priority.hpp"
 #include "render/material_types.hpp"
+#include "render/renderer.hpp"
 #include "scene/bounds.hpp"
 #include "scene/edits.hpp"
 #include "scene/sky.hpp"

@@ -5,7 +5,7 @@
 
 #include "base/log.hpp"
 #include "plugin/registry.hpp"
-#include "render/renderer.hpp"
+#include "render/renderer_options.hpp"
 #include "scene/scene.hpp"
 #include "texture.hpp"
 

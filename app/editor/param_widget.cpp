@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "param_widget.hpp"
 
-#include "editor.hpp"
+#include "document/session.hpp"
 #include "file_browser.hpp"
 #include "io/image_file.hpp"
+#include "panel_context.hpp"
 #include "panels/state.hpp"
+#include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
+#include "scene/edits.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -67,7 +70,7 @@ bool enum_combo(const RestageParam& line, scene::Value& v) {
     return changed;
 }
 
-bool material_combo(Editor& e, scene::Value& v, const std::string& mark) {
+bool material_combo(PanelContext& e, scene::Value& v, const std::string& mark) {
     const scene::Material* current = e.scene().materials.find(v.material);
     bool changed = false;
     if (!ImGui::BeginCombo("##value", current ? current->name.c_str() : "None")) return false;
@@ -83,7 +86,7 @@ bool material_combo(Editor& e, scene::Value& v, const std::string& mark) {
 }
 
 // Everything a slot can hold: the scene's textures, a file, nothing.
-void texture_popup(Editor& e, const scene::Value& value, bool scalar, ParamAsk& ask, const std::string& mark) {
+void texture_popup(PanelContext& e, const scene::Value& value, bool scalar, ParamAsk& ask, const std::string& mark) {
     if (!ImGui::BeginPopup("texture")) return;
     if (value.texture) {
         if (ImGui::MenuItem("Remove the texture")) {
@@ -127,7 +130,7 @@ std::optional<std::string> dropped_path() {
 }
 
 // The name of a table's file, which is dropped on or chosen. Beneath it, what is wrong with it.
-bool table_field(Editor& e, const RestageParam& line, scene::Value& v, const plugin::TableReader* reader,
+bool table_field(PanelContext& e, const RestageParam& line, scene::Value& v, const plugin::TableReader* reader,
                  const std::string& mark) {
     const std::filesystem::path path(v.text);
     const std::string problem = reader ? reader->problem(line.id, v.text) : "";
@@ -151,7 +154,7 @@ bool table_field(Editor& e, const RestageParam& line, scene::Value& v, const plu
         browse(e, {.title = "Choose a file",
                    .filters = std::move(filters),
                    .start = path.empty() ? document.parent_path() : path.parent_path(),
-                   .done = [mark](Editor& editor, const std::filesystem::path& file) {
+                   .done = [mark](PanelContext& editor, const std::filesystem::path& file) {
                        editor.panel_state->image_choice = {mark, file.string()};
                    }});
     }
@@ -168,14 +171,14 @@ void accept_image(ParamAsk& ask) {
 
 } // namespace
 
-void image_file_item(Editor& e, const std::string& mark) {
+void image_file_item(PanelContext& e, const std::string& mark) {
     if (ImGui::MenuItem("Image file...")) {
         const std::filesystem::path document(e.session().path());
         browse(e,
                {.title = "Choose an image",
                 .filters = {{"Images", {"png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "pfm"}}, {"All files", {}}},
                 .start = document.parent_path(),
-                .done = [mark](Editor& editor, const std::filesystem::path& path) {
+                .done = [mark](PanelContext& editor, const std::filesystem::path& path) {
                     editor.panel_state->image_choice = {mark, path.string()};
                 }});
     }
@@ -183,7 +186,7 @@ void image_file_item(Editor& e, const std::string& mark) {
     e.mark(mark + ".file");
 }
 
-std::string chosen_image_file(Editor& e, const std::string& mark) {
+std::string chosen_image_file(PanelContext& e, const std::string& mark) {
     auto& [asked_by, path] = e.panel_state->image_choice;
     return asked_by == mark ? std::exchange(path, {}) : "";
 }
@@ -200,7 +203,7 @@ bool color_field(const char* id, float* linear, bool hdr) {
     return true;
 }
 
-ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& value, bool is_set,
+ParamAsk param_widget(PanelContext& e, const RestageParam& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader) {
     ParamAsk ask;
     scene::Value v = value;
@@ -285,7 +288,7 @@ ParamAsk param_widget(Editor& e, const RestageParam& line, const scene::Value& v
     return ask;
 }
 
-void texture_settings(Editor& e, scene::Id<scene::Texture> id, const std::string& mark) {
+void texture_settings(PanelContext& e, scene::Id<scene::Texture> id, const std::string& mark) {
     const scene::Texture& texture = e.scene().textures[id];
     if (texture.type != "imagemap") return;
     if (!ImGui::TreeNodeEx("Image", ImGuiTreeNodeFlags_SpanAvailWidth)) {

@@ -13,7 +13,7 @@ class TableReader;
 
 namespace restage::editor {
 
-class Editor;
+class PanelContext;
 
 struct ParamAsk { // what the user wants of it; nothing most of the time
     std::optional<scene::Value> value;
@@ -23,18 +23,18 @@ struct ParamAsk { // what the user wants of it; nothing most of the time
 
 // A row: label, range, unit and tooltip are the table's. A right click offers the default. `mark` names it for tests.
 // `reader`: of the files of RESTAGE_TABLE parameters, for what is wrong with one.
-ParamAsk param_widget(Editor& editor, const RestageParam& line, const scene::Value& value, bool is_set,
+ParamAsk param_widget(PanelContext& editor, const RestageParam& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader = nullptr);
 
 // Scale, wrap, inversion and placing of an image texture, as rows that ask for edits themselves.
-void texture_settings(Editor& editor, scene::Id<scene::Texture> texture, const std::string& mark);
+void texture_settings(PanelContext& editor, scene::Id<scene::Texture> texture, const std::string& mark);
 
 // A colour that is linear inside and chosen as it is seen. True when changed.
 bool color_field(const char* id, float* linear, bool hdr = false);
 
 // A menu entry that asks for an image file in the file browser, which comes instead of the menu.
-void image_file_item(Editor& editor, const std::string& mark);
+void image_file_item(PanelContext& editor, const std::string& mark);
 // The file that was chosen there for this mark, once; else "".
-std::string chosen_image_file(Editor& editor, const std::string& mark);
+std::string chosen_image_file(PanelContext& editor, const std::string& mark);
 
 } // namespace restage::editor

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pick_tool.hpp"
 
+#include "panel_context.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
+#include "scene/edits.hpp"
+#include "view/live_view.hpp"
+#include "viewport.hpp"
+
+#include <imgui.h>
 
 namespace restage::editor {
 
-InstanceId picked_at(const Editor& e, ImVec2 screen) {
+InstanceId picked_at(const PanelContext& e, ImVec2 screen) {
     const auto frame = e.shown_frame();
     const auto newest = e.live().frame();
     if (frame && newest && frame->divider == 1 && e.live().status().current && frame->request == newest->request &&
@@ -19,7 +25,7 @@ InstanceId picked_at(const Editor& e, ImVec2 screen) {
     return hits.empty() ? InstanceId{} : hits[0].instance;
 }
 
-bool run_pick_tool(Editor& e, bool over) {
+bool run_pick_tool(PanelContext& e, bool over) {
     if (!e.pick_tool) return false;
     if (ImGui::IsKeyPressed(ImGuiKey_Escape) || ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
         e.pick_tool.reset();
@@ -38,9 +44,9 @@ bool run_pick_tool(Editor& e, bool over) {
     return true;
 }
 
-PickTool material_eyedropper(const Editor& editor) {
+PickTool material_eyedropper(const PanelContext& editor) {
     return {"Click the object whose material to take",
-            [to = editor.selection.instances()](Editor& e, InstanceId id, ImVec2) {
+            [to = editor.selection.instances()](PanelContext& e, InstanceId id, ImVec2) {
                 const scene::Instance* from = e.scene().instances.find(id);
                 if (!from || !from->material) return;
                 e.material_clipboard = from->material;
@@ -52,7 +58,7 @@ PickTool material_eyedropper(const Editor& editor) {
 
 PickTool focus_picker() {
     return {
-        "Click what shall be sharp", [](Editor& e, InstanceId, ImVec2 screen) {
+        "Click what shall be sharp", [](PanelContext& e, InstanceId, ImVec2 screen) {
                 // The distance along the camera's axis: what pbrt calls focal distance.
             const query::ViewRay ray = query::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
             const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);

@@ -2,20 +2,33 @@
 // Pick tools: a click in the picture that gives something to a panel (a material, a distance) instead of selecting.
 #pragma once
 
-#include "editor.hpp"
+#include "selection.hpp"
+
+#include <functional>
+#include <string>
+
+struct ImVec2;
 
 namespace restage::editor {
+
+class PanelContext;
+
+// What the next click in the picture is for, instead of selecting. Esc gives it up.
+struct PickTool {
+    std::string hint; // "Click the object whose material to take"
+    std::function<void(PanelContext&, InstanceId, ImVec2 screen)> done;
+};
 
 // By the viewport, before it picks. True while a tool is in hand: the click is its own. `over`: the mouse is free
 // there.
 // The object a click there means. Asked of the picture, which knows cut-outs, when a sharp one of the scene as it is
 // now is shown; else of the scene: a coarse picture would miss what is thin.
-InstanceId picked_at(const Editor& editor, ImVec2 screen);
+InstanceId picked_at(const PanelContext& editor, ImVec2 screen);
 
-bool run_pick_tool(Editor& editor, bool over);
+bool run_pick_tool(PanelContext& editor, bool over);
 
 // The material of what is clicked goes to the objects that are selected now.
-PickTool material_eyedropper(const Editor& editor);
+PickTool material_eyedropper(const PanelContext& editor);
 // What is clicked becomes sharp: the camera's focus distance.
 PickTool focus_picker();
 

@@ -2,12 +2,12 @@
 // Preferences: what a user chose or has seen once, remembered in the configuration folder; no part of any document.
 #pragma once
 
-#include "actions.hpp"
-
 #include <filesystem>
 #include <string>
 
 namespace restage::editor {
+
+enum class KeyPreset { standard, blender };
 
 struct Preferences {
     bool hint_seen = false; // how to begin, over the first picture

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Editor::probe(): what tests that drive the program with real mouse and key events need to know of it; and what they
 // cannot do with a mouse and keys.
+#include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
+#include "opening.hpp"
+#include "view/live_view.hpp"
 
 #include <imgui_internal.h>
 #include <charconv>
@@ -14,16 +17,16 @@ namespace restage::editor {
 std::string Editor::probe() const {
     using nlohmann::json;
     json j;
-    const auto& history = session_.history();
-    j["path"] = session_.path();
-    j["base"] = session_.base().file;
-    j["modified"] = session_.modified();
+    const auto& history = session_->history();
+    j["path"] = session_->path();
+    j["base"] = session_->base().file;
+    j["modified"] = session_->modified();
     j["recovery"] = files_->autosave.file().string();
     j["jobs"] = files_->jobs.running();
     j["job"] = files_->jobs.progress();
     j["modal"] = modals_.empty() ? "" : modals_.front().title;
-    j["version"] = session_.version();
-    j["opening"] = opening_.running();
+    j["version"] = session_->version();
+    j["opening"] = opening_->running();
     j["history"] = {{"size", history.size()}, {"position", history.position()}, {"undo", history.undo_label()}};
     for (std::size_t i = 0; i < history.size(); ++i)
         j["history"]["labels"].push_back(history.label(i));
@@ -97,8 +100,8 @@ std::string Editor::probe() const {
                     {"nframes", ImGui::GetFrameCount()},
                     {"pixels", latency_.pixels},
                     {"frames", latency_.frames}};
-    for (const auto& [name, mark] : marks_)
-        j["marks"][name] = {mark.rect.x, mark.rect.y, mark.rect.z, mark.rect.w};
+    for (const auto& [name, mark] : marks_.all())
+        j["marks"][name] = {mark.x0, mark.y0, mark.x1, mark.y1};
     for (const auto& line : notices.lines())
         j["log"].push_back(line.text);
     return j.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -2,11 +2,14 @@
 #include "run_editor.hpp"
 
 #include "base/file.hpp"
+#include "document/session.hpp"
 #include "editor.hpp"
 #include "farewell.hpp"
 #include "files.hpp"
-#include "recovery_dialog.hpp"
+#include "plugin/registry.hpp"
 #include "render/material_composer.hpp"
+#include "saving.hpp"
+#include "viewport.hpp"
 #include "window.hpp"
 
 #include <chrono>

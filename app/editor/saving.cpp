@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "saving.hpp"
 
+#include "document/session.hpp"
 #include "editor.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "opening.hpp"
+#include "plugin/registry.hpp"
 #include "scene/studio.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -44,12 +47,12 @@ std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool pro
     return filters;
 }
 
-std::string project_name(const Editor& e) {
+std::string project_name(const PanelContext& e) {
     const fs::path path(e.session().path());
     return (path.empty() ? "untitled" : path.stem().string()) + std::string(document::project_extension);
 }
 
-fs::path document_folder(const Editor& e) {
+fs::path document_folder(const PanelContext& e) {
     const fs::path path(e.session().path());
     return path.empty() ? fs::path() : path.parent_path();
 }
@@ -58,8 +61,8 @@ void save_to(Editor& e, const fs::path& path, const Then& then) {
     if (const auto saved = e.session_for_changes().save_project(path.string()); !saved) {
         show_failure(e, {.title = "Not saved",
                          .reason = saved.error().message,
-                         .again = [path, then](Editor& editor) { save_to(editor, path, then); },
-                         .elsewhere = [then](Editor& editor) { save_as(editor, then); }});
+                         .again = [&e, path, then] { save_to(e, path, then); },
+                         .elsewhere = [&e, then] { save_as(e, then); }});
         return;
     }
     e.files().recent.add_file(path);
@@ -69,19 +72,19 @@ void save_to(Editor& e, const fs::path& path, const Then& then) {
 
 } // namespace
 
-void show_failure(Editor& e, WriteFailure failure) {
+void show_failure(PanelContext& e, WriteFailure failure) {
     e.log().error(failure.reason);
     std::string title = failure.title;
-    e.show_modal(std::move(title), [failure = std::move(failure)](Editor& editor) {
+    e.show_modal(std::move(title), [failure = std::move(failure)](PanelContext& editor) {
         dialog_width(460);
         ImGui::PushStyleColor(ImGuiCol_Text, colors::error);
         ImGui::TextWrapped("%s", failure.reason.c_str());
         ImGui::PopStyleColor();
         ImGui::Spacing();
-        const auto choice = [&](const char* label, const char* mark, const Then& then) {
+        const auto choice = [&](const char* label, const char* mark, const std::function<void()>& then) {
             const bool pressed = ImGui::Button(label);
             editor.mark(mark);
-            if (pressed) editor.later([&editor, then] { then(editor); });
+            if (pressed) editor.later(then);
             ImGui::SameLine();
             return pressed;
         };
@@ -105,7 +108,7 @@ void ask_unsaved(Editor& e, const char* doing, Then then) {
         [text = fmt::format("{} has changes that are not saved. Save them before {}?",
                             e.session().path().empty() ? "The scene" : fs::path(e.session().path()).filename().string(),
                             doing),
-         then = std::move(then)](Editor& editor) {
+         then = std::move(then), &editor = e](PanelContext&) {
             dialog_width(400);
             ImGui::TextWrapped("%s", text.c_str());
             ImGui::Spacing();
@@ -140,14 +143,14 @@ void open_dialog(Editor& e) {
     browse(e, {.title = "Open",
                .filters = scene_filters(e.registry(), true),
                .start = document_folder(e),
-               .done = [](Editor& editor, const fs::path& path) { editor.open(path); }});
+               .done = [](PanelContext& editor, const fs::path& path) { editor.open(path); }});
 }
 
 void insert_dialog(Editor& e) {
     browse(e, {.title = "Insert file",
                .filters = scene_filters(e.registry(), false),
                .start = document_folder(e),
-               .done = [](Editor& editor, const fs::path& path) { editor.insert(path); }});
+               .done = [](PanelContext& editor, const fs::path& path) { editor.insert(path); }});
 }
 
 void save(Editor& e, Then then) {
@@ -164,7 +167,7 @@ void save_as(Editor& e, Then then) {
                .start = document_folder(e),
                .name = project_name(e),
                .extension = std::string(document::project_extension),
-               .done = [then = std::move(then)](Editor& editor, const fs::path& path) {
+               .done = [then = std::move(then), &editor = e](PanelContext&, const fs::path& path) {
                    fs::path place = path;
                    if (!document::is_project(place)) place += document::project_extension;
                    save_to(editor, place, then);
@@ -178,7 +181,7 @@ void revert(Editor& e) {
         reopen(e);
         return;
     }
-    e.show_modal("Revert", [path, reopen, steps = e.session().history().position()](Editor& editor) {
+    e.show_modal("Revert", [path, reopen, steps = e.session().history().position(), &editor = e](PanelContext&) {
         dialog_width(400);
         ImGui::TextWrapped("Give up all changes since %s was saved?", path.filename().string().c_str());
         empty_note(fmt::format("{} steps of the history go; this cannot be undone.", steps).c_str());
@@ -197,7 +200,7 @@ void revert(Editor& e) {
     });
 }
 
-void recent_menu(Editor& e) {
+void recent_menu(PanelContext& e) {
     const auto& files = e.files().recent.files();
     if (!ImGui::BeginMenu("Open recent", !files.empty())) {
         e.mark("file.recent");
@@ -213,6 +216,66 @@ void recent_menu(Editor& e) {
     ImGui::Separator();
     if (ImGui::MenuItem("Forget these")) e.files().recent.clear();
     ImGui::EndMenu();
+}
+
+void offer_recovery(Editor& e) {
+    auto found =
+        std::make_shared<std::vector<document::Recoverable>>(document::find_recoverable(e.files().recovery_folder));
+    if (found->empty()) return;
+    e.show_modal("Unsaved work was found", [found, &editor = e](PanelContext&) {
+        dialog_width(560);
+        ImGui::TextWrapped("Restage ended before this was saved. It can be opened as it was.");
+        ImGui::Spacing();
+        bool stay = true;
+        std::size_t gone = found->size();
+        const float scale = ImGui::GetStyle().FontScaleMain;
+        if (ImGui::BeginTable("found", 4,
+                              ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit)) {
+            ImGui::TableSetupColumn("Scene", ImGuiTableColumnFlags_WidthStretch);
+            ImGui::TableSetupColumn("Written aside", ImGuiTableColumnFlags_WidthFixed, 130 * scale);
+            ImGui::TableSetupColumn("Changes", ImGuiTableColumnFlags_WidthFixed, 60 * scale);
+            ImGui::TableSetupColumn("");
+            ImGui::TableHeadersRow();
+            for (std::size_t i = 0; i < found->size(); ++i) {
+                const document::Recoverable& what = (*found)[i];
+                ImGui::PushID(int(i));
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::AlignTextToFramePadding();
+                ImGui::TextUnformatted(what.name.c_str());
+                if (!what.base.empty()) ImGui::SetItemTooltip("%s", what.base.c_str());
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(what.time.c_str());
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(what.changes.c_str());
+                ImGui::TableNextColumn();
+                if (ImGui::Button("Recover")) {
+                    stay = false;
+                    editor.later([&editor, file = what.file] {
+                        ask_unsaved(editor, "recovering another scene", [file](Editor& x) {
+                            x.open_now({.path = file, .purpose = Opening::Purpose::recover});
+                        });
+                    });
+                }
+                if (i == 0) editor.mark("recovery.recover");
+                ImGui::SameLine();
+                if (ImGui::Button("Discard")) gone = i;
+                if (i == 0) editor.mark("recovery.discard");
+                ImGui::PopID();
+            }
+            ImGui::EndTable();
+        }
+        if (gone < found->size()) {
+            document::discard_recoverable((*found)[gone]);
+            found->erase(found->begin() + std::ptrdiff_t(gone));
+            stay = stay && !found->empty();
+        }
+        ImGui::Spacing();
+        if (ImGui::Button("Later") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
+        ImGui::SetItemTooltip("It is offered again at the next start");
+        editor.mark("recovery.later");
+        return stay;
+    });
 }
 
 } // namespace restage::editor

@@ -8,6 +8,7 @@
 namespace restage::editor {
 
 class Editor;
+class PanelContext;
 using Then = std::function<void(Editor&)>;
 
 // Does it at once when nothing is unsaved; else after Save or Discard, and not at all after Cancel. `doing`: "opening
@@ -20,15 +21,19 @@ void insert_dialog(Editor& editor);
 void save(Editor& editor, Then then = {}); // where it was saved before, else save_as
 void save_as(Editor& editor, Then then = {});
 void revert(Editor& editor);
-void export_dialog(Editor& editor);
-void save_image_dialog(Editor& editor);
+void export_dialog(PanelContext& editor);
+void save_image_dialog(PanelContext& editor);
 // What could not be written, and why, with the ways out of it: a note that fades would be missed, and work lost.
 struct WriteFailure {
     std::string title, reason; // "The project was not saved"
-    Then again; // the same once more
-    Then elsewhere; // asks for another place
+    std::function<void()> again; // the same once more
+    std::function<void()> elsewhere; // asks for another place
 };
-void show_failure(Editor& editor, WriteFailure failure);
-void recent_menu(Editor& editor); // a submenu
+void show_failure(PanelContext& editor, WriteFailure failure);
+void recent_menu(PanelContext& editor); // a submenu
+// The scene at its film's full size, by a renderer of its own in the background, while editing goes on.
+void final_render_dialog(PanelContext& editor);
+// At the start, when an earlier one ended with unsaved work; nothing when there is none.
+void offer_recovery(Editor& editor);
 
 } // namespace restage::editor

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewport.hpp"
 
-#include "editor.hpp"
+#include "opening.hpp"
+#include "panel_context.hpp"
 #include "panels/panels.hpp"
 #include "pick_tool.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
 
 #include <ImGuizmo.h>
 #include <fmt/format.h>
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace restage::editor {
 
-void draw_viewport(Editor& editor) { editor.viewport.draw(editor); }
+void draw_viewport(PanelContext& editor) { editor.viewport.draw(editor); }
 
-void Viewport::draw(Editor& e) {
+void Viewport::draw(PanelContext& e) {
     ImGuizmo::BeginFrame();
     draw_toolbar(e);
 
@@ -62,7 +65,7 @@ void Viewport::draw(Editor& e) {
                       ImGui::IsMouseHoveringRect(corner, end) && !cancelled_;
     if (cancelled_ && !ImGui::IsKeyDown(ImGuiKey_T) && !ImGui::IsAnyMouseDown()) cancelled_ = false;
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) on_knob_ = gizmo.knob;
-    if (dragging(e) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+    if (dragging() && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
         cancel(e);
     else
         navigate(e, over);
@@ -82,7 +85,7 @@ glm::dvec2 Viewport::film_point(ImVec2 screen) const {
     return {(screen.x - corner.x) / size.x, (screen.y - corner.y) / size.y};
 }
 
-InstanceId Viewport::instance_at(const Editor& e, ImVec2 screen) const {
+InstanceId Viewport::instance_at(const PanelContext& e, ImVec2 screen) const {
     const glm::dvec2 p = film_point(screen);
     if (!drawn_ || p.x < 0 || p.y < 0 || p.x >= 1 || p.y >= 1) return {};
     const render::FilmImage& image = drawn_->image;
@@ -94,7 +97,7 @@ InstanceId Viewport::instance_at(const Editor& e, ImVec2 screen) const {
 // --- drawing
 // -----------------------------------------------------------------------------------------------------------
 
-void Viewport::update_textures(Editor& e) {
+void Viewport::update_textures(PanelContext& e) {
     const auto frame = e.shown_frame();
     if (!frame) { // another scene, of which nothing is there yet
         drawn_ = nullptr;
@@ -136,7 +139,7 @@ void Viewport::update_textures(Editor& e) {
         outline_.hide();
 }
 
-void Viewport::draw_overlays(Editor& e) {
+void Viewport::draw_overlays(PanelContext& e) {
     draw_lights(e);
     if (const scene::Bounds box = e.selection.bounds(e.scene()); !box.empty()) { // for tests
         glm::dvec2 lo(1e9), hi(-1e9);
@@ -157,7 +160,7 @@ void Viewport::draw_overlays(Editor& e) {
 
 // Dragged to the right, a box takes what is seen in it and nowhere else, so that neither the floor nor the wall behind
 // comes with it; dragged to the left, all that is seen in it. As CAD programs have it.
-std::vector<InstanceId> Viewport::in_box(const Editor& e, ImVec2 from, ImVec2 to) const {
+std::vector<InstanceId> Viewport::in_box(const PanelContext& e, ImVec2 from, ImVec2 to) const {
     std::vector<InstanceId> ids;
     if (!drawn_) return ids;
     const glm::dvec2 a = film_point(from), b = film_point(to);
@@ -187,7 +190,7 @@ std::vector<InstanceId> Viewport::in_box(const Editor& e, ImVec2 from, ImVec2 to
     return ids;
 }
 
-void Viewport::pick(Editor& e, bool over, const GizmoState& gizmo) {
+void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
     const bool free = over && !gizmo.wants_mouse && navigation_ == Navigation::none;

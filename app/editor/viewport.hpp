@@ -17,48 +17,50 @@
 
 namespace restage::editor {
 
-class Editor;
+class PanelContext;
 
 class Viewport {
   public:
-    void draw(Editor& editor);
+    void draw(PanelContext& editor);
 
     // The picture's rectangle on screen, of the last frame.
     ImVec2 corner{0, 0}, size{1, 1};
+    Drag gizmo_drag; // of the handles
     // Where a screen point lies in the picture: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object seen there in the shown picture; none outside.
-    InstanceId instance_at(const Editor& editor, ImVec2 screen) const;
+    InstanceId instance_at(const PanelContext& editor, ImVec2 screen) const;
     std::uint64_t shown_request() const { return drawn_ ? drawn_->request : 0; } // of LiveView::show
     bool shows_clay() const { return drawn_ && drawn_->clay; }
     bool shows_clean() const { return drawn_ && drawn_->denoised && drawn_->divider <= 2; }
     bool navigating() const { return navigation_ != Navigation::none; }
-    bool dragging(const Editor& editor) const; // what is selected, or a box
-    void cancel(Editor& editor); // the drag that runs; until all is let go, the mouse and T do nothing more
+    bool dragging() const; // what is selected, or a box
+    void cancel(PanelContext& editor); // the drag that runs; until all is let go, the mouse and T do nothing more
 
   private:
     enum class Navigation { none, orbit, pan, dolly, fly };
-    void draw_toolbar(Editor& editor);
-    void update_textures(Editor& editor);
-    void draw_overlays(Editor& editor);
-    void draw_lights(Editor& editor); // without a surface: their marks, and the selected spot's cone with its handle
-    void draw_cone(Editor& editor, scene::Id<scene::Light> id);
-    scene::Id<scene::Light> light_at(const Editor& editor, ImVec2 screen) const; // whose mark is there
-    void draw_status(Editor& editor);
-    void draw_progress(Editor& editor); // over the picture, while a scene is opened and prepared
-    void draw_darkness(Editor& editor); // over a scene without light
-    void draw_hint(Editor& editor); // until the first gesture of somebody's first start
-    void draw_welcome(Editor& editor, ImVec2 origin, ImVec2 space); // where there is no scene
-    void navigate(Editor& editor, bool over);
-    void pick(Editor& editor, bool over, const GizmoState& gizmo);
-    bool can_drag(const Editor& editor, ImVec2 screen) const; // something selected is there
-    void start_sliding(Editor& editor, ImVec2 screen);
-    void slide(Editor& editor);
-    std::vector<InstanceId> in_box(const Editor& editor, ImVec2 from, ImVec2 to) const;
-    void stick(Editor& editor, bool over); // T held: the selection follows the surface under the mouse
-    void inspect_pixel(Editor& editor, bool over);
-    void set_camera(Editor& editor, const scene::Camera& camera, const char* gesture);
-    glm::dvec3 pivot(const Editor& editor) const;
+    void draw_toolbar(PanelContext& editor);
+    void update_textures(PanelContext& editor);
+    void draw_overlays(PanelContext& editor);
+    void draw_lights(
+        PanelContext& editor); // without a surface: their marks, and the selected spot's cone with its handle
+    void draw_cone(PanelContext& editor, scene::Id<scene::Light> id);
+    scene::Id<scene::Light> light_at(const PanelContext& editor, ImVec2 screen) const; // whose mark is there
+    void draw_status(PanelContext& editor);
+    void draw_progress(PanelContext& editor); // over the picture, while a scene is opened and prepared
+    void draw_darkness(PanelContext& editor); // over a scene without light
+    void draw_hint(PanelContext& editor); // until the first gesture of somebody's first start
+    void draw_welcome(PanelContext& editor, ImVec2 origin, ImVec2 space); // where there is no scene
+    void navigate(PanelContext& editor, bool over);
+    void pick(PanelContext& editor, bool over, const GizmoState& gizmo);
+    bool can_drag(const PanelContext& editor, ImVec2 screen) const; // something selected is there
+    void start_sliding(PanelContext& editor, ImVec2 screen);
+    void slide(PanelContext& editor);
+    std::vector<InstanceId> in_box(const PanelContext& editor, ImVec2 from, ImVec2 to) const;
+    void stick(PanelContext& editor, bool over); // T held: the selection follows the surface under the mouse
+    void inspect_pixel(PanelContext& editor, bool over);
+    void set_camera(PanelContext& editor, const scene::Camera& camera, const char* gesture);
+    glm::dvec3 pivot(const PanelContext& editor) const;
 
     Texture picture_, outline_;
     std::shared_ptr<const view::Frame> drawn_; // what picture_ holds
@@ -84,5 +86,8 @@ class Viewport {
     ImVec2 last_click_{-1, -1};
     std::size_t behind_ = 0; // how often the same point was clicked
 };
+
+// What is said at the picture's corner. `compiling`: a material whose code is not ready; "" = none.
+std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera);
 
 } // namespace restage::editor

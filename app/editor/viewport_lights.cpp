@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights without a surface over the picture: marks that can be clicked, and the cone of a spot.
-#include "editor.hpp"
+#include "panel_context.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
+#include "scene/edits.hpp"
 #include "theme.hpp"
+#include "viewport.hpp"
 
+#include <imgui.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +20,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t rim_points = 48;
 
 // Where a point falls on the screen; none behind the camera.
-std::optional<ImVec2> on_screen(const Editor& e, const Viewport& v, const glm::dvec3& world) {
+std::optional<ImVec2> on_screen(const PanelContext& e, const Viewport& v, const glm::dvec3& world) {
     const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
     if (!(p.z > 0) || std::abs(p.x) > 1e4 || std::abs(p.y) > 1e4) return std::nullopt;
     return ImVec2(v.corner.x + float(p.x) * v.size.x, v.corner.y + float(p.y) * v.size.y);
@@ -32,7 +35,7 @@ struct Cone {
 };
 
 // As long as it is to what it shines on, but for wide ones, whose rim would be far out.
-Cone cone_of(const Editor& e, const scene::Light& light) {
+Cone cone_of(const PanelContext& e, const scene::Light& light) {
     const glm::dmat4& m = light.light_to_world;
     Cone cone{.tip = glm::dvec3(m[3]), .x = {}, .y = {}, .z = glm::normalize(glm::dvec3(m[2]))};
     cone.x = glm::normalize(std::abs(cone.z.x) < 0.9 ? glm::cross(cone.z, glm::dvec3(1, 0, 0))
@@ -49,7 +52,7 @@ Cone cone_of(const Editor& e, const scene::Light& light) {
 
 } // namespace
 
-scene::Id<scene::Light> Viewport::light_at(const Editor& e, ImVec2 screen) const {
+scene::Id<scene::Light> Viewport::light_at(const PanelContext& e, ImVec2 screen) const {
     scene::Id<scene::Light> found;
     const float r = 9 * ImGui::GetStyle().FontScaleMain;
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
@@ -61,7 +64,7 @@ scene::Id<scene::Light> Viewport::light_at(const Editor& e, ImVec2 screen) const
     return found;
 }
 
-void Viewport::draw_lights(Editor& e) {
+void Viewport::draw_lights(PanelContext& e) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const float r = 6 * ImGui::GetStyle().FontScaleMain;
     draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
@@ -86,7 +89,7 @@ void Viewport::draw_lights(Editor& e) {
     draw->PopClipRect();
 }
 
-void Viewport::draw_cone(Editor& e, scene::Id<scene::Light> id) {
+void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     const scene::Light& light = e.scene().lights[id];
     const Cone cone = cone_of(e, light);
     ImDrawList* draw = ImGui::GetWindowDrawList();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mouse and WASD do to the view, or to the camera where it is not locked. Every gesture is one step of its
 // history.
-#include "editor.hpp"
+#include "panel_context.hpp"
 #include "query/navigation.hpp"
+#include "viewport.hpp"
 
 #include <ImGuizmo.h>
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +14,7 @@ namespace restage::editor {
 
 // --------------------------------------------------------------------------------------------------------
 
-glm::dvec3 Viewport::pivot(const Editor& e) const {
+glm::dvec3 Viewport::pivot(const PanelContext& e) const {
     if (orbit_center_) return *orbit_center_;
     const scene::Bounds chosen = e.selection.bounds(e.scene());
     if (!chosen.empty()) return chosen.center();
@@ -27,11 +29,11 @@ glm::dvec3 Viewport::pivot(const Editor& e) const {
     return ray.origin + glm::normalize(ray.direction) * (all.empty() ? 1.0 : all.radius());
 }
 
-void Viewport::set_camera(Editor& e, const scene::Camera& camera, const char* gesture) {
+void Viewport::set_camera(PanelContext& e, const scene::Camera& camera, const char* gesture) {
     e.look_from(camera.camera_to_world, gesture);
 }
 
-void Viewport::navigate(Editor& e, bool over) {
+void Viewport::navigate(PanelContext& e, bool over) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool alt = io.KeyAlt && !ImGuizmo::IsUsing() && !ImGuizmo::IsOver();
     if (over && navigation_ == Navigation::none) {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the viewport says around and over the picture: the toolbar, its state, how to begin.
-#include "editor.hpp"
+#include "actions.hpp"
 #include "files.hpp"
+#include "opening.hpp"
+#include "panel_context.hpp"
 #include "panels/scene_panel.hpp"
-#include "picture_note.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
+#include "viewport.hpp"
 #include "widgets.hpp"
 
 #include "base/file.hpp"
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <algorithm>
 
 namespace restage::editor {
@@ -17,7 +21,7 @@ namespace restage::editor {
 namespace {
 
 // Of what is dragged with Ctrl held; remembered with the preferences.
-void draw_steps(Editor& e) {
+void draw_steps(PanelContext& e) {
     if (!ImGui::BeginPopup("steps")) return;
     dialog_width(230);
     ImGui::TextColored(colors::dim, "A drag with Ctrl goes in steps of");
@@ -37,7 +41,7 @@ void draw_steps(Editor& e) {
 
 } // namespace
 
-void Viewport::draw_toolbar(Editor& e) {
+void Viewport::draw_toolbar(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain, margin = 6 * scale;
     ImGui::SetCursorPos({margin, ImGui::GetCursorPosY() + 4 * scale});
     // What does not fit goes to the next line; `joined` ones stand close together.
@@ -112,7 +116,7 @@ std::string picture_note(const view::Frame& shown, const std::string& compiling,
     return text;
 }
 
-void Viewport::draw_status(Editor& e) {
+void Viewport::draw_status(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -136,7 +140,7 @@ void Viewport::draw_status(Editor& e) {
     }
 }
 
-void Viewport::draw_progress(Editor& e) {
+void Viewport::draw_progress(PanelContext& e) {
     const view::ViewStatus status = e.live().status();
     const bool opening = e.opening().running();
     const bool waits = !opening && e.scene().instances.live() > 0 && status.state != view::ViewState::failed &&
@@ -169,7 +173,7 @@ void Viewport::draw_progress(Editor& e) {
     ImGui::EndChild();
 }
 
-void Viewport::draw_darkness(Editor& e) {
+void Viewport::draw_darkness(PanelContext& e) {
     if (e.opening().running() || e.scene().instances.live() == 0 || has_light(e)) return;
     const float scale = ImGui::GetStyle().FontScaleMain, width = std::min(340 * scale, size.x - 24 * scale);
     ImGui::SetCursorScreenPos({corner.x + (size.x - width) / 2, corner.y + size.y * 0.4f});
@@ -181,7 +185,7 @@ void Viewport::draw_darkness(Editor& e) {
     ImGui::EndChild();
 }
 
-void Viewport::draw_hint(Editor& e) {
+void Viewport::draw_hint(PanelContext& e) {
     if (e.preferences.hint_seen || !drawn_) return;
     if (navigation_ != Navigation::none || !e.selection.empty()) { // that is how
         e.preferences.hint_seen = true;
@@ -207,7 +211,7 @@ void Viewport::draw_hint(Editor& e) {
     e.mark("hint", a);
 }
 
-void Viewport::draw_welcome(Editor& e, ImVec2 origin, ImVec2 space) {
+void Viewport::draw_welcome(PanelContext& e, ImVec2 origin, ImVec2 space) {
     const float scale = ImGui::GetStyle().FontScaleMain, width = std::min(280 * scale, space.x - 20 * scale);
     const float line = ImGui::GetFrameHeightWithSpacing();
     const auto& files = e.files().recent.files();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writing what is not the project: exports through the exporter plugins, and the live picture as an image.
 #include "background.hpp"
-#include "editor.hpp"
+#include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
 #include "io/image_file.hpp"
+#include "panel_context.hpp"
+#include "plugin/registry.hpp"
 #include "saving.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
 #include "view/picture.hpp"
 #include "widgets.hpp"
 
@@ -32,7 +35,7 @@ std::vector<std::string> all_of(std::string_view list) {
 }
 
 // One option of an exporter's table.
-void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values) {
+void option_widget(PanelContext& e, const RestageParam& line, scene::ParamSet& values) {
     const scene::Value* set = values.find(line.id);
     scene::Value v = set ? *set : scene::default_value(line);
     bool changed = false;
@@ -85,11 +88,11 @@ void option_widget(Editor& e, const RestageParam& line, scene::ParamSet& values)
     if (changed) values.set(line.id, std::move(v));
 }
 
-void show_report(Editor& e, const fs::path& path, io::Report report) {
+void show_report(PanelContext& e, const fs::path& path, io::Report report) {
     e.notices.add(LogLevel::info, "Exported " + path.filename().string());
     for (const io::ReportEntry& entry : report.entries)
         if (entry.fate != RESTAGE_KEPT) e.notices.add(LogLevel::warning, io::to_string(entry));
-    e.show_modal("Exported", [path, report = std::move(report)](Editor& editor) {
+    e.show_modal("Exported", [path, report = std::move(report)](PanelContext& editor) {
         dialog_width(560);
         ImGui::TextWrapped("%s is written.", path.string().c_str());
         ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(RESTAGE_KEPT),
@@ -113,26 +116,26 @@ void show_report(Editor& e, const fs::path& path, io::Report report) {
     });
 }
 
-void start_export(Editor& e, const fs::path& path, io::ExportOptions options) {
+void start_export(PanelContext& e, const fs::path& path, io::ExportOptions options) {
     e.files().jobs.start(
         {.title = "Exporting " + path.filename().string()},
         [path, scene = e.scene(), &registry = e.registry(),
-         options = std::move(options)](BackgroundJob& job) mutable -> std::function<void(Editor&)> {
+         options = std::move(options)](BackgroundJob& job) mutable -> std::function<void(PanelContext&)> {
             options.progress = [&job](float done, std::string_view what) { return job.report(double(done), what); };
             auto report = io::export_scene(scene, path.string(), registry, options);
             if (!report)
-                return [message = report.error().message, path, options](Editor& editor) {
+                return [message = report.error().message, path, options](PanelContext& editor) {
                     show_failure(editor, {.title = "Not exported",
                                           .reason = message,
-                                          .again = [path, options](Editor& ed) { start_export(ed, path, options); },
-                                          .elsewhere = export_dialog});
+                                          .again = [&editor, path, options] { start_export(editor, path, options); },
+                                          .elsewhere = [&editor] { export_dialog(editor); }});
                 };
-            return [path, report = std::move(*report)](Editor& editor) { show_report(editor, path, report); };
+            return [path, report = std::move(*report)](PanelContext& editor) { show_report(editor, path, report); };
         });
 }
 
 // The live picture, as traced and, where there is one of the same film, denoised.
-std::optional<view::Picture> live_picture(const Editor& e) {
+std::optional<view::Picture> live_picture(const PanelContext& e) {
     const auto raw = e.live().frame(), clean = e.live().denoised();
     if (!raw || raw->document != e.document()) return std::nullopt;
     view::Picture picture{.film = raw->image, .denoised = std::nullopt, .exposure = e.scene().film.value.exposure};
@@ -157,7 +160,7 @@ Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
 
 } // namespace
 
-void export_dialog(Editor& e) {
+void export_dialog(PanelContext& e) {
     struct State {
         std::size_t exporter = 0;
         scene::ParamSet values;
@@ -166,7 +169,7 @@ void export_dialog(Editor& e) {
         e.notices.add(LogLevel::error, "No exporter plugin is loaded: see Plugins");
         return;
     }
-    e.show_modal("Export", [state = std::make_shared<State>()](Editor& editor) {
+    e.show_modal("Export", [state = std::make_shared<State>()](PanelContext& editor) {
         const auto& exporters = editor.registry().exporters();
         const RestageExporter1& exporter = *exporters[state->exporter].table;
         dialog_width(360);
@@ -196,7 +199,7 @@ void export_dialog(Editor& e) {
                     .start = path.empty() ? fs::path() : path.parent_path(),
                     .name = (path.empty() ? "untitled" : path.stem().string() + " edited") + extension,
                     .extension = extension,
-                    .done = [options](Editor& ed, const fs::path& place) { start_export(ed, place, options); }});
+                    .done = [options](PanelContext& ed, const fs::path& place) { start_export(ed, place, options); }});
         }
         editor.mark("export.choose");
         ImGui::SameLine();
@@ -206,14 +209,14 @@ void export_dialog(Editor& e) {
     });
 }
 
-void save_image_dialog(Editor& e) {
+void save_image_dialog(PanelContext& e) {
     struct State {
         int format = 0;
         bool denoised = true, as_seen = true;
     };
     auto state = std::make_shared<State>();
     state->denoised = e.view.denoise;
-    e.show_modal("Save picture", [state](Editor& editor) {
+    e.show_modal("Save picture", [state](PanelContext& editor) {
         static constexpr const char* formats[] = {"PNG", "EXR", "HDR"};
         static constexpr const char* extensions[] = {".png", ".exr", ".hdr"};
         const auto picture = editor.live().frame();
@@ -250,7 +253,7 @@ void save_image_dialog(Editor& e) {
                                                     : path.parent_path(),
                             .name = (path.empty() ? "untitled" : path.stem().string()) + extension,
                             .extension = extension,
-                            .done = [state](Editor& ed, const fs::path& place) {
+                            .done = [state](PanelContext& ed, const fs::path& place) {
                                 auto shot = live_picture(ed);
                                 if (!shot) return;
                                 if (!state->denoised) shot->denoised.reset();
@@ -260,27 +263,27 @@ void save_image_dialog(Editor& e) {
                                 if (seen && shot->denoised && settings.layer == view::picture_layer)
                                     shot->film.color = *shot->denoised;
                                 ed.files().last_picture = place;
-                                ed.files().jobs.start({.title = "Writing " + place.filename().string()},
-                                                      [place, shot = std::move(*shot), settings,
-                                                       seen](BackgroundJob&) -> std::function<void(Editor&)> {
-                                                          auto written = view::check_picture_path(place.string());
-                                                          if (written && seen)
-                                                              written = write_as_seen(place, shot.film, settings);
-                                                          else if (written)
-                                                              written = view::write_picture(place.string(), shot, {});
-                                                          const std::string message = written
-                                                                                          ? "Written: " + place.string()
-                                                                                          : written.error().message;
-                                                          return [message, good = written.has_value()](Editor& x) {
-                                                              if (good)
-                                                                  x.notices.add(LogLevel::info, message);
-                                                              else
-                                                                  show_failure(x, {.title = "Not written",
-                                                                                   .reason = message,
-                                                                                   .again = save_image_dialog,
-                                                                                   .elsewhere = save_image_dialog});
-                                                          };
-                                                      });
+                                ed.files().jobs.start(
+                                    {.title = "Writing " + place.filename().string()},
+                                    [place, shot = std::move(*shot), settings,
+                                     seen](BackgroundJob&) -> std::function<void(PanelContext&)> {
+                                        auto written = view::check_picture_path(place.string());
+                                        if (written && seen)
+                                            written = write_as_seen(place, shot.film, settings);
+                                        else if (written)
+                                            written = view::write_picture(place.string(), shot, {});
+                                        const std::string message =
+                                            written ? "Written: " + place.string() : written.error().message;
+                                        return [message, good = written.has_value()](PanelContext& x) {
+                                            if (good)
+                                                x.notices.add(LogLevel::info, message);
+                                            else
+                                                show_failure(x, {.title = "Not written",
+                                                                 .reason = message,
+                                                                 .again = [&x] { save_image_dialog(x); },
+                                                                 .elsewhere = [&x] { save_image_dialog(x); }});
+                                        };
+                                    });
                             }});
         }
         editor.mark("image.choose");

@@ -4,6 +4,9 @@
 
 #include "gpu/device.hpp"
 #include "render/film_layers.hpp"
+#include "shared/path_data.h"
+
+#include <cstdint>
 
 namespace restage::render {
 

@@ -6,6 +6,7 @@
 #include "gpu/compiler.hpp"
 #include "gpu/pipeline.hpp"
 #include "render/material_types.hpp"
+#include "render/renderer_options.hpp"
 
 #include <vector>
 
@@ -25,7 +26,6 @@ struct SceneFeatures {
     std::uint32_t camera = 0; // CAMERA_*
     bool operator==(const SceneFeatures&) const = default;
 };
-enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };
 
 // `main_file`: "wave_shade.glsl" or what another tracer wraps around path_step.
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage);

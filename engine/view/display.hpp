@@ -3,7 +3,7 @@
 // guides. Nothing here changes what was rendered.
 #pragma once
 
-#include "render/film.hpp"
+#include "render/film_layers.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,6 +2,8 @@
 #include "view/live_view.hpp"
 
 #include "base/thread_priority.hpp"
+#include "plugin/registry.hpp"
+#include "render/renderer.hpp"
 #include "view/pictures.hpp"
 #include "view/view_denoiser.hpp"
 

@@ -7,13 +7,18 @@
 #pragma once
 
 #include "base/log.hpp"
-#include "plugin/registry.hpp"
-#include "render/renderer.hpp"
+#include "render/film_layers.hpp"
+#include "render/renderer_options.hpp"
 #include "scene/scene.hpp"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+
+namespace restage::plugin {
+class Registry;
+}
 
 namespace restage::view {
 

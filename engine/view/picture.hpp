@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "render/film.hpp"
+#include "render/film_layers.hpp"
 
 #include <map>
 #include <optional>

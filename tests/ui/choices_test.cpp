@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is chosen by its picture or its number: balls of materials, skies, the steps of drags; and where dialogs are.
 #include "headless.hpp"
+#include "render/renderer.hpp"
 
 #include "editor/assets.hpp"
 #include "editor/material_balls.hpp"
-#include "editor/picture_note.hpp"
 #include "editor/preferences.hpp"
 #include "temporary_folder.hpp"
 #include "view/display.hpp"
@@ -165,7 +165,7 @@ TEST_CASE("the note at the picture's corner is of the picture that is shown", "[
 TEST_CASE("a dialog is in the middle of the window, and comes back to it when the window has another size", "[ui]") {
     Headless h("cornell/cornell.pbrt");
     h.play("dialog", [&](ImGuiTestContext* ctx) {
-        h.editor().show_modal("A question", [](editor::Editor&) {
+        h.editor().show_modal("A question", [](editor::PanelContext&) {
             ImGui::TextUnformatted("Some words that make it wide enough");
             ImGui::Button("Answer");
             return true;

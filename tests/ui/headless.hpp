@@ -3,10 +3,15 @@
 // ImGui Test Engine, and a live picture of a few pixels. Widgets are named by the marks that panels give them.
 #pragma once
 
+#include "document/session.hpp"
 #include "editor/editor.hpp"
 #include "editor/panels/state.hpp"
 #include "editor/theme.hpp"
+#include "editor/viewport.hpp"
 #include "paths.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
+#include "view/live_view.hpp"
 
 #include <imgui_internal.h>
 #include <imgui_te_context.h>
@@ -93,13 +98,13 @@ class Headless {
             ctx->Yield();
         const auto* now = editor_->find_mark(mark);
         IM_CHECK_SILENT_RETV(now, (ctx->LogError("there is no \"%s\"", mark.c_str()), ImVec4()));
-        editor::Editor::Mark found = *now; // marks are made anew each frame
+        editor::Marks::Mark found = *now; // marks are made anew each frame
         if (found.item && ctx->ItemInfo(found.item, ImGuiTestOpFlags_NoError).ID) { // else something is over it
             ctx->ItemMakeVisible(found.item, ImGuiTestOpFlags_NoError);
             ctx->Yield(2);
             if (const auto* again = editor_->find_mark(mark)) found = *again;
         }
-        return found.rect;
+        return {found.x0, found.y0, found.x1, found.y1};
     }
     // The same, for what comes with the first picture: however long that takes on a busy machine.
     void wait_for(ImGuiTestContext* ctx, const std::string& mark) {

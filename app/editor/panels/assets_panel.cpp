@@ -28,11 +28,11 @@ constexpr std::uint32_t thumbnail_pixels = 128;
 constexpr std::size_t most_thumbnails = 800; // the window has descriptors for 1024 textures
 constexpr const char* kind_names[] = {"All", "Scenes", "Skies", "Textures", "Meshes"};
 
-fs::path own_config(const Editor& e) {
+fs::path own_config(const PanelContext& e) {
     return e.options().config_dir.empty() ? fs::path() : e.options().config_dir / "assets.json";
 }
 
-void load(Editor& e, AssetsState& state) {
+void load(PanelContext& e, AssetsState& state) {
     if (state.loaded) return;
     state.loaded = true;
     state.entries.clear();
@@ -54,7 +54,7 @@ void load(Editor& e, AssetsState& state) {
     }
 }
 
-void ask_thumbnail(Editor& e, AssetsState::Thumbnail& thumbnail, const std::string& file) {
+void ask_thumbnail(PanelContext& e, AssetsState::Thumbnail& thumbnail, const std::string& file) {
     thumbnail.asked = true;
     e.panel_state->loads.start(
         {.path = file,
@@ -82,7 +82,7 @@ void ask_thumbnail(Editor& e, AssetsState::Thumbnail& thumbnail, const std::stri
          }});
 }
 
-void apply(Editor& e, const Asset& asset) {
+void apply(PanelContext& e, const Asset& asset) {
     switch (asset.kind) {
         case AssetKind::scene:
             e.open(asset.path);
@@ -102,7 +102,7 @@ void apply(Editor& e, const Asset& asset) {
     }
 }
 
-void cell(Editor& e, const Asset& asset, float side) {
+void cell(PanelContext& e, const Asset& asset, float side) {
     ImGui::PushID(asset.path.c_str());
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -149,7 +149,7 @@ void cell(Editor& e, const Asset& asset, float side) {
     ImGui::PopID();
 }
 
-void add_folder(Editor& e, const fs::path& folder) {
+void add_folder(PanelContext& e, const fs::path& folder) {
     if (own_config(e).empty())
         e.notices.add(LogLevel::error, "There is no folder for settings to remember it in");
     else if (auto added = add_asset_folder(own_config(e), folder); !added)
@@ -160,19 +160,19 @@ void add_folder(Editor& e, const fs::path& folder) {
 
 } // namespace
 
-std::vector<std::string> assets_of(Editor& e, AssetKind kind) {
+std::vector<std::string> assets_of(PanelContext& e, AssetKind kind) {
     load(e, e.panel_state->assets);
     return e.panel_state->assets.files_of(kind);
 }
 
-const AssetsState::Thumbnail& thumbnail_of(Editor& e, const std::string& file) {
+const AssetsState::Thumbnail& thumbnail_of(PanelContext& e, const std::string& file) {
     AssetsState& state = e.panel_state->assets;
     AssetsState::Thumbnail& thumbnail = state.thumbnails[file];
     if (!thumbnail.asked && state.thumbnails.size() < most_thumbnails) ask_thumbnail(e, thumbnail, file);
     return thumbnail;
 }
 
-void accept_asset(Editor& e) {
+void accept_asset(PanelContext& e) {
     if (!ImGui::BeginDragDropTarget()) return;
     if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(
             "restage.path", ImGuiDragDropFlags_AcceptBeforeDelivery | ImGuiDragDropFlags_AcceptNoDrawDefaultRect |
@@ -187,7 +187,7 @@ void accept_asset(Editor& e) {
     ImGui::EndDragDropTarget();
 }
 
-void draw_assets(Editor& e) {
+void draw_assets(PanelContext& e) {
     AssetsState& state = e.panel_state->assets;
     load(e, state);
     const float scale = ImGui::GetStyle().FontScaleMain;

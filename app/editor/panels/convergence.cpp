@@ -5,6 +5,7 @@
 
 #include "state.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
 #include "widgets.hpp"
 
 #include <imgui.h>
@@ -14,7 +15,7 @@
 
 namespace restage::editor {
 
-void follow_convergence(Editor& e) {
+void follow_convergence(PanelContext& e) {
     ConvergenceState& state = e.panel_state->convergence;
     const auto frame = e.live().frame();
     if (!frame || frame->divider != 1 || frame->relative_error >= 1e29) return;
@@ -31,7 +32,7 @@ void follow_convergence(Editor& e) {
     curve.error.push_back(frame->relative_error * 100);
 }
 
-void draw_convergence(Editor& e) {
+void draw_convergence(PanelContext& e) {
     ConvergenceState& state = e.panel_state->convergence;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Error against");

@@ -2,6 +2,7 @@
 // Help: how to get around in the picture, and every shortcut from the table of actions, for either preset of keys.
 #include "panels.hpp"
 
+#include "actions.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -60,7 +61,7 @@ bool begin_half(const char* id) {
 
 } // namespace
 
-void draw_help(Editor& e) {
+void draw_help(PanelContext& e) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Keys as in");
     ImGui::SameLine();

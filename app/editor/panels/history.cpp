@@ -2,6 +2,7 @@
 // History: every change in order; a click goes there. Says which state is the saved one.
 #include "panels.hpp"
 
+#include "document/session.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -11,11 +12,10 @@
 
 namespace restage::editor {
 
-void draw_history(Editor& e) {
+void draw_history(PanelContext& e) {
     const scene::History& history = e.session().history();
     const auto go = [&e](std::size_t position) {
-        e.later([&e, position] {
-            document::Session& s = e.session_for_changes();
+        e.change([position](document::Session& s) {
             while (s.history().position() > position && s.undo()) {
             }
             while (s.history().position() < position && s.redo()) {

@@ -2,9 +2,12 @@
 // Import report: what became of the things in the file, what it is about, and files that were not found.
 #include "panels.hpp"
 
+#include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
 #include "io/import.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
 #include "scene/placeholder.hpp"
 #include "state.hpp"
 #include "theme.hpp"
@@ -24,7 +27,7 @@ using ImageId = scene::Id<scene::Image>;
 using MeshId = scene::Id<scene::Mesh>;
 
 // Selects what an entry is about: 'material "oak"' = the objects that have it.
-bool select_named(Editor& e, const std::string& what) {
+bool select_named(PanelContext& e, const std::string& what) {
     const std::size_t open = what.find('"'), close = what.rfind('"');
     if (open == std::string::npos || close <= open) return false;
     const std::string name = what.substr(open + 1, close - open - 1);
@@ -48,7 +51,7 @@ bool select_named(Editor& e, const std::string& what) {
 }
 
 // Reads the images from these places and, when all were read, makes them the scene's: one step of the history.
-void relink(Editor& e, std::vector<std::pair<ImageId, std::string>> places) {
+void relink(PanelContext& e, std::vector<std::pair<ImageId, std::string>> places) {
     struct Gathering {
         std::size_t left;
         std::vector<std::tuple<ImageId, std::string, std::shared_ptr<const scene::PixelData>>> read;
@@ -86,11 +89,11 @@ void relink(Editor& e, std::vector<std::pair<ImageId, std::string>> places) {
 }
 
 // Reads the meshes from these files, each the first of its file, and makes them the scene's: one step of the history.
-void relink(Editor& e, std::vector<std::pair<MeshId, std::string>> places) {
+void relink(PanelContext& e, std::vector<std::pair<MeshId, std::string>> places) {
     if (places.empty()) return;
     const std::string title = places.size() == 1 ? "Reading " + places[0].second : "Reading missing meshes";
     e.files().jobs.start(
-        {.title = title}, [&registry = e.registry(), places](BackgroundJob& job) -> std::function<void(Editor&)> {
+        {.title = title}, [&registry = e.registry(), places](BackgroundJob& job) -> std::function<void(PanelContext&)> {
             std::vector<std::tuple<MeshId, std::string, std::shared_ptr<const scene::MeshData>>> read;
             std::vector<std::string> problems;
             for (const auto& [id, path] : places) {
@@ -107,7 +110,7 @@ void relink(Editor& e, std::vector<std::pair<MeshId, std::string>> places) {
                 else
                     problems.push_back(imported ? path + ": holds no mesh" : imported.error().message);
             }
-            return [read, problems](Editor& editor) {
+            return [read, problems](PanelContext& editor) {
                 for (const std::string& problem : problems)
                     editor.notices.add(LogLevel::error, problem);
                 if (read.empty()) return;
@@ -126,7 +129,7 @@ void relink(Editor& e, std::vector<std::pair<MeshId, std::string>> places) {
 }
 
 // The files of these names anywhere in the folder.
-void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const std::vector<MeshId>& meshes,
+void relink_from_folder(PanelContext& e, const std::vector<ImageId>& missing, const std::vector<MeshId>& meshes,
                         const std::string& folder) {
     std::map<std::string, std::string> files; // name -> path
     std::error_code error;
@@ -152,7 +155,7 @@ void relink_from_folder(Editor& e, const std::vector<ImageId>& missing, const st
     relink(e, std::move(mesh_places));
 }
 
-void missing_files(Editor& e) {
+void missing_files(PanelContext& e) {
     std::vector<ImageId> missing;
     e.scene().images.each([&](ImageId id, const scene::Image& image) {
         if (!image.data && !image.path.empty()) missing.push_back(id);
@@ -184,7 +187,7 @@ void missing_files(Editor& e) {
         browse(e, {.title = "The folder they are in",
                    .folder = true,
                    .start = document.parent_path(),
-                   .done = [missing, meshes](Editor& editor, const std::filesystem::path& folder) {
+                   .done = [missing, meshes](PanelContext& editor, const std::filesystem::path& folder) {
                        relink_from_folder(editor, missing, meshes, folder.string());
                    }});
     tip("Finds files of the same names in that folder and all within it");
@@ -200,7 +203,7 @@ void missing_files(Editor& e) {
                        .filters = {{"Images", {"png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "pfm"}},
                                    {"All files", {}}},
                        .start = document.parent_path(),
-                       .done = [id](Editor& editor, const std::filesystem::path& path) {
+                       .done = [id](PanelContext& editor, const std::filesystem::path& path) {
                            if (editor.scene().images.find(id)) relink(editor, {{id, path.string()}});
                        }});
         tip("Choose the file that stands for it");
@@ -219,7 +222,7 @@ void missing_files(Editor& e) {
             browse(e, {.title = "Find " + file,
                        .filters = {{"Meshes", {"ply", "obj", "stl", "glb", "gltf"}}, {"All files", {}}},
                        .start = document.parent_path(),
-                       .done = [id](Editor& editor, const std::filesystem::path& path) {
+                       .done = [id](PanelContext& editor, const std::filesystem::path& path) {
                            if (editor.scene().meshes.find(id)) relink(editor, {{id, path.string()}});
                        }});
         tip("Choose the file that stands for it");
@@ -232,7 +235,7 @@ void missing_files(Editor& e) {
 
 } // namespace
 
-void draw_import_report(Editor& e) {
+void draw_import_report(PanelContext& e) {
     ReportState& state = e.panel_state->report;
     missing_files(e);
     const io::Report& report = e.session().report();

@@ -4,7 +4,9 @@
 #include "inspector.hpp"
 
 #include "panels.hpp"
+#include "scene/edits.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +17,7 @@ namespace restage::editor {
 namespace {
 
 // Flags of the objects that are selected: a click gives all of them the active one's new value.
-void object_section(Editor& e, InstanceId id) {
+void object_section(PanelContext& e, InstanceId id) {
     if (!section_header("Object")) {
         e.mark("inspector.object");
         return;
@@ -69,7 +71,7 @@ void object_section(Editor& e, InstanceId id) {
 
 } // namespace
 
-void draw_inspector(Editor& e) {
+void draw_inspector(PanelContext& e) {
     if (e.selection.light()) {
         light_section(e, e.selection.light());
         return;

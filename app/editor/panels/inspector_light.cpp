@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inspector, light: an object that emits, and lights without a surface.
+#include "actions.hpp"
 #include "inspector.hpp"
 #include "io/material_emission.hpp"
 #include "param_widget.hpp"
+#include "plugin/registry.hpp"
 #include "scene/color_temperature.hpp"
+#include "scene/edits.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -23,7 +26,7 @@ constexpr double pi = 3.14159265358979323846;
 double luminance(const glm::vec3& c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 // In world units; walking a large mesh takes a while, so it is remembered.
-double area_of(Editor& e, InstanceId id) {
+double area_of(PanelContext& e, InstanceId id) {
     auto& known = e.panel_state->inspector.area;
     const scene::Instance& instance = e.scene().instances[id];
     if (known.of == id && known.transform == instance.object_to_world) return known.value;
@@ -38,7 +41,7 @@ double area_of(Editor& e, InstanceId id) {
     return known.value;
 }
 
-void ask_emission(Editor& e, InstanceId id, std::optional<scene::Emission> emission, const char* gesture) {
+void ask_emission(PanelContext& e, InstanceId id, std::optional<scene::Emission> emission, const char* gesture) {
     e.edit([id, emission](const scene::Scene& s) { return scene::set_emission(s, id, emission); }, gesture);
 }
 
@@ -68,7 +71,7 @@ glm::dmat4 turned(const glm::dmat4& light_to_world, const Angles& angles, const 
 
 } // namespace
 
-bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, const char* unit,
+bool light_value_rows(PanelContext& e, glm::vec3& value, const char* strength_label, const char* unit,
                       const std::string& mark) {
     float strength = std::max({value.x, value.y, value.z});
     glm::vec3 color = strength > 0 ? value / strength : glm::vec3(1);
@@ -102,7 +105,7 @@ bool light_value_rows(Editor& e, glm::vec3& value, const char* strength_label, c
     return changed;
 }
 
-void emission_section(Editor& e, InstanceId id) {
+void emission_section(PanelContext& e, InstanceId id) {
     const bool shown = section_header("Light");
     e.mark("inspector.light");
     if (!shown) return;
@@ -142,7 +145,7 @@ void emission_section(Editor& e, InstanceId id) {
     ImGui::PopID();
 }
 
-void light_section(Editor& e, scene::Id<scene::Light> id) {
+void light_section(PanelContext& e, scene::Id<scene::Light> id) {
     const scene::Light* found = e.scene().lights.find(id);
     if (!found) return;
     scene::Light light = *found;

@@ -6,6 +6,8 @@
 #include "panels/plugin_ui.hpp"
 #include "param_widget.hpp"
 #include "pick_tool.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
 #include "scene/merge.hpp"
 #include "state.hpp"
 #include "theme.hpp"
@@ -43,7 +45,7 @@ scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
 }
 
 // A ball of it; its main colour until that is rendered.
-void swatch(Editor& e, MaterialId id, ImVec2 at, float size) {
+void swatch(PanelContext& e, MaterialId id, ImVec2 at, float size) {
     const Texture* ball = e.panel_state->balls.ball({e.registry(), e.log(), e.options().renderer}, e.scene(), id);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImVec2 end(at.x + size, at.y + size);
@@ -57,7 +59,7 @@ void swatch(Editor& e, MaterialId id, ImVec2 at, float size) {
 }
 
 // Assigns, copies, makes anew. `current` may be none.
-void material_choice(Editor& e, MaterialId current) {
+void material_choice(PanelContext& e, MaterialId current) {
     const auto selected = e.selection.instances();
     const scene::Material* material = e.scene().materials.find(current);
     const auto assign = [&](MaterialId to) {
@@ -140,7 +142,7 @@ void material_choice(Editor& e, MaterialId current) {
     }
 }
 
-void sharing(Editor& e, MaterialId id) {
+void sharing(PanelContext& e, MaterialId id) {
     std::size_t users = 0, chosen = 0;
     e.scene().instances.each([&](InstanceId, const scene::Instance& i) { users += i.material == id; });
     for (const InstanceId one : e.selection.instances())
@@ -167,7 +169,7 @@ void sharing(Editor& e, MaterialId id) {
     e.mark("material.unique");
 }
 
-void ask_image(Editor& e, MaterialId id, const RestageParam& line, const std::string& file) {
+void ask_image(PanelContext& e, MaterialId id, const RestageParam& line, const std::string& file) {
     // Colours are painted for the eye; heights, normals and roughness are data.
     const RestageEncoding encoding = line.type == RESTAGE_COLOR ? RESTAGE_SRGB : RESTAGE_LINEAR;
     const bool scalar = line.type == RESTAGE_FLOAT || std::string_view(line.id) == "bump";
@@ -192,7 +194,7 @@ void ask_image(Editor& e, MaterialId id, const RestageParam& line, const std::st
 }
 
 // Reads the file, then it is the texture of that colour.
-void give_image(Editor& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
+void give_image(PanelContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
     e.panel_state->loads.start(
         {.path = path,
          .encoding = RESTAGE_SRGB,
@@ -213,7 +215,7 @@ void give_image(Editor& e, const MaterialScope& scope, const std::string& param,
          }});
 }
 
-void param_row(Editor& e, MaterialId id, const scene::Material& material, const RestageParam& line) {
+void param_row(PanelContext& e, MaterialId id, const scene::Material& material, const RestageParam& line) {
     const scene::Value* set = material.params.find(line.id);
     const bool fits = set && set->type == static_cast<RestageType>(line.type);
     const auto plugin = line.type == RESTAGE_TABLE ? e.registry().find_material(material.type) : std::nullopt;
@@ -231,7 +233,7 @@ void param_row(Editor& e, MaterialId id, const scene::Material& material, const 
 
 } // namespace
 
-void texture_for_selected(Editor& e, const std::string& file) {
+void texture_for_selected(PanelContext& e, const std::string& file) {
     const scene::Instance* instance = e.scene().instances.find(e.selection.active());
     const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
     if (!material) return;
@@ -240,7 +242,7 @@ void texture_for_selected(Editor& e, const std::string& file) {
         if (line.type == RESTAGE_COLOR && (line.flags & RESTAGE_PARAM_TEXTURABLE)) {
             const std::string path = std::filesystem::absolute(file).lexically_normal().string();
             ask_scope(e, e.selection.instances(), std::filesystem::path(path).filename().string(),
-                      [path, param = std::string(line.id)](Editor& editor, const MaterialScope& scope) {
+                      [path, param = std::string(line.id)](PanelContext& editor, const MaterialScope& scope) {
                           give_image(editor, scope, param, path);
                       });
             return;
@@ -248,7 +250,7 @@ void texture_for_selected(Editor& e, const std::string& file) {
     e.notices.add(LogLevel::info, material->name + " has no colour that a texture could stand for");
 }
 
-glm::vec3 swatch_color(const Editor& e, const scene::Material& material) {
+glm::vec3 swatch_color(const PanelContext& e, const scene::Material& material) {
     glm::vec3 seen(0.5f);
     const auto plugin = e.registry().find_material(material.type);
     for (const RestageParam& line : table_of(plugin)) {
@@ -262,7 +264,7 @@ glm::vec3 swatch_color(const Editor& e, const scene::Material& material) {
     return seen;
 }
 
-void material_section(Editor& e, MaterialId id) {
+void material_section(PanelContext& e, MaterialId id) {
     const bool open = section_header("Material", true);
     e.mark("inspector.material");
     if (!open) return;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the outliner does to groups.
 #include "outliner.hpp"
+#include "scene/edits.hpp"
 #include "scene/merge.hpp"
 
 #include <set>
 
 namespace restage::editor {
 
-void move_to_group(Editor& e, GroupId group) {
+void move_to_group(PanelContext& e, GroupId group) {
     e.edit([ids = e.selection.instances(), group](const scene::Scene& s) {
         const scene::Group* to = s.groups.find(group);
         scene::Edit edit{to ? "Move to " + to->name : "Take out of group", {}};
@@ -20,7 +21,7 @@ void move_to_group(Editor& e, GroupId group) {
     });
 }
 
-void group_selected(Editor& e) {
+void group_selected(PanelContext& e) {
     e.edit([ids = e.selection.instances()](const scene::Scene& s) {
         std::set<std::string> taken;
         s.groups.each([&](auto, const scene::Group& g) { taken.insert(g.name); });
@@ -35,7 +36,7 @@ void group_selected(Editor& e) {
     });
 }
 
-void ungroup(Editor& e, GroupId id) {
+void ungroup(PanelContext& e, GroupId id) {
     e.edit([id](const scene::Scene& s) {
         const scene::Group* gone = s.groups.find(id);
         if (!gone) return Result<scene::Edit>(fail("the group is not there any more"));

@@ -24,7 +24,7 @@ int find_row(const OutlinerState& state, InstanceId id) {
     return id && found != state.rows.end() ? int(found - state.rows.begin()) : -1;
 }
 
-void update_rows(const Editor& e, OutlinerState& state) {
+void update_rows(const PanelContext& e, OutlinerState& state) {
     const scene::Scene& s = e.scene();
     // What was picked elsewhere is to be seen: the groups around it open.
     if (const scene::Instance* active = s.instances.find(e.selection.active());

@@ -4,39 +4,39 @@
 #pragma once
 
 #include "assets.hpp"
-#include "editor.hpp"
+#include "panel_context.hpp"
 
 #include <span>
 
 namespace restage::editor {
 
-void draw_viewport(Editor& editor);
-void draw_outliner(Editor& editor);
-void draw_inspector(Editor& editor);
-void draw_scene_settings(Editor& editor);
-void draw_import_report(Editor& editor);
-void draw_convergence(Editor& editor);
-void draw_plugins(Editor& editor);
-void draw_log(Editor& editor);
-void draw_history(Editor& editor);
-void draw_assets(Editor& editor);
-void draw_help(Editor& editor);
+void draw_viewport(PanelContext& editor);
+void draw_outliner(PanelContext& editor);
+void draw_inspector(PanelContext& editor);
+void draw_scene_settings(PanelContext& editor);
+void draw_import_report(PanelContext& editor);
+void draw_convergence(PanelContext& editor);
+void draw_plugins(PanelContext& editor);
+void draw_log(PanelContext& editor);
+void draw_history(PanelContext& editor);
+void draw_assets(PanelContext& editor);
+void draw_help(PanelContext& editor);
 
 // The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
 // a scene.
-void accept_asset(Editor& editor);
+void accept_asset(PanelContext& editor);
 // What is at hand of a kind, whether the panel was seen or not.
-std::vector<std::string> assets_of(Editor& editor, AssetKind kind);
+std::vector<std::string> assets_of(PanelContext& editor, AssetKind kind);
 // A small picture of that file; it is read when first asked for.
-const AssetsState::Thumbnail& thumbnail_of(Editor& editor, const std::string& file);
+const AssetsState::Thumbnail& thumbnail_of(PanelContext& editor, const std::string& file);
 // Notes the error of the live picture, whether the panel is seen or not; once a frame.
-void follow_convergence(Editor& editor);
+void follow_convergence(PanelContext& editor);
 
 enum class Dock { center, left, right, bottom, floating };
 
 struct Panel {
     const char* title; // also its name in the layout file
-    void (*draw)(Editor&); // between Begin and End
+    void (*draw)(PanelContext&); // between Begin and End
     Dock dock; // where it is at first
     bool open; // at first
     const char* tooltip;

@@ -23,7 +23,7 @@ struct Context {
     int widgets = 0; // so far: a name for those without a parameter
     std::string text; // of the last get()
 
-    Editor& editor() const { return ui.editor; }
+    PanelContext& editor() const { return ui.editor; }
     const RestageParam* line(const char* id) const {
         const RestageMaterial1& table = *ui.plugin.table;
         for (std::uint32_t i = 0; id && i < table.param_count; ++i)

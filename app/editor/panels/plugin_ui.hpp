@@ -3,7 +3,7 @@
 // and what the user changes there is asked of the editor as edits.
 #pragma once
 
-#include "editor.hpp"
+#include "panel_context.hpp"
 #include "plugin/registry.hpp"
 
 #include <functional>
@@ -13,7 +13,7 @@
 namespace restage::editor {
 
 struct PluginUi {
-    Editor& editor;
+    PanelContext& editor;
     scene::Id<scene::Material> id;
     const scene::Material& material;
     const plugin::MaterialEntry& plugin;

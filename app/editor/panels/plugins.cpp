@@ -6,6 +6,7 @@
 #include "check/report.hpp"
 #include "check/supervise.hpp"
 #include "files.hpp"
+#include "plugin/registry.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -18,10 +19,10 @@ namespace restage::editor {
 namespace {
 
 // "restage check" of this one, beside what the user goes on doing.
-void start_check(Editor& e, const plugin::Entry& entry) {
+void start_check(PanelContext& e, const plugin::Entry& entry) {
     e.files().jobs.start(
         {.title = "Checking " + entry.name()},
-        [name = entry.name(), folder = entry.folder](BackgroundJob& job) -> std::function<void(Editor&)> {
+        [name = entry.name(), folder = entry.folder](BackgroundJob& job) -> std::function<void(PanelContext&)> {
             std::atomic<bool> cancel{false};
             double steps = 0;
             const auto ran = [&]() -> Result<check::PluginReport> {
@@ -36,7 +37,7 @@ void start_check(Editor& e, const plugin::Entry& entry) {
                 return check::check_plugin(s);
             }();
             if (cancel) return {};
-            return [name, ran](Editor& editor) {
+            return [name, ran](PanelContext& editor) {
                 if (!ran) return editor.notices.add(LogLevel::error, ran.error().message);
                 const bool passed = ran->passed();
                 editor.notices.add(passed ? LogLevel::info : LogLevel::error, name + ": " + check::verdict_line(*ran));
@@ -56,7 +57,7 @@ void check_result(const check::PluginReport& report) {
                 fmt::format("{}: {}{}{}", step.step, step.text, step.cause.empty() ? "" : "\n", step.cause).c_str());
 }
 
-void buttons(Editor& e, const plugin::Entry& entry) {
+void buttons(PanelContext& e, const plugin::Entry& entry) {
     if (entry.quarantined) {
         if (ImGui::SmallButton("Enable")) {
             const auto released = e.registry().quarantine().release(entry.manifest.id);
@@ -75,7 +76,7 @@ void buttons(Editor& e, const plugin::Entry& entry) {
 
 } // namespace
 
-void draw_plugins(Editor& e) {
+void draw_plugins(PanelContext& e) {
     const auto entries = e.registry().entries();
     std::size_t refused = 0;
     for (const plugin::Entry* entry : entries)

@@ -2,12 +2,15 @@
 // Scene panel, camera and film: how the scene is looked at, and the picture's size.
 #include "scene_panel.hpp"
 
+#include "actions.hpp"
 #include "pick_tool.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
+#include "scene/edits.hpp"
 #include "scene/projection.hpp"
 #include "state.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +42,7 @@ constexpr Size sizes[] = {{"640 × 360", 640, 360},
                           {"1080 × 1920 (upright)", 1080, 1920},
                           {"2480 × 3508 (A4, 300 dpi)", 2480, 3508}};
 
-void ask_film(Editor& e, const scene::Film& film, const char* label, const char* gesture) {
+void ask_film(PanelContext& e, const scene::Film& film, const char* label, const char* gesture) {
     e.edit(
         [film, label](const scene::Scene& s) {
             scene::Edit edit = scene::set_film(s, film, label);
@@ -65,7 +68,7 @@ void ask_film(Editor& e, const scene::Film& film, const char* label, const char*
         gesture);
 }
 
-void filter_rows(Editor& e, scene::Film film) {
+void filter_rows(PanelContext& e, scene::Film film) {
     static constexpr const char* kinds[] = {"Box", "Triangle", "Gaussian", "Mitchell", "Sinc"};
     int kind = int(film.filter.kind);
     form_row("Pixel filter",
@@ -100,14 +103,14 @@ void filter_rows(Editor& e, scene::Film film) {
     if (changed) ask_film(e, film, "Pixel filter", "film.filter");
 }
 
-void ask_camera(Editor& e, const scene::Camera& camera) {
+void ask_camera(PanelContext& e, const scene::Camera& camera) {
     e.edit([camera](
                const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, camera, "Change camera"); },
            "scene.camera");
 }
 
 // How it maps the world to the picture, and how much of the world. True: changed.
-bool projection_rows(Editor& e, scene::Camera& camera) {
+bool projection_rows(PanelContext& e, scene::Camera& camera) {
     static constexpr const char* kinds[] = {"Perspective", "Orthographic", "Panorama", "Panorama, equal areas"};
     form_row("Projection",
              "How the world becomes a picture: as an eye sees it, without vanishing points, or all around");
@@ -152,7 +155,7 @@ bool projection_rows(Editor& e, scene::Camera& camera) {
 
 } // namespace
 
-void camera_section(Editor& e) {
+void camera_section(PanelContext& e) {
     const bool open = section_header("Camera", true);
     e.mark("scene.camera");
     if (!open) return;
@@ -225,7 +228,7 @@ void camera_section(Editor& e) {
     ImGui::PopID();
 }
 
-void film_section(Editor& e) {
+void film_section(PanelContext& e) {
     const bool open = section_header("Picture");
     e.mark("scene.film");
     if (!open) return;

@@ -2,9 +2,12 @@
 // Scene panel, lights: what shines, and new ones where the camera looks.
 #include "scene_panel.hpp"
 
+#include "document/session.hpp"
 #include "io/material_emission.hpp"
+#include "plugin/registry.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
+#include "scene/edits.hpp"
 #include "scene/merge.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -25,7 +28,7 @@ struct Place {
     double height = 1;
 };
 
-Place place_for_light(const Editor& e) {
+Place place_for_light(const PanelContext& e) {
     const scene::Bounds all = scene::world_bounds(e.scene());
     Place place;
     const double size = all.empty() ? 1 : std::max(all.radius(), 1e-6);
@@ -47,7 +50,7 @@ glm::dmat4 aimed(const glm::dvec3& at, const glm::dvec3& direction) {
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(at, 1)};
 }
 
-void add_light(Editor& e, RestageLightKind kind) {
+void add_light(PanelContext& e, RestageLightKind kind) {
     const Place place = place_for_light(e);
     const auto h2 = float(place.height * place.height);
     scene::Light light{.kind = kind, .light_to_world = aimed(place.above, -e.up())};
@@ -57,8 +60,7 @@ void add_light(Editor& e, RestageLightKind kind) {
     if (kind == RESTAGE_LIGHT_DISTANT) // from behind the camera's shoulder
         light.light_to_world = aimed(place.above, glm::dvec3(e.camera().camera_to_world[2]) * 0.6 - e.up() +
                                                       glm::dvec3(e.camera().camera_to_world[0]) * 0.5);
-    e.later([&e, light = std::move(light)]() mutable {
-        document::Session& session = e.session_for_changes();
+    e.change([&e, light = std::move(light)](document::Session& session) mutable {
         const auto id = session.scene().lights.next();
         std::set<std::string> taken;
         session.scene().lights.each([&](auto, const scene::Light& other) { taken.insert(other.name); });
@@ -71,7 +73,7 @@ void add_light(Editor& e, RestageLightKind kind) {
     });
 }
 
-void add_area_light(Editor& e) {
+void add_area_light(PanelContext& e) {
     const Place place = place_for_light(e);
     auto square = std::make_shared<scene::MeshData>(); // faces +z
     square->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
@@ -83,8 +85,7 @@ void add_area_light(Editor& e) {
     const std::string type = e.registry().find_material("diffuse") || e.registry().materials().empty()
                                  ? "diffuse"
                                  : e.registry().materials().front().table->type;
-    e.later([&e, square, to_world, type] {
-        document::Session& session = e.session_for_changes();
+    e.change([&e, square, to_world, type](document::Session& session) {
         const scene::Scene& s = session.scene();
         scene::Edit edit{"Add area light", {}};
         const auto mesh = s.meshes.next();
@@ -111,7 +112,7 @@ void add_area_light(Editor& e) {
 
 } // namespace
 
-void lights_section(Editor& e) {
+void lights_section(PanelContext& e) {
     const bool open = section_header("Lights");
     e.mark("scene.lights");
     if (!open) return;

@@ -2,21 +2,21 @@
 // The sections of the Scene panel, and what the scene has too little of to be seen: a sky, lights.
 #pragma once
 
-#include "editor.hpp"
+#include "panel_context.hpp"
 
 namespace restage::editor {
 
-void sky_section(Editor& editor);
-void camera_section(Editor& editor);
-void film_section(Editor& editor);
-void lights_section(Editor& editor);
-void render_section(Editor& editor);
+void sky_section(PanelContext& editor);
+void camera_section(PanelContext& editor);
+void film_section(PanelContext& editor);
+void lights_section(PanelContext& editor);
+void render_section(PanelContext& editor);
 
 // False when nothing in the scene shines: its picture is black.
-bool has_light(const Editor& editor);
+bool has_light(const PanelContext& editor);
 // As one step: document::light_studio.
-void light_with_studio(Editor& editor);
+void light_with_studio(PanelContext& editor);
 // The image becomes the sky; read on another thread.
-void use_as_sky(Editor& editor, const std::string& file);
+void use_as_sky(PanelContext& editor, const std::string& file);
 
 } // namespace restage::editor

@@ -4,9 +4,12 @@
 #include "scene_panel.hpp"
 
 #include "base/jobs.hpp"
+#include "plugin/registry.hpp"
 #include "render/tracers.hpp"
+#include "scene/edits.hpp"
 #include "state.hpp"
 #include "theme.hpp"
+#include "view/live_view.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +22,7 @@ namespace restage::editor {
 
 namespace {
 
-void scene_rows(Editor& e) {
+void scene_rows(PanelContext& e) {
     scene::Settings settings = e.scene().settings.value;
     bool changed = false;
     int samples = int(settings.samples), depth = int(settings.max_depth);
@@ -66,7 +69,7 @@ void scene_rows(Editor& e) {
 }
 
 // Of those that are loaded, by name, and kept over restarts.
-void denoiser_row(Editor& e) {
+void denoiser_row(PanelContext& e) {
     const auto denoisers = e.registry().denoisers();
     const std::string& now = e.preferences.denoiser;
     std::string shown = now.empty() ? "Built-in" : now + " (not loaded)";
@@ -90,7 +93,7 @@ void denoiser_row(Editor& e) {
     ImGui::EndCombo();
 }
 
-void live_rows(Editor& e) {
+void live_rows(PanelContext& e) {
     ImGui::SeparatorText("Live picture");
     form_row("Denoise", "Shows the picture without its noise");
     ImGui::BeginDisabled(!e.live().denoiser_missing().empty());
@@ -122,7 +125,7 @@ void live_rows(Editor& e) {
     e.mark("render.resolution");
 }
 
-void machine_rows(Editor& e) {
+void machine_rows(PanelContext& e) {
     ImGui::SeparatorText("This machine");
     const view::ViewStatus status = e.live().status();
     render::RendererOptions options = e.options().renderer;
@@ -173,7 +176,7 @@ void machine_rows(Editor& e) {
 
 } // namespace
 
-void render_section(Editor& e) {
+void render_section(PanelContext& e) {
     const bool open = section_header("Rendering");
     e.mark("scene.render");
     if (!open) return;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene panel, sky: what is seen, and shines, where the scene ends.
+#include "document/session.hpp"
 #include "panels.hpp"
+#include "plugin/registry.hpp"
+#include "scene/edits.hpp"
 #include "scene_panel.hpp"
 
 #include "document/exposure.hpp"
@@ -37,14 +40,14 @@ double twist(const glm::dmat4& m, const glm::dvec3& axis) {
 
 double wrapped(double degrees) { return degrees - 360 * std::floor((degrees + 180) / 360); }
 
-void ask_sky(Editor& e, std::optional<Environment> sky, const char* label, const char* gesture = "") {
+void ask_sky(PanelContext& e, std::optional<Environment> sky, const char* label, const char* gesture = "") {
     e.edit([sky = std::move(sky),
             label](const scene::Scene& s) { return Result<scene::Edit>(scene::set_environment(s, sky, label)); },
            gesture);
 }
 
 // Files at hand that may be one: assets, and what the scene has read. Bump maps and the like are left out.
-std::vector<std::string> known_skies(Editor& e) {
+std::vector<std::string> known_skies(PanelContext& e) {
     std::vector<std::string> known;
     const auto add = [&](const std::string& path) {
         if (!path.empty() && std::find(known.begin(), known.end(), path) == known.end()) known.push_back(path);
@@ -69,7 +72,7 @@ std::vector<std::string> known_skies(Editor& e) {
     return known;
 }
 
-void image_row(Editor& e, const Environment& sky) {
+void image_row(PanelContext& e, const Environment& sky) {
     const scene::Image* image = e.scene().images.find(sky.image);
     form_row("Image", image ? image->path.c_str() : "A panorama that shines from all around: HDR or EXR is best");
     if (ImGui::Button(image ? (image->name + "###image").c_str() : "Choose...###image", {ImGui::CalcItemWidth(), 0}))
@@ -124,15 +127,15 @@ void image_row(Editor& e, const Environment& sky) {
 
 } // namespace
 
-bool has_light(const Editor& e) { return document::has_light(e.scene(), e.registry()); }
+bool has_light(const PanelContext& e) { return document::has_light(e.scene(), e.registry()); }
 
-void light_with_studio(Editor& e) {
+void light_with_studio(PanelContext& e) {
     e.edit([&registry = e.registry()](const scene::Scene& s) {
         return Result<scene::Edit>(document::light_studio(s, registry));
     });
 }
 
-void use_as_sky(Editor& e, const std::string& file) {
+void use_as_sky(PanelContext& e, const std::string& file) {
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
     e.panel_state->loads.start({.path = path,
                                 .encoding = RESTAGE_SRGB,
@@ -147,7 +150,7 @@ void use_as_sky(Editor& e, const std::string& file) {
                                 }});
 }
 
-void sky_section(Editor& e) {
+void sky_section(PanelContext& e) {
     const bool open = section_header("Sky", true);
     e.mark("scene.sky");
     if (!open) return;
@@ -228,7 +231,7 @@ void sky_section(Editor& e) {
     ImGui::PopID();
 }
 
-void draw_scene_settings(Editor& e) {
+void draw_scene_settings(PanelContext& e) {
     sky_section(e);
     camera_section(e);
     film_section(e);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "recent.hpp"
+#include "files.hpp"
 
 #include "base/file.hpp"
 #include "base/json.hpp"
