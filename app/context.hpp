@@ -6,6 +6,7 @@
 #include "base/log.hpp"
 #include "base/result.hpp"
 #include "plugin/registry.hpp"
+#include "progress.hpp"
 
 #include <functional>
 #include <memory>
@@ -37,7 +38,8 @@ inline std::vector<plugin::SearchPath> search_paths(const std::vector<std::strin
 
 class Context {
   public:
-    using Run = std::function<Result<int>()>; // an ExitCode; an error is logged and becomes exit_failed
+    using Run =
+        std::function<Result<int>()>; // an ExitCode; an error is logged and becomes exit_failed, or the signal's
 
     Log log;
     bool quiet = false;
@@ -61,6 +63,10 @@ class Context {
     int run() {
         auto code = run_();
         if (code) return *code;
+        if (code.error().cancelled()) {
+            log.warning(code.error().message);
+            return interrupt_exit_code();
+        }
         log.error(code.error().message);
         return exit_failed;
     }

@@ -118,7 +118,9 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
                         }));
             return {};
         };
-        if (const auto cleaned = clean(); !cleaned) { // what was rendered is worth keeping all the same
+        const auto cleaned = clean();
+        if (!cleaned && cleaned.error().cancelled()) return say(LogLevel::info, "The final picture was given up");
+        if (!cleaned) { // what was rendered is worth keeping all the same
             log.error("the final picture is not denoised: " + cleaned.error().message);
             denoiser = "none";
         }

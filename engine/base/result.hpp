@@ -9,18 +9,29 @@
 
 namespace restage {
 
+enum class ErrorKind {
+    failed,
+    cancelled // somebody asked for it to be stopped: nothing to tell who did
+};
+
 struct Error {
     std::string message; // what, where (file:line:column), what to do about it; no final newline
+    ErrorKind kind = ErrorKind::failed;
+    bool cancelled() const { return kind == ErrorKind::cancelled; }
 };
 
 template <class T = void>
 using Result = tl::expected<T, Error>;
 
 inline tl::unexpected<Error> fail(std::string message) { return tl::unexpected<Error>(Error{std::move(message)}); }
+// What was done stopped on request: "scene.pbrt: stopped on request".
+inline tl::unexpected<Error> cancelled(std::string message) {
+    return tl::unexpected<Error>(Error{std::move(message), ErrorKind::cancelled});
+}
 
-// Puts where we were in front of what went wrong below.
+// Puts where we were in front of what went wrong below; its kind stays.
 inline tl::unexpected<Error> fail(const std::string& context, const Error& cause) {
-    return fail(context + ": " + cause.message);
+    return tl::unexpected<Error>(Error{context + ": " + cause.message, cause.kind});
 }
 
 } // namespace restage

@@ -176,7 +176,7 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
         if (progress && !progress(0.9f * done, line)) cancel = true;
     };
     RESTAGE_TRY(const ProcessOutcome outcome, run_process(child));
-    if (outcome.end == ProcessEnd::cancelled) return fail(path + ": stopped on request");
+    if (outcome.end == ProcessEnd::cancelled) return cancelled(path + ": stopped on request");
     if (!outcome.ok()) {
         if (outcome.end == ProcessEnd::exited && outcome.code == 1) { // it could say why
             const auto at = outcome.err.rfind("error: ");

@@ -28,7 +28,7 @@ void Session::take(Scene&& scene) {
     scene_.clock = now;
     each_table(scene_, [&](auto& table) { table.set_versions(now); });
     each_single([&](const auto& single) { (scene_.*single.one).version = now; });
-    history_ = {};
+    history_ = scene::History(history_.budget());
 }
 
 void Session::adopt(Scene scene, io::Report report, std::string path) {

@@ -11,6 +11,7 @@
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
+#include "scene/merge.hpp"
 
 #include <array>
 #include <optional>
@@ -35,6 +36,7 @@ class Session {
     const scene::Scene& scene() const { return scene_; }
     scene::Version version() const { return scene_.clock; } // grows with every change
     const scene::History& history() const { return history_; }
+    void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); } // scene::History
     const io::Report& report() const { return report_; } // of the import
     const std::string& path() const { return path_; } // of the file that was opened or saved; "" = none
     const DataSources& sources() const { return sources_; } // of geometry and pixels that other files hold

@@ -105,9 +105,7 @@ std::vector<const ShaderSource*> sources_of(const RayTracingRequest& request) {
     return sources;
 }
 
-tl::unexpected<Error> cancelled(const std::string& name) {
-    return fail("building pipeline " + name + " was cancelled");
-}
+std::string was_cancelled(const std::string& name) { return "building pipeline " + name + " was cancelled"; }
 
 } // namespace
 
@@ -155,15 +153,15 @@ struct PipelineBuilder::Impl {
         const CrashNote note(request.blame);
         std::vector<Spirv> shaders;
         for (const ShaderSource* source : sources_of(request)) {
-            if (request.stop.stop_requested()) return cancelled(request.name);
+            if (request.stop.stop_requested()) return cancelled(was_cancelled(request.name));
             RESTAGE_TRY(Spirv spirv, compiler.compile(*source));
             shaders.push_back(std::move(spirv));
         }
         const bool cpu = device.info().type == DeviceType::cpu;
         const std::uint64_t id = identity(shaders, constants_of(request), device.info());
-        if (request.stop.stop_requested()) return cancelled(request.name);
+        if (request.stop.stop_requested()) return cancelled(was_cancelled(request.name));
         if (cpu && stalls == Stalls::avoid && !marks.has(id)) warm(request, shaders);
-        if (request.stop.stop_requested()) return cancelled(request.name);
+        if (request.stop.stop_requested()) return cancelled(was_cancelled(request.name));
         RESTAGE_TRY(Pipeline pipeline, create(device, request, shaders));
         if (cpu) {
             RESTAGE_CHECK(run_nothing(device, pipeline));
@@ -181,7 +179,8 @@ struct PipelineBuilder::Impl {
         {
             std::lock_guard lock(mutex);
             jobs.push_back([this, promise, kept](bool stop) {
-                promise->set_value(stop ? Result<Pipeline>(cancelled(kept->name)) : make<Pipeline>(*kept));
+                promise->set_value(stop ? Result<Pipeline>(cancelled(was_cancelled(kept->name)))
+                                        : make<Pipeline>(*kept));
             });
         }
         wake.notify_one();

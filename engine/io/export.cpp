@@ -124,7 +124,7 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     const bool saved =
         exporter->save(path.c_str(), &reader.table(), values.data(), static_cast<std::uint32_t>(values.size())) != 0;
     note.reset();
-    if (reader.cancelled()) return fail(path + ": stopped on request");
+    if (reader.cancelled()) return cancelled(path + ": stopped on request");
     if (!reader.error().empty()) return fail(reader.error());
     if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" gave up and did not say why");
     return std::move(reader.report);

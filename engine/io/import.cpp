@@ -68,7 +68,7 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     const bool loaded = importer->load(path.c_str(), &writer.table()) != 0;
     note.reset();
     writer.drop_decoded();
-    if (writer.cancelled()) return fail(path + ": stopped on request");
+    if (writer.cancelled()) return cancelled(path + ": stopped on request");
     if (!writer.error().empty()) return fail(writer.error());
     if (!loaded) return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");
     std::optional<Jobs> own;
@@ -76,17 +76,6 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     if (auto finished = writer.finish(jobs, options.read_images); !finished) return fail(path, finished.error());
     if (writer.scene.format.empty()) writer.scene.format = importer->format;
     return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format, writer.unexposed};
-}
-
-Result<ImportedObjects> import_into(const scene::Scene& scene, const std::string& path,
-                                    const plugin::Registry& registry, const ImportOptions& options) {
-    RESTAGE_TRY(ImportedScene imported, import_scene(path, registry, options));
-    ImportedObjects result{scene::merge(scene, imported.scene, fs::path(path).stem().string()), {}, imported.importer};
-    if (result.merged.instances.empty()) return fail(path + ": holds no objects");
-    for (ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
-        if (entry.fate != RESTAGE_KEPT || (entry.what != "camera" && entry.what != "environment"))
-            result.report.entries.push_back(std::move(entry));
-    return result;
 }
 
 } // namespace restage::io

@@ -7,7 +7,6 @@
 #include "base/result.hpp"
 #include "io/report.hpp"
 #include "plugin/registry.hpp"
-#include "scene/merge.hpp"
 #include "scene/scene.hpp"
 
 #include <string>
@@ -29,14 +28,5 @@ struct ImportedScene {
 };
 
 Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry&, const ImportOptions& = {});
-
-// The objects of a file as an edit of an open scene: scene::merge says what comes and what does not.
-struct ImportedObjects {
-    scene::Merged merged;
-    Report report;
-    std::string importer;
-};
-Result<ImportedObjects> import_into(const scene::Scene&, const std::string& path, const plugin::Registry&,
-                                    const ImportOptions& = {});
 
 } // namespace restage::io

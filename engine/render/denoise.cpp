@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/denoise.hpp"
 
+#include <atomic>
+#include <utility>
+
 namespace restage::render {
 
 Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry& registry, const std::string& name) {
@@ -51,13 +54,21 @@ Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::Den
     job.output = &output[0].x;
     job.quality = quality;
     job.threads = threads;
-    if (keep_going) {
-        job.progress_ctx = &keep_going;
+    struct Progress {
+        std::function<bool(double)> keep_going;
+        std::atomic<bool> stopped{false}; // a denoiser may ask from any thread
+    } progress{std::move(keep_going)};
+    if (progress.keep_going) {
+        job.progress_ctx = &progress;
         job.progress = [](void* ctx, double done) {
-            return (*static_cast<std::function<bool(double)>*>(ctx))(done) ? 1 : 0;
+            auto& p = *static_cast<Progress*>(ctx);
+            if (!p.keep_going(done)) p.stopped = true;
+            return p.stopped ? 0 : 1;
         };
     }
-    if (!denoiser.run(&job, &reason)) return fail(std::string(denoiser.type) + ": " + (reason ? reason : "failed"));
+    const bool ran = denoiser.run(&job, &reason) != 0;
+    if (!ran && progress.stopped) return cancelled(std::string(denoiser.type) + ": stopped on request");
+    if (!ran) return fail(std::string(denoiser.type) + ": " + (reason ? reason : "failed"));
     return output;
 }
 

@@ -17,7 +17,8 @@ Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry&, const std
 // For the file: "oidn high".
 std::string denoiser_label(const plugin::DenoiserEntry&, RestageDenoiseQuality);
 
-// Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: an error then.
+// Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: the error is a
+// cancelled one.
 Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& denoiser,
                                        RestageDenoiseQuality quality, unsigned threads = 0,
                                        std::function<bool(double done)> keep_going = {});

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // History: the edits of a document in order, and where in them the scene stands. A gesture (a drag, a slider) is one
-// entry: pushes with the same key are merged until the gesture ends.
+// entry: pushes with the same key are merged until the gesture ends. What it may hold is bounded: beyond a budget of
+// bytes the oldest edits are dropped, and what they changed can no longer be undone.
 #pragma once
 
 #include "scene/edit.hpp"
 
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +18,10 @@ namespace restage::scene {
 
 class History {
   public:
+    static constexpr std::size_t default_budget = std::size_t{512} << 20; // [bytes]
+    History() = default;
+    explicit History(std::size_t budget) : budget_(budget) {}
+
     // Applies the edit and records it; what could be redone is gone. An edit that changes nothing is not recorded.
     // `gesture`: not empty = merge with the entry of the same running gesture. True when the scene changed.
     bool push(Scene&, Edit edit, std::string_view gesture = {});
@@ -25,11 +33,17 @@ class History {
     bool undo(Scene&); // false = nothing to undo
     bool redo(Scene&);
 
-    std::size_t size() const { return edits_.size(); }
+    std::size_t size() const { return entries_.size(); }
     std::size_t position() const { return position_; } // so many edits are applied
-    const std::string& label(std::size_t i) const { return edits_[i].label; }
+    const std::string& label(std::size_t i) const { return entries_[i].edit.label; }
     std::string_view undo_label() const { return position_ ? std::string_view(label(position_ - 1)) : ""; }
     std::string_view redo_label() const { return position_ < size() ? std::string_view(label(position_)) : ""; }
+
+    // An estimate [bytes]: things before and after, and geometry and pixels that nobody but the history holds any more.
+    std::size_t bytes() const;
+    std::size_t budget() const { return budget_; }
+    void set_budget(std::size_t bytes); // the newest applied edit stays, however large it is
+    std::size_t dropped() const { return dropped_; } // so many edits, for the budget's sake
 
     void mark_clean(); // the scene as it is now is what the file holds
     std::optional<std::size_t> clean_position() const { return clean_; } // of the saved state, while it can be reached
@@ -37,12 +51,28 @@ class History {
     bool clean() const { return clean_ && *clean_ == position_; }
 
   private:
-    std::vector<Edit> edits_;
+    struct Shared { // mesh or pixel data
+        std::weak_ptr<const void> data;
+        std::size_t bytes = 0;
+        long holders = 0; // in the entries
+    };
+    struct Entry {
+        Edit edit;
+        std::size_t bytes = 0; // without what is shared
+    };
+    Entry hold(Edit);
+    void count_shared(const Edit&, int sign);
+    void forget(std::vector<Entry>::iterator first, std::vector<Entry>::iterator last); // in entries_
+    void hold_to_budget();
+
+    std::vector<Entry> entries_;
     std::size_t position_ = 0;
     std::optional<std::size_t> clean_ = 0; // position of the saved state; none = it cannot be reached any more
-    std::string gesture_; // key of the running gesture; its entry is edits_[position_ - 1]
-    std::vector<Edit> redo_before_; // what could be redone when the running gesture began
+    std::string gesture_; // key of the running gesture; its entry is entries_[position_ - 1]
+    std::vector<Entry> redo_before_; // what could be redone when the running gesture began
     std::optional<std::size_t> clean_before_; // the same of clean_
+    std::map<const void*, Shared> shared_;
+    std::size_t budget_ = default_budget, own_bytes_ = 0, dropped_ = 0; // own_bytes_: of all entries, and redo_before_
 };
 
 } // namespace restage::scene

@@ -73,17 +73,15 @@ void ViewDenoiser::run() {
             queue_.pop_front();
         }
         if (!able) continue;
-        bool given_up = false;
         const auto keep_going = [&](double) {
             {
                 const std::lock_guard lock(mutex_);
-                given_up = stop_;
+                if (stop_) return false;
             }
-            given_up = given_up || !host_.wanted(*source);
-            return !given_up;
+            return host_.wanted(*source);
         };
         auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
-        if (!color && given_up) continue;
+        if (!color && color.error().cancelled()) continue;
         host_.says(color ? "" : color.error().message); // where it failed, pictures are shown as they are
         if (!color) continue;
         auto frame = std::make_shared<Frame>(*source);

@@ -32,8 +32,14 @@ struct Failure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// restage.Cancelled, a restage.Error: a callback asked for it.
+struct Stopped : Failure {
+    using Failure::Failure;
+};
+
 template <class T>
 T take(Result<T> result) {
+    if (!result && result.error().cancelled()) throw Stopped(result.error().message);
     if (!result) throw Failure(result.error().message);
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }

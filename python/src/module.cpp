@@ -7,8 +7,10 @@
 NB_MODULE(_core, m) {
     using namespace restage::python;
     m.doc() = "Restage's engine for Python; import restage instead.";
-    nb::exception<Failure>(m, "Error", PyExc_RuntimeError).doc() =
-        "What could not be done, as one sentence: what, where (file:line:column), what to do about it.";
+    nb::exception<Failure> error(m, "Error", PyExc_RuntimeError);
+    error.doc() = "What could not be done, as one sentence: what, where (file:line:column), what to do about it.";
+    nb::exception<Stopped>(m, "Cancelled", error).doc() =
+        "A callback returned False: what it was asked by is not done.";
     m.def("version", &restage::version, "Of Restage. For the package itself, whose __version__ it is.");
     m.def("set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
     m.def("home", &Host::home, "Where they are.");

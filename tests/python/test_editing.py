@@ -317,7 +317,8 @@ def test_progress_of_opening_can_stop_it(scenes):
         return False
     try:
         restage.open(scenes / "demo/demo.pbrt", progress=stop).close()
-    except restage.Error:
+    except restage.Cancelled as stopped:
+        assert isinstance(stopped, restage.Error) and "stopped on request" in str(stopped)
         assert calls  # a machine that reads the scene in 50 ms never asks
 
 

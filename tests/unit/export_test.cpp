@@ -269,6 +269,7 @@ TEST_CASE("an export that fails leaves what was there", "[export]") {
     stopped.progress = [](float done, std::string_view) { return done < 0.5f; };
     const auto result = io::export_scene(made.scene, folder.file("s.pbrt"), plugins.registry, stopped);
     REQUIRE_FALSE(result);
+    CHECK(result.error().cancelled());
     CHECK_THAT(result.error().message, ContainsSubstring("stopped on request"));
     CHECK(folder.contents() == before);
     Everything broken(true);

@@ -138,7 +138,9 @@ TEST_CASE("a file nobody knows is refused with what is known", "[io]") {
     const auto stopped = import_scene(test.file("c.test", "TEST"), test.registry,
                                       {.progress = [](float, std::string_view) { return false; }});
     REQUIRE_FALSE(stopped);
+    CHECK(stopped.error().cancelled());
     CHECK_THAT(stopped.error().message, ContainsSubstring("stopped on request"));
+    CHECK_FALSE(unknown.error().cancelled());
 }
 
 TEST_CASE("what an importer pushes arrives as it is", "[io]") {

@@ -186,3 +186,97 @@ TEST_CASE("clean means: as the file holds it", "[scene]") {
     history.undo(r.scene);
     CHECK_FALSE(history.clean());
 }
+
+TEST_CASE("the history holds to its budget of bytes", "[scene]") {
+    Room r;
+    History history;
+    const auto change = [&](std::uint32_t width) {
+        return history.push(r.scene, set_film(r.scene, Film{.width = width, .height = 8}));
+    };
+    REQUIRE(change(1));
+    const std::size_t one = history.bytes(); // all edits of a film are alike
+    REQUIRE(one > 0);
+    history.set_budget(3 * one);
+    history.mark_clean(); // at 1
+    REQUIRE((change(2) && change(3)));
+    CHECK(history.dropped() == 0);
+    CHECK(history.size() == 3);
+    CHECK(history.clean_position() == 1);
+
+    REQUIRE(change(4)); // the edit to 1 goes; the saved state is the oldest that can be reached
+    CHECK(history.dropped() == 1);
+    CHECK((history.size() == 3 && history.position() == 3));
+    CHECK(history.bytes() <= history.budget());
+    CHECK(history.clean_position() == 0);
+    while (history.undo(r.scene)) {
+    }
+    CHECK(r.scene.film.value.width == 1);
+    CHECK(history.clean());
+    while (history.redo(r.scene)) {
+    }
+    CHECK(r.scene.film.value.width == 4);
+
+    REQUIRE(change(5)); // the saved state goes as well
+    CHECK(history.dropped() == 2);
+    CHECK_FALSE(history.clean_position());
+    while (history.undo(r.scene)) {
+    }
+    CHECK(r.scene.film.value.width == 2);
+    CHECK_FALSE(history.clean());
+
+    REQUIRE(change(6)); // what could be redone is no longer held
+    CHECK(history.bytes() == one);
+    history.set_budget(1); // the newest edit stays, however large
+    CHECK(history.size() == 1);
+    REQUIRE(change(7));
+    CHECK((history.size() == 1 && history.position() == 1));
+    REQUIRE(history.undo(r.scene));
+    CHECK(r.scene.film.value.width == 6);
+    REQUIRE(history.redo(r.scene));
+    CHECK(r.scene.film.value.width == 7);
+    CHECK(history.bytes() == one);
+}
+
+TEST_CASE("geometry counts once, and only while nobody but the history holds it", "[scene]") {
+    Room r;
+    History history;
+    auto data = test::triangle();
+    data->positions.resize(100'000, glm::vec3(0));
+    const std::size_t heavy = data->positions.size() * sizeof(glm::vec3);
+    std::shared_ptr<const MeshData> held = std::move(data);
+    REQUIRE(history.push(r.scene, insert(r.scene, Mesh{.name = "rock", .data = held}, "Add rock")));
+    const Id<Mesh> rock = find_by_name<Mesh>(r.scene, "rock");
+    CHECK(history.bytes() < heavy); // the scene has it
+    REQUIRE(history.push(r.scene, *remove(r.scene, rock)));
+    CHECK(history.bytes() < heavy); // the test has it
+    held.reset();
+    CHECK(history.bytes() > heavy);
+    CHECK(history.bytes() < 2 * heavy);
+    REQUIRE(history.undo(r.scene));
+    CHECK(history.bytes() < heavy);
+    REQUIRE(history.redo(r.scene));
+    history.set_budget(heavy); // not even the edit that removed it goes: it is the newest
+    CHECK((history.size() == 1 && history.dropped() == 1));
+    CHECK(history.bytes() > heavy);
+}
+
+TEST_CASE("a drag beyond the budget is still one edit that can be cancelled", "[scene]") {
+    Room r;
+    History history;
+    const auto change = [&](std::uint32_t width, std::string_view gesture) {
+        return history.push(r.scene, set_film(r.scene, Film{.width = width, .height = 8}), gesture);
+    };
+    REQUIRE((change(1, {}) && change(2, {})));
+    history.mark_clean();
+    REQUIRE(history.undo(r.scene));
+    history.set_budget(1);
+    REQUIRE((change(3, "drag") && change(4, "drag")));
+    CHECK((history.size() == 1 && history.dropped() == 1));
+    CHECK_FALSE(history.clean());
+    REQUIRE(history.cancel_gesture(r.scene)); // what could be redone, and is what the file holds, comes back
+    CHECK(r.scene.film.value.width == 1);
+    CHECK((history.size() == 1 && history.position() == 0));
+    REQUIRE(history.redo(r.scene));
+    CHECK(r.scene.film.value.width == 2);
+    CHECK(history.clean());
+}
