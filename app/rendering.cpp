@@ -121,8 +121,8 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     for (const io::ReportEntry& entry : imported.report.entries) // what was done so that anything is seen
         if (entry.what == "exposure" || (entry.what == "light" && !entry.note.starts_with(document::no_light)))
             context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));
-    const auto approximated = imported.report.count(RESTAGE_APPROXIMATED),
-               dropped = imported.report.count(RESTAGE_DROPPED);
+    const auto approximated = imported.report.count(io::Fate::approximated),
+               dropped = imported.report.count(io::Fate::dropped);
     if (approximated + dropped > 0)
         context.log.warning(
             fmt::format("{}: {} approximated, {} dropped; `restage info` lists them", path, approximated, dropped));
@@ -245,9 +245,9 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
 
 Result<void> denoise_picture(Context& context, const RenderOptions& o, Picture& picture) {
     if (o.denoise.empty() && o.denoiser.empty()) return {};
-    const auto quality = o.denoise == "fast"       ? RESTAGE_DENOISE_FAST
-                         : o.denoise == "balanced" ? RESTAGE_DENOISE_BALANCED
-                                                   : RESTAGE_DENOISE_HIGH;
+    const auto quality = o.denoise == "fast"       ? plugin::DenoiseQuality::fast
+                         : o.denoise == "balanced" ? plugin::DenoiseQuality::balanced
+                                                   : plugin::DenoiseQuality::high;
     RESTAGE_TRY(const auto chosen, render::choose_denoiser(context.registry(), o.denoiser));
     ProgressBar bar(context.quiet);
     RESTAGE_TRY(picture.denoised, render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {

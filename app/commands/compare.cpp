@@ -37,7 +37,7 @@ struct Options {
 
 Result<scene::PixelData> load(const std::string& path, Log& log) {
     std::string warning;
-    auto image = io::read_image(path, RESTAGE_SRGB, 2.2f, &warning);
+    auto image = io::read_image(path, scene::Encoding::srgb, 2.2f, &warning);
     if (!warning.empty()) log.warning(warning);
     return image;
 }

@@ -47,7 +47,7 @@ Result<int> convert_picture(Context& context, const Options& o) {
     if (!is_picture(o.output)) return fail(o.output + ": a picture is written as .exr, .png, .jpg, .pfm or .hdr");
     RESTAGE_CHECK(check_picture_path(o.output));
     std::string warning;
-    RESTAGE_TRY(scene::PixelData image, io::read_image(o.input, RESTAGE_SRGB, 2.2f, &warning));
+    RESTAGE_TRY(scene::PixelData image, io::read_image(o.input, scene::Encoding::srgb, 2.2f, &warning));
     if (!warning.empty()) context.log.warning(warning);
     for (std::size_t i = 0; i < image.values.size(); ++i)
         if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is no light
@@ -74,8 +74,8 @@ Result<int> run(Context& context, const Options& o) {
     RESTAGE_TRY(const auto report, o.strict ? io::convert_strictly(imported, o.output, context.registry(), options)
                                             : io::export_scene(imported.scene, o.output, context.registry(), options));
     for (const auto& entry : report.entries)
-        if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
-    const auto approximated = report.count(RESTAGE_APPROXIMATED), dropped = report.count(RESTAGE_DROPPED);
+        if (entry.fate != io::Fate::kept) context.log.warning(io::to_string(entry));
+    const auto approximated = report.count(io::Fate::approximated), dropped = report.count(io::Fate::dropped);
     if (approximated + dropped > 0)
         context.log.warning(fmt::format("{}: written; {} approximated, {} dropped", o.output, approximated, dropped));
     else

@@ -138,7 +138,7 @@ Result<int> run(Context& context, Options& o) {
     const auto file = (folder / "edited.pbrt").string();
     RESTAGE_TRY(const auto report, session.export_to(file));
     for (const auto& entry : report.entries)
-        if (entry.fate != RESTAGE_KEPT) context.log.warning(io::to_string(entry));
+        if (entry.fate != io::Fate::kept) context.log.warning(io::to_string(entry));
     RESTAGE_TRY(const auto again, io::import_scene(file, context.registry()));
     const auto differences = io::structural_differences(session.scene(), again.scene, context.registry());
     std::printf("exported  %s (pbrt-v4; read back: %s)\n", file.c_str(),

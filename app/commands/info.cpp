@@ -46,7 +46,9 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
         {"distant", 0},
         {"environment", s.environment.value ? (s.environment.value->image ? "image" : "constant") : "none"}};
     s.lights.each([&](auto, const scene::Light& l) {
-        auto& n = lights[l.kind == RESTAGE_LIGHT_POINT ? "point" : l.kind == RESTAGE_LIGHT_SPOT ? "spot" : "distant"];
+        auto& n = lights[l.kind == scene::LightKind::point  ? "point"
+                         : l.kind == scene::LightKind::spot ? "spot"
+                                                            : "distant"];
         n = n.get<int>() + 1;
     });
     nlohmann::json cameras = nlohmann::json::array();
@@ -83,9 +85,9 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"missing", placeholders},
             {"report", report},
             {"report_counts",
-             {{"kept", imported.report.count(RESTAGE_KEPT)},
-              {"approximated", imported.report.count(RESTAGE_APPROXIMATED)},
-              {"dropped", imported.report.count(RESTAGE_DROPPED)}}}};
+             {{"kept", imported.report.count(io::Fate::kept)},
+              {"approximated", imported.report.count(io::Fate::approximated)},
+              {"dropped", imported.report.count(io::Fate::dropped)}}}};
 }
 
 void print(const nlohmann::json& d, const io::Report& report, bool all) {
@@ -121,10 +123,10 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
     for (const auto& m : d["missing"])
         std::printf("missing     %s %s: %s\n", m["kind"].get<std::string>().c_str(),
                     m["name"].get<std::string>().c_str(), m["file"].get<std::string>().c_str());
-    std::printf("import      %zu kept, %zu approximated, %zu dropped\n", report.count(RESTAGE_KEPT),
-                report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
+    std::printf("import      %zu kept, %zu approximated, %zu dropped\n", report.count(io::Fate::kept),
+                report.count(io::Fate::approximated), report.count(io::Fate::dropped));
     for (const auto& e : report.entries)
-        if (all || e.fate != RESTAGE_KEPT) std::printf("  %s\n", io::to_string(e).c_str());
+        if (all || e.fate != io::Fate::kept) std::printf("  %s\n", io::to_string(e).c_str());
 }
 
 } // namespace

@@ -76,18 +76,16 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
         return fail("material \"" + material->name + "\": there is no plugin \"" + material->type +
                     "\" that could say where an image goes");
     // The base colour comes first in every table.
-    const RestageParam* begin = plugin->table->params;
-    const RestageParam* end = begin + plugin->table->param_count;
-    const RestageParam* slot = std::find_if(begin, end, [](const RestageParam& p) {
-        return p.type == RESTAGE_COLOR && (p.flags & RESTAGE_PARAM_TEXTURABLE);
-    });
-    if (slot == end)
+    const auto& lines = plugin->table->params;
+    const auto slot = std::ranges::find_if(
+        lines, [](const model::Param& p) { return p.type == model::ParamType::color && p.texturable; });
+    if (slot == lines.end())
         return fail(fmt::format("material \"{}\": a {} has no colour an image could stand for", material->name,
                                 material->type));
-    RESTAGE_TRY(scene::Edit edit, scene::set_image_texture(s, id, slot->id, RESTAGE_COLOR, false,
+    RESTAGE_TRY(scene::Edit edit, scene::set_image_texture(s, id, slot->id, model::ParamType::color, false,
                                                            scene::Image{.name = path.stem().string(),
                                                                         .path = path.string(),
-                                                                        .encoding = RESTAGE_SRGB,
+                                                                        .encoding = scene::Encoding::srgb,
                                                                         .data = pixels}));
     edit.label = fmt::format("Texture {} on {}", path.stem().string(), material->name);
     return edit;
@@ -104,16 +102,14 @@ bool takes_table(const PanelContext& e, const std::string& extension, InstanceId
 void drop_table(PanelContext& e, const fs::path& path, InstanceId on) {
     ask_scope(e, {on}, path.filename().string(), [path](PanelContext& editor, const MaterialScope& scope) {
         editor.edit([scope, file = path.string(), &registry = editor.registry()](const scene::Scene& s) {
-            return edit_in_scope(s, scope,
-                                 [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
-                                     const auto plugin = registry.find_material(now.materials[id].type);
-                                     if (!plugin) return fail("the material's plugin is not there any more");
-                                     const RestageParam* begin = plugin->table->params;
-                                     const RestageParam* line =
-                                         std::find_if(begin, begin + plugin->table->param_count,
-                                                      [](const RestageParam& p) { return p.type == RESTAGE_TABLE; });
-                                     return scene::set_param(now, id, line->id, scene::Value::table(file));
-                                 });
+            return edit_in_scope(
+                s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
+                    const auto plugin = registry.find_material(now.materials[id].type);
+                    if (!plugin) return fail("the material's plugin is not there any more");
+                    const auto line =
+                        std::ranges::find(plugin->table->params, model::ParamType::table, &model::Param::type);
+                    return scene::set_param(now, id, line->id, scene::Value::table(file));
+                });
         });
     });
 }
@@ -123,7 +119,7 @@ void with_image(PanelContext& e, const fs::path& path,
                 std::function<void(PanelContext&, std::shared_ptr<const scene::PixelData>)> with) {
     e.files().jobs.start({.title = "Reading " + path.filename().string()},
                          [path, with = std::move(with)](BackgroundJob&) -> std::function<void(PanelContext&)> {
-                             auto pixels = io::read_image(path.string(), RESTAGE_SRGB);
+                             auto pixels = io::read_image(path.string(), scene::Encoding::srgb);
                              if (!pixels)
                                  return [message = pixels.error().message](PanelContext& editor) {
                                      editor.notices.add(LogLevel::error, message);
@@ -273,7 +269,7 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
         return;
     }
     selection.set(made->instances);
-    const auto dropped = imported.report.count(RESTAGE_DROPPED);
+    const auto dropped = imported.report.count(io::Fate::dropped);
     notices.add(LogLevel::info,
                 fmt::format("{}: {} objects inserted{}", request.path.filename().string(), made->instances.size(),
                             dropped ? fmt::format(", {} things dropped: see Import report", dropped) : ""));

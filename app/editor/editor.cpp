@@ -163,8 +163,8 @@ void Editor::follow_opening() {
         files_->recent.add_file(request.path);
     }
     document_changed();
-    const auto approximated = session_->report().count(RESTAGE_APPROXIMATED),
-               dropped = session_->report().count(RESTAGE_DROPPED);
+    const auto approximated = session_->report().count(io::Fate::approximated),
+               dropped = session_->report().count(io::Fate::dropped);
     notices.add(LogLevel::info, fmt::format("{}: {} objects", title_name(*session_), scene().instances.live()));
     if (approximated + dropped > 0)
         notices.add(LogLevel::warning,

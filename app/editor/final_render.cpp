@@ -111,11 +111,12 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
         job.report(traced, "denoising");
         const auto clean = [&]() -> Result<void> {
             RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, wish.denoiser));
-            denoiser = render::denoiser_label(chosen, RESTAGE_DENOISE_HIGH);
-            RESTAGE_TRY(picture.denoised,
-                        render::denoise(picture.film, chosen, RESTAGE_DENOISE_HIGH, options.threads, [&](double done) {
-                            return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
-                        }));
+            denoiser = render::denoiser_label(chosen, plugin::DenoiseQuality::high);
+            RESTAGE_TRY(
+                picture.denoised,
+                render::denoise(picture.film, chosen, plugin::DenoiseQuality::high, options.threads, [&](double done) {
+                    return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
+                }));
             return {};
         };
         const auto cleaned = clean();

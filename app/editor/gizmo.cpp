@@ -75,7 +75,7 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
     const glm::dvec4 window = scene::film_window(camera, e.film_aspect());
     const double reach = glm::length(glm::dvec3(to_world[3])) + 1e-6;
     const double near = reach * 1e-3, far = reach * 1e3;
-    const bool parallel = camera.projection == RESTAGE_ORTHOGRAPHIC;
+    const bool parallel = camera.projection == scene::Projection::orthographic;
     const glm::mat4 projection(
         parallel ? glm::orthoRH_NO(window.x, window.y, window.z, window.w, near, far)
                  : glm::frustumRH_NO(window.x * near, window.y * near, window.z * near, window.w * near, near, far));

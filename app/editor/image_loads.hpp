@@ -25,7 +25,7 @@ class ImageLoads {
 
     struct Job {
         std::string path;
-        RestageEncoding encoding = RESTAGE_SRGB;
+        scene::Encoding encoding = scene::Encoding::srgb;
         float gamma = 2.2f;
         std::uint32_t thumbnail = 0; // longer side [pixel]; 0 = all of it
         std::function<void(Result<std::shared_ptr<const scene::PixelData>>)> done; // [main]

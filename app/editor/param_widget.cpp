@@ -24,10 +24,8 @@ namespace {
 
 constexpr float slider_span = 20; // the largest range a slider is of use for; beyond it a drag is better
 
-bool number(const RestageParam& line, float& v) {
-    const std::string unit = line.unit == std::string_view("deg") ? "°"
-                             : *line.unit                         ? std::string(" ") + line.unit
-                                                                  : "";
+bool number(const model::Param& line, float& v) {
+    const std::string unit = line.unit == "deg" ? "°" : line.unit.empty() ? "" : " " + line.unit;
     const std::string format = "%.4g" + unit;
     if (line.max - line.min <= slider_span)
         return ImGui::SliderFloat("##value", &v, line.min, line.max, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
@@ -35,32 +33,30 @@ bool number(const RestageParam& line, float& v) {
                             ImGuiSliderFlags_AlwaysClamp);
 }
 
-std::string default_text(const RestageParam& line) {
+std::string default_text(const model::Param& line) {
     const scene::Value v = scene::default_value(line);
     switch (v.type) {
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             return fmt::format("{:.3g}, {:.3g}, {:.3g}", v.v[0], v.v[1], v.v[2]);
-        case RESTAGE_BOOL:
-            return v.v[0] != 0 ? "on" : "off";
-        case RESTAGE_ENUM:
+        case model::ParamType::boolean:
+            return v.i != 0 ? "on" : "off";
+        case model::ParamType::choice:
             return v.text;
-        case RESTAGE_FLOAT:
-        case RESTAGE_INT:
+        case model::ParamType::number:
             return fmt::format("{:.4g}", v.v[0]);
-        case RESTAGE_TABLE:
+        case model::ParamType::integer:
+            return fmt::format("{}", v.i);
+        case model::ParamType::table:
             return v.text.empty() ? "none" : std::filesystem::path(v.text).filename().string();
         default:
             return "none";
     }
 }
 
-bool enum_combo(const RestageParam& line, scene::Value& v) {
+bool enum_combo(const model::Param& line, scene::Value& v) {
     bool changed = false;
     if (!ImGui::BeginCombo("##value", choice_label(v.text).c_str())) return false;
-    std::string_view rest = line.choices;
-    while (!rest.empty()) {
-        const std::string choice(rest.substr(0, rest.find('|')));
-        rest.remove_prefix(std::min(rest.size(), choice.size() + 1));
+    for (const std::string& choice : line.choices) {
         if (ImGui::Selectable(choice_label(choice).c_str(), choice == v.text)) {
             changed = v.text != choice;
             v.text = choice;
@@ -130,7 +126,7 @@ std::optional<std::string> dropped_path() {
 }
 
 // The name of a table's file, which is dropped on or chosen. Beneath it, what is wrong with it.
-bool table_field(PanelContext& e, const RestageParam& line, scene::Value& v, const plugin::TableReader* reader,
+bool table_field(PanelContext& e, const model::Param& line, scene::Value& v, const plugin::TableReader* reader,
                  const std::string& mark) {
     const std::filesystem::path path(v.text);
     const std::string problem = reader ? reader->problem(line.id, v.text) : "";
@@ -141,8 +137,7 @@ bool table_field(PanelContext& e, const RestageParam& line, scene::Value& v, con
     if (!problem.empty()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertFloat4ToU32(colors::error));
     ImGui::InputText("##value", &shown, ImGuiInputTextFlags_ReadOnly);
     if (!problem.empty()) ImGui::PopStyleColor();
-    tip(((line.tooltip ? line.tooltip + std::string("\n") : "") + (v.text.empty() ? "No file is chosen" : v.text))
-            .c_str());
+    tip((line.tooltip + (line.tooltip.empty() ? "" : "\n") + (v.text.empty() ? "No file is chosen" : v.text)).c_str());
     e.mark(mark + ".file");
     std::optional<std::string> chosen = dropped_path();
     ImGui::SameLine(0, gap);
@@ -203,17 +198,17 @@ bool color_field(const char* id, float* linear, bool hdr) {
     return true;
 }
 
-ParamAsk param_widget(PanelContext& e, const RestageParam& line, const scene::Value& value, bool is_set,
+ParamAsk param_widget(PanelContext& e, const model::Param& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader) {
     ParamAsk ask;
     scene::Value v = value;
     const bool textured = e.scene().textures.find(value.texture) != nullptr;
-    const bool slot = line.type == RESTAGE_TEXTURE || (line.flags & RESTAGE_PARAM_TEXTURABLE);
-    ImGui::PushID(line.id);
+    const bool slot = line.type == model::ParamType::texture || line.texturable;
+    ImGui::PushID(line.id.c_str());
     const float square = ImGui::GetFrameHeight();
-    form_row(line.label, line.tooltip, slot && line.type != RESTAGE_TEXTURE ? square : 0);
+    form_row(line.label.c_str(), line.tooltip.c_str(), slot && line.type != model::ParamType::texture ? square : 0);
     bool changed = false;
-    if (textured || line.type == RESTAGE_TEXTURE) {
+    if (textured || line.type == model::ParamType::texture) {
         const scene::Texture* texture = e.scene().textures.find(value.texture);
         const std::string name = texture ? texture->name : "None";
         if (ImGui::Button((name + "###value").c_str(), {ImGui::CalcItemWidth(), 0})) ImGui::OpenPopup("texture");
@@ -221,42 +216,39 @@ ParamAsk param_widget(PanelContext& e, const RestageParam& line, const scene::Va
                     : "Click to choose a texture; or drop an image here");
         accept_image(ask);
     } else {
-        switch (static_cast<RestageType>(line.type)) {
-            case RESTAGE_FLOAT:
+        switch (line.type) {
+            case model::ParamType::number:
                 changed = number(line, v.v[0]);
                 break;
-            case RESTAGE_COLOR:
+            case model::ParamType::color:
                 changed = color_field("##value", v.v.data(), line.max > 1);
                 break;
-            case RESTAGE_INT: {
-                int i = int(v.v[0]);
+            case model::ParamType::integer:
                 changed =
-                    ImGui::SliderInt("##value", &i, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
-                v.v[0] = float(i);
+                    ImGui::SliderInt("##value", &v.i, line.int_min, line.int_max, "%d", ImGuiSliderFlags_AlwaysClamp);
                 break;
-            }
-            case RESTAGE_BOOL: {
-                bool on = v.v[0] != 0;
+            case model::ParamType::boolean: {
+                bool on = v.i != 0;
                 changed = ImGui::Checkbox("##value", &on);
-                v.v[0] = on ? 1.f : 0.f;
+                v.i = on;
                 break;
             }
-            case RESTAGE_ENUM:
+            case model::ParamType::choice:
                 changed = enum_combo(line, v);
                 break;
-            case RESTAGE_TEXT:
+            case model::ParamType::text:
                 changed = ImGui::InputText("##value", &v.text);
                 break;
-            case RESTAGE_MATERIAL:
+            case model::ParamType::material:
                 changed = material_combo(e, v, mark);
                 break;
-            case RESTAGE_TABLE:
+            case model::ParamType::table:
                 changed = table_field(e, line, v, reader, mark);
                 break;
-            case RESTAGE_TEXTURE:
+            case model::ParamType::texture:
                 break;
         }
-        if (line.type != RESTAGE_TABLE) tip(line.tooltip);
+        if (line.type != model::ParamType::table) tip(line.tooltip.c_str());
     }
     e.mark(mark);
     if (ImGui::BeginPopupContextItem("param")) {
@@ -266,7 +258,7 @@ ParamAsk param_widget(PanelContext& e, const RestageParam& line, const scene::Va
         e.mark(mark + ".reset");
         ImGui::EndPopup();
     }
-    if (slot && line.type != RESTAGE_TEXTURE) {
+    if (slot && line.type != model::ParamType::texture) {
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
         if (icon_button("slot", Icon::texture, textured, "Let an image vary this value; or drop one here"))
             ImGui::OpenPopup("texture");
@@ -274,11 +266,11 @@ ParamAsk param_widget(PanelContext& e, const RestageParam& line, const scene::Va
         accept_image(ask);
     }
     if (slot) {
-        texture_popup(e, value, line.type == RESTAGE_FLOAT, ask, mark);
+        texture_popup(e, value, line.type == model::ParamType::number, ask, mark);
         if (const std::string file = chosen_image_file(e, mark + ".texture"); !file.empty()) ask.image_file = file;
     }
     if (changed) ask.value = v;
-    if (line.type == RESTAGE_TABLE && reader)
+    if (line.type == model::ParamType::table && reader)
         if (const std::string problem = reader->problem(line.id, value.text); !problem.empty()) {
             error_note((problem + ". It shows as grey.").c_str());
             e.mark(mark + ".problem");
@@ -299,47 +291,31 @@ void texture_settings(PanelContext& e, scene::Id<scene::Texture> id, const std::
     const scene::Image* image = e.scene().images.find(texture.image);
     if (image && image->data)
         ImGui::TextDisabled("%u × %u, %s", image->data->width, image->data->height,
-                            image->encoding == RESTAGE_SRGB ? "sRGB" : "linear");
+                            image->encoding == scene::Encoding::srgb ? "sRGB" : "linear");
     else
         warning_note("The image is missing; it shades grey.");
     if (image) tip(image->path.c_str());
-    static constexpr RestageParam lines[] = {
-        {"scale", "Scale", RESTAGE_FLOAT, 0, 0, 10, {1}, "", nullptr, "Multiplies the image's values"},
-        {"invert",
-         "Invert",
-         RESTAGE_BOOL,
-         0,
-         0,
-         1,
-         {0},
-         "",
-         nullptr,
-         "Dark becomes bright: one minus the image's values"},
-        {"wrap", "Outside", RESTAGE_ENUM, 0, 0, 2, {0}, "", "repeat|black|clamp", "What is seen where the image ends"},
-        {"uscale",
-         "Repeat across",
-         RESTAGE_FLOAT,
-         0,
-         -100,
-         100,
-         {1},
-         "",
-         nullptr,
-         "How often the image fits along u, its width"},
-        {"vscale",
-         "Repeat up",
-         RESTAGE_FLOAT,
-         0,
-         -100,
-         100,
-         {1},
-         "",
-         nullptr,
-         "How often the image fits along v, its height"},
-        {"udelta", "Shift across", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In widths of the image (u)"},
-        {"vdelta", "Shift up", RESTAGE_FLOAT, 0, -1, 1, {0}, "", nullptr, "In heights of the image (v)"},
+    const auto number = [](const char* name, const char* label, float min, float max, float value, const char* said) {
+        return model::Param{
+            .id = name, .label = label, .min = min, .max = max, .def = {value}, .unit = "", .tooltip = said};
     };
-    for (const RestageParam& line : lines) {
+    static const std::vector<model::Param> lines = {
+        number("scale", "Scale", 0, 10, 1, "Multiplies the image's values"),
+        {.id = "invert",
+         .label = "Invert",
+         .type = model::ParamType::boolean,
+         .tooltip = "Dark becomes bright: one minus the image's values"},
+        {.id = "wrap",
+         .label = "Outside",
+         .type = model::ParamType::choice,
+         .choices = {"repeat", "black", "clamp"},
+         .tooltip = "What is seen where the image ends"},
+        number("uscale", "Repeat across", -100, 100, 1, "How often the image fits along u, its width"),
+        number("vscale", "Repeat up", -100, 100, 1, "How often the image fits along v, its height"),
+        number("udelta", "Shift across", -1, 1, 0, "In widths of the image (u)"),
+        number("vdelta", "Shift up", -1, 1, 0, "In heights of the image (v)"),
+    };
+    for (const model::Param& line : lines) {
         const scene::Value* set = texture.params.find(line.id);
         const ParamAsk ask =
             param_widget(e, line, set ? *set : scene::default_value(line), set != nullptr, mark + "." + line.id);

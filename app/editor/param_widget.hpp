@@ -22,8 +22,8 @@ struct ParamAsk { // what the user wants of it; nothing most of the time
 };
 
 // A row: label, range, unit and tooltip are the table's. A right click offers the default. `mark` names it for tests.
-// `reader`: of the files of RESTAGE_TABLE parameters, for what is wrong with one.
-ParamAsk param_widget(PanelContext& editor, const RestageParam& line, const scene::Value& value, bool is_set,
+// `reader`: of the files of model::ParamType::table parameters, for what is wrong with one.
+ParamAsk param_widget(PanelContext& editor, const model::Param& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader = nullptr);
 
 // Scale, wrap, inversion and placing of an image texture, as rows that ask for edits themselves.

@@ -61,7 +61,9 @@ std::string Editor::probe() const {
             for (const auto& [name, value] : material->params.entries()) {
                 const scene::Texture* texture = scene().textures.find(value.texture);
                 j["material"][name] = {
-                    {"value", value.v}, {"text", value.text}, {"texture", texture ? texture->name : ""}};
+                    {"value", value.is_whole() ? std::array{value.scalar(), 0.f, 0.f, 0.f} : value.v},
+                    {"text", value.text},
+                    {"texture", texture ? texture->name : ""}};
             }
     const auto& sky = scene().environment.value;
     j["sky"] = sky ? sky->name : "";

@@ -21,15 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> split(std::string_view list) { // "a|b"
-    std::vector<std::string> parts;
-    while (!list.empty()) {
-        parts.emplace_back(list.substr(0, list.find('|')));
-        list.remove_prefix(std::min(list.size(), parts.back().size() + 1));
-    }
-    return parts;
-}
-
 // All that can be opened together first, then each importer's, then every file.
 std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool projects) {
     std::vector<FileFilter> filters;
@@ -39,7 +30,7 @@ std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool pro
         all.extensions = {"restage"};
     }
     for (const auto& importer : registry.importers()) {
-        filters.push_back({importer.table->label, split(importer.table->extensions)});
+        filters.push_back({importer.table->label, importer.table->extensions});
         all.extensions.insert(all.extensions.end(), filters.back().extensions.begin(), filters.back().extensions.end());
     }
     filters.insert(filters.begin(), all);

@@ -23,48 +23,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string first_of(std::string_view list) { return std::string(list.substr(0, list.find('|'))); }
-
-std::vector<std::string> all_of(std::string_view list) {
-    std::vector<std::string> parts;
-    while (!list.empty()) {
-        parts.push_back(first_of(list));
-        list.remove_prefix(std::min(list.size(), parts.back().size() + 1));
-    }
-    return parts;
-}
-
 // One option of an exporter's table.
-void option_widget(PanelContext& e, const RestageParam& line, scene::ParamSet& values) {
+void option_widget(PanelContext& e, const model::Param& line, scene::ParamSet& values) {
     const scene::Value* set = values.find(line.id);
     scene::Value v = set ? *set : scene::default_value(line);
     bool changed = false;
-    ImGui::PushID(line.id);
-    form_row(line.label, line.tooltip);
-    switch (static_cast<RestageType>(line.type)) {
-        case RESTAGE_BOOL: {
-            bool on = v.v[0] != 0;
+    ImGui::PushID(line.id.c_str());
+    form_row(line.label.c_str(), line.tooltip.c_str());
+    switch (line.type) {
+        case model::ParamType::boolean: {
+            bool on = v.i != 0;
             changed = ImGui::Checkbox("##value", &on);
-            v.v[0] = on ? 1.f : 0.f;
+            v.i = on;
             break;
         }
-        case RESTAGE_FLOAT:
+        case model::ParamType::number:
             changed =
                 ImGui::DragFloat("##value", &v.v[0], 0.01f, line.min, line.max, "%.4g", ImGuiSliderFlags_AlwaysClamp);
             break;
-        case RESTAGE_INT: {
-            int i = int(v.v[0]);
+        case model::ParamType::integer:
             changed =
-                ImGui::DragInt("##value", &i, 1.f, int(line.min), int(line.max), "%d", ImGuiSliderFlags_AlwaysClamp);
-            v.v[0] = float(i);
+                ImGui::DragInt("##value", &v.i, 1.f, line.int_min, line.int_max, "%d", ImGuiSliderFlags_AlwaysClamp);
             break;
-        }
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             changed = ImGui::ColorEdit3("##value", v.v.data(), ImGuiColorEditFlags_Float);
             break;
-        case RESTAGE_ENUM:
+        case model::ParamType::choice:
             if (ImGui::BeginCombo("##value", choice_label(v.text).c_str())) {
-                for (const std::string& choice : all_of(line.choices)) {
+                for (const std::string& choice : line.choices) {
                     if (ImGui::Selectable(choice_label(choice).c_str(), choice == v.text)) {
                         v.text = choice;
                         changed = true;
@@ -74,16 +60,16 @@ void option_widget(PanelContext& e, const RestageParam& line, scene::ParamSet& v
                 ImGui::EndCombo();
             }
             break;
-        case RESTAGE_TEXT:
+        case model::ParamType::text:
             changed = ImGui::InputText("##value", &v.text);
             break;
-        case RESTAGE_MATERIAL:
-        case RESTAGE_TEXTURE:
-        case RESTAGE_TABLE:
+        case model::ParamType::material:
+        case model::ParamType::texture:
+        case model::ParamType::table:
             break; // no option can be one
     }
     e.mark(std::string("export.") + line.id);
-    tip(line.tooltip);
+    tip(line.tooltip.c_str());
     ImGui::PopID();
     if (changed) values.set(line.id, std::move(v));
 }
@@ -91,18 +77,18 @@ void option_widget(PanelContext& e, const RestageParam& line, scene::ParamSet& v
 void show_report(PanelContext& e, const fs::path& path, io::Report report) {
     e.notices.add(LogLevel::info, "Exported " + path.filename().string());
     for (const io::ReportEntry& entry : report.entries)
-        if (entry.fate != RESTAGE_KEPT) e.notices.add(LogLevel::warning, io::to_string(entry));
+        if (entry.fate != io::Fate::kept) e.notices.add(LogLevel::warning, io::to_string(entry));
     e.show_modal("Exported", [path, report = std::move(report)](PanelContext& editor) {
         dialog_width(560);
         ImGui::TextWrapped("%s is written.", path.string().c_str());
-        ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(RESTAGE_KEPT),
-                    report.count(RESTAGE_APPROXIMATED), report.count(RESTAGE_DROPPED));
+        ImGui::Text("%zu kept, %zu approximated, %zu dropped", report.count(io::Fate::kept),
+                    report.count(io::Fate::approximated), report.count(io::Fate::dropped));
         const float scale = ImGui::GetStyle().FontScaleMain;
-        if (report.count(RESTAGE_APPROXIMATED) + report.count(RESTAGE_DROPPED) > 0) {
+        if (report.count(io::Fate::approximated) + report.count(io::Fate::dropped) > 0) {
             ImGui::BeginChild("report", {0, 240 * scale}, ImGuiChildFlags_Borders);
             for (const io::ReportEntry& entry : report.entries) {
-                if (entry.fate == RESTAGE_KEPT) continue;
-                ImGui::TextColored(entry.fate == RESTAGE_DROPPED ? colors::error : colors::warning, "%s",
+                if (entry.fate == io::Fate::kept) continue;
+                ImGui::TextColored(entry.fate == io::Fate::dropped ? colors::error : colors::warning, "%s",
                                    io::to_string(entry.fate));
                 ImGui::SameLine();
                 ImGui::TextWrapped("%s: %s", entry.what.c_str(), entry.note.c_str());
@@ -171,31 +157,31 @@ void export_dialog(PanelContext& e) {
     }
     e.show_modal("Export", [state = std::make_shared<State>()](PanelContext& editor) {
         const auto& exporters = editor.registry().exporters();
-        const RestageExporter1& exporter = *exporters[state->exporter].table;
+        const model::Exporter& exporter = *exporters[state->exporter].table;
         dialog_width(360);
         form_row("Format", "Of the file, by the exporter plugins that are loaded");
-        if (ImGui::BeginCombo("##format", exporter.label)) {
+        if (ImGui::BeginCombo("##format", exporter.label.c_str())) {
             for (std::size_t i = 0; i < exporters.size(); ++i)
-                if (ImGui::Selectable(exporters[i].table->label, i == state->exporter)) {
+                if (ImGui::Selectable(exporters[i].table->label.c_str(), i == state->exporter)) {
                     state->exporter = i;
                     state->values = {};
                 }
             ImGui::EndCombo();
         }
         editor.mark("export.format");
-        for (std::uint32_t i = 0; i < exporter.option_count; ++i)
-            option_widget(editor, exporter.options[i], state->values);
+        for (const model::Param& option : exporter.options)
+            option_widget(editor, option, state->values);
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Choose where...")) {
             stay = false;
             const fs::path path(editor.session().path());
             io::ExportOptions options{.progress = {}, .format = exporter.format, .values = state->values};
-            const std::string extension = "." + first_of(exporter.extensions);
+            const std::string extension = "." + exporter.extensions[0];
             browse(editor,
                    {.title = "Export as",
                     .save = true,
-                    .filters = {{exporter.label, all_of(exporter.extensions)}, {"All files", {}}},
+                    .filters = {{exporter.label, exporter.extensions}, {"All files", {}}},
                     .start = path.empty() ? fs::path() : path.parent_path(),
                     .name = (path.empty() ? "untitled" : path.stem().string() + " edited") + extension,
                     .extension = extension,

@@ -71,10 +71,9 @@ class BsdfLab {
     // Called after every dispatch (progress; a supervisor's sign of life).
     std::function<void()> on_dispatch;
 
-    const RestageMaterial1& table() const { return *material_.table; }
+    const model::Material& table() const { return *material_.table; }
     const std::filesystem::path& folder() const { return material_.folder; }
     std::size_t spirv_bytes() const { return pipeline_.shader_bytes(); }
-    bool is(std::uint32_t flag) const { return (table().flags & flag) != 0; }
 
   private:
     BsdfLab(gpu::Device& device, render::MaterialPlugin material)

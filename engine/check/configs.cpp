@@ -16,17 +16,19 @@ using scene::Value;
 namespace {
 
 template <class F>
-void each_line(const RestageMaterial1& table, F&& f) {
-    for (std::uint32_t i = 0; i < table.param_count; ++i)
-        f(table.params[i]);
+void each_line(const model::Material& table, F&& f) {
+    for (const model::Param& p : table.params)
+        f(p);
 }
 
-Value bound(const RestageParam& p, float x) {
+// The upper or lower end of its range.
+Value bound(const model::Param& p, bool upper) {
+    const float x = upper ? p.max : p.min;
     switch (p.type) {
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             return Value::color(x, x, x);
-        case RESTAGE_INT:
-            return Value::integer(static_cast<int>(std::lround(x)));
+        case model::ParamType::integer:
+            return Value::integer(upper ? p.int_max : p.int_min);
         default:
             return Value::number(x);
     }
@@ -52,58 +54,51 @@ Vec3 random_direction(Engine& e, float z_min) {
     return direction(z, uniform(e, 0, 2 * std::numbers::pi_v<float>));
 }
 
-std::string choice(const RestageParam& p, std::size_t i) {
-    std::stringstream all(p.choices);
-    std::string word;
-    for (std::size_t k = 0; k <= i; ++k)
-        std::getline(all, word, '|');
-    return word;
-}
+std::string choice(const model::Param& p, std::size_t i) { return i < p.choices.size() ? p.choices[i] : ""; }
 
-std::size_t choices(const RestageParam& p) {
-    const std::string_view text = p.choices;
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) + 1;
-}
+std::size_t choices(const model::Param& p) { return p.choices.size(); }
 
-void keep_sum(const RestageMaterial1& table, ParamSet& set) {
-    if (!(table.flags & RESTAGE_MATERIAL_ADDITIVE)) return;
+void keep_sum(const model::Material& table, ParamSet& set) {
+    if (!table.additive) return;
     float sum = 0;
-    each_line(table, [&](const RestageParam& p) {
-        if (p.type != RESTAGE_COLOR || is_opacity(p)) return;
+    each_line(table, [&](const model::Param& p) {
+        if (p.type != model::ParamType::color || is_opacity(p)) return;
         const auto c = set.color(p.id, {p.def[0], p.def[1], p.def[2]});
         sum += std::max({c[0], c[1], c[2]});
     });
-    each_line(table, [&](const RestageParam& p) {
-        if (p.type != RESTAGE_COLOR || is_opacity(p)) return;
+    each_line(table, [&](const model::Param& p) {
+        if (p.type != model::ParamType::color || is_opacity(p)) return;
         const auto c = set.color(p.id, {p.def[0], p.def[1], p.def[2]});
         const float s = 1 / std::max(1.f, sum);
         set.set(p.id, Value::color(c[0] * s, c[1] * s, c[2] * s));
     });
 }
 
-ParamSet random_config(const RestageMaterial1& table, Engine& e) {
+ParamSet random_config(const model::Material& table, Engine& e) {
     ParamSet set;
-    const auto number = [&](const RestageParam& p) {
+    const auto between = [&](float min, float max) {
         const float x = uniform(e);
-        return x < 0.1f ? p.min : x < 0.2f ? p.max : uniform(e, p.min, p.max);
+        return x < 0.1f ? min : x < 0.2f ? max : uniform(e, min, max);
     };
-    each_line(table, [&](const RestageParam& p) {
+    const auto number = [&](const model::Param& p) { return between(p.min, p.max); };
+    each_line(table, [&](const model::Param& p) {
         switch (p.type) {
-            case RESTAGE_FLOAT:
+            case model::ParamType::number:
                 set.set(p.id, Value::number(number(p)));
                 break;
-            case RESTAGE_COLOR: {
+            case model::ParamType::color: {
                 const float r = number(p), g = number(p), b = number(p);
                 set.set(p.id, Value::color(r, g, b));
                 break;
             }
-            case RESTAGE_INT:
-                set.set(p.id, Value::integer(static_cast<int>(std::lround(number(p)))));
+            case model::ParamType::integer:
+                set.set(p.id,
+                        Value::integer(static_cast<int>(std::lround(between(float(p.int_min), float(p.int_max))))));
                 break;
-            case RESTAGE_BOOL:
+            case model::ParamType::boolean:
                 set.set(p.id, Value::boolean(uniform(e) < 0.5f));
                 break;
-            case RESTAGE_ENUM:
+            case model::ParamType::choice:
                 set.set(p.id, Value::choice(choice(p, e() % choices(p))));
                 break;
             default:
@@ -114,37 +109,37 @@ ParamSet random_config(const RestageMaterial1& table, Engine& e) {
     return set;
 }
 
-ParamSet wide_config(const RestageMaterial1& table, Engine& e) {
+ParamSet wide_config(const model::Material& table, Engine& e) {
     ParamSet set = random_config(table, e);
-    each_line(table, [&](const RestageParam& p) {
+    each_line(table, [&](const model::Param& p) {
         if (is_roughness(p)) set.set(p.id, Value::number(uniform(e, 0.2f, 0.8f)));
         if (std::string_view(p.id) == "remap") set.set(p.id, Value::choice("none"));
-        if (p.type == RESTAGE_INT) set.set(p.id, Value::integer(static_cast<int>(p.def[0])));
+        if (p.type == model::ParamType::integer) set.set(p.id, Value::integer(p.int_def));
     });
     return set;
 }
 
-ParamSet white_config(const RestageMaterial1& table) {
+ParamSet white_config(const model::Material& table) {
     ParamSet set;
-    each_line(table, [&](const RestageParam& p) {
-        if (p.type == RESTAGE_COLOR) set.set(p.id, Value::color(1, 1, 1));
+    each_line(table, [&](const model::Param& p) {
+        if (p.type == model::ParamType::color) set.set(p.id, Value::color(1, 1, 1));
     });
     keep_sum(table, set);
     return set;
 }
 
-ParamSet rough_config(const RestageMaterial1& table, float r, float r_other) {
+ParamSet rough_config(const model::Material& table, float r, float r_other) {
     ParamSet set;
     bool second = false;
-    each_line(table, [&](const RestageParam& p) {
-        if (!is_roughness(p) || p.type != RESTAGE_FLOAT) return;
+    each_line(table, [&](const model::Param& p) {
+        if (!is_roughness(p) || p.type != model::ParamType::number) return;
         set.set(p.id, Value::number(std::clamp(second ? r_other : r, p.min, p.max)));
         second = !second;
     });
     return set;
 }
 
-std::vector<ParamSet> config_grid(const RestageMaterial1& table, Engine& e, std::size_t count) {
+std::vector<ParamSet> config_grid(const model::Material& table, Engine& e, std::size_t count) {
     std::vector<ParamSet> grid{{}};
     const auto add = [&](ParamSet set) {
         keep_sum(table, set);
@@ -159,20 +154,22 @@ std::vector<ParamSet> config_grid(const RestageMaterial1& table, Engine& e, std:
     add(random_config(table, e));
     add(rough_config(table, 0, 0));
     const ParamSet base = rough_config(table, 0.3f, 0.3f);
-    each_line(table, [&](const RestageParam& p) {
+    each_line(table, [&](const model::Param& p) {
         ParamSet set = base;
-        if (p.type == RESTAGE_ENUM) {
+        if (p.type == model::ParamType::choice) {
             for (std::size_t i = 0; i < choices(p); ++i)
-                if (i != static_cast<std::size_t>(p.def[0])) set.set(p.id, Value::choice(choice(p, i))), add(set);
-        } else if (p.type == RESTAGE_BOOL) {
-            set.set(p.id, Value::boolean(p.def[0] == 0)), add(set);
-        } else if (p.type == RESTAGE_FLOAT || p.type == RESTAGE_INT || p.type == RESTAGE_COLOR) {
+                if (i != static_cast<std::size_t>(p.int_def)) set.set(p.id, Value::choice(choice(p, i))), add(set);
+        } else if (p.type == model::ParamType::boolean) {
+            set.set(p.id, Value::boolean(p.int_def == 0)), add(set);
+        } else if (p.type == model::ParamType::number || p.type == model::ParamType::integer ||
+                   p.type == model::ParamType::color) {
             if (is_roughness(p)) return;
-            for (const float x : {p.max, p.min})
-                if (x != p.def[0]) set.set(p.id, bound(p, x)), add(set);
+            for (const bool upper : {true, false})
+                if (bound(p, upper).scalar() != scene::default_value(p).scalar())
+                    set.set(p.id, bound(p, upper)), add(set);
         }
     });
-    while (grid.size() < count && table.param_count > 0) {
+    while (grid.size() < count && table.params.size() > 0) {
         const std::size_t before = grid.size();
         add(wide_config(table, e)), add(random_config(table, e));
         if (grid.size() == before) break; // nothing in the table can be drawn anew
@@ -187,12 +184,12 @@ std::string describe(const ParamSet& set) {
     out.precision(9);
     for (const auto& [id, v] : set.entries()) {
         out << (&id == &set.entries().front().id ? "" : " ") << id << '=';
-        if (v.type == RESTAGE_ENUM || v.type == RESTAGE_TABLE)
+        if (v.type == model::ParamType::choice || v.type == model::ParamType::table)
             out << v.text;
-        else if (v.type == RESTAGE_COLOR)
+        else if (v.type == model::ParamType::color)
             out << '(' << v.v[0] << ' ' << v.v[1] << ' ' << v.v[2] << ')';
         else
-            out << v.v[0];
+            out << v.scalar();
     }
     return out.str();
 }

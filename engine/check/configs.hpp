@@ -27,27 +27,27 @@ Vec3 from_degrees(double theta, double phi); // theta from +z; over 90: the back
 Vec3 random_direction(Engine& e, float z_min = -1);
 inline float luminance(const Vec3& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
-inline bool is_opacity(const RestageParam& p) { return std::string_view(p.id) == "opacity"; }
-inline bool is_roughness(const RestageParam& p) {
+inline bool is_opacity(const model::Param& p) { return std::string_view(p.id) == "opacity"; }
+inline bool is_roughness(const model::Param& p) {
     return std::string_view(p.id).find("roughness") != std::string_view::npos;
 }
-std::string choice(const RestageParam& p, std::size_t i); // the i-th of "a|b|c"
-std::size_t choices(const RestageParam& p);
+std::string choice(const model::Param& p, std::size_t i); // the i-th of "a|b|c"
+std::size_t choices(const model::Param& p);
 
-// Scales the colours of an ADDITIVE material so that they sum to at most 1 (RESTAGE_MATERIAL_ADDITIVE).
-void keep_sum(const RestageMaterial1& table, scene::ParamSet& set);
+// Scales the colours of an ADDITIVE material so that they sum to at most 1.
+void keep_sum(const model::Material& table, scene::ParamSet& set);
 // Every line anywhere in its range; one in five at an end of it.
-scene::ParamSet random_config(const RestageMaterial1& table, Engine& e);
+scene::ParamSet random_config(const model::Material& table, Engine& e);
 // A random set whose lobes are wide: roughness between 0.2 and 0.8, taken as alpha where the material lets us.
-scene::ParamSet wide_config(const RestageMaterial1& table, Engine& e);
+scene::ParamSet wide_config(const model::Material& table, Engine& e);
 // Defaults, with every colour at 1 (ADDITIVE: sharing 1).
-scene::ParamSet white_config(const RestageMaterial1& table);
+scene::ParamSet white_config(const model::Material& table);
 // Defaults, with every roughness at `r`; where there are two or more, every second at `r_other`.
-scene::ParamSet rough_config(const RestageMaterial1& table, float r, float r_other);
+scene::ParamSet rough_config(const model::Material& table, float r, float r_other);
 
 // The grid of the full tests: defaults; roughness from narrow to 1, anisotropic too; each line at its ends and each
 // choice, one at a time on a roughness of 0.3; white; and random ones up to `count`.
-std::vector<scene::ParamSet> config_grid(const RestageMaterial1& table, Engine& e, std::size_t count);
+std::vector<scene::ParamSet> config_grid(const model::Material& table, Engine& e, std::size_t count);
 
 // For people, to replay a failure.
 std::string describe(const scene::ParamSet& set); // "the defaults" when empty

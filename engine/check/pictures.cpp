@@ -71,8 +71,7 @@ Result<std::string> polar_plot(BsdfLab& lab, const ParamSet& set, const Vec3& wo
             wi.push_back({static_cast<float>(r * std::sin(angle)), static_cast<float>(y),
                           static_cast<float>(r * std::cos(angle))});
         }
-    RESTAGE_TRY(const std::vector<BsdfLooked> looked,
-                lab.look(set, wo, wi, lab.is(RESTAGE_MATERIAL_STOCHASTIC) ? 64 : 1));
+    RESTAGE_TRY(const std::vector<BsdfLooked> looked, lab.look(set, wo, wi, lab.table().stochastic ? 64 : 1));
     for (std::size_t i = 0; i < looked.size(); ++i)
         expected[i / (across * along)] += looked[i].pdf / (across * along);
     double most = 1e-9;
@@ -158,10 +157,9 @@ Result<scene::PixelData> ball(BsdfLab& lab, const ParamSet& set, int size, int s
     return image;
 }
 
-void with_white(const RestageMaterial1& table, ParamSet& set) {
-    for (std::uint32_t i = 0; i < table.param_count; ++i)
-        if (table.params[i].type == RESTAGE_COLOR && !set.find(table.params[i].id) && table.params[i].max == 1)
-            set.set(table.params[i].id, Value::color(1, 1, 1));
+void with_white(const model::Material& table, ParamSet& set) {
+    for (const model::Param& p : table.params)
+        if (p.type == model::ParamType::color && !set.find(p.id) && p.max == 1) set.set(p.id, Value::color(1, 1, 1));
     keep_sum(table, set);
 }
 

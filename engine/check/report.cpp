@@ -182,7 +182,7 @@ std::string markdown(std::span<const PluginReport> reports) {
             if (!s.of.empty() && std::find(tables.begin(), tables.end(), s.of) == tables.end()) tables.push_back(s.of);
         if (tables.empty()) tables.push_back(r.id);
         for (const std::string& of : tables) {
-            if (r.kind != "material") {
+            if (!r.kind.starts_with("material")) {
                 others += fmt::format("| {} | {} |", of, r.kind);
                 for (const auto* list : other_steps)
                     for (const Step& step : *list)

@@ -29,9 +29,9 @@ struct Picture {
         for (std::size_t i = 2; i < normal.size(); i += 3)
             normal[i] = 1;
     }
-    RestageDenoiseJob job(unsigned guides, RestageDenoiseQuality quality = RESTAGE_DENOISE_FAST) {
-        RestageDenoiseJob job{};
-        job.size = sizeof job, job.width = width, job.height = height;
+    plugin::DenoiseJob job(unsigned guides, plugin::DenoiseQuality quality = plugin::DenoiseQuality::fast) {
+        plugin::DenoiseJob job{};
+        job.width = width, job.height = height;
         job.color = color.data(), job.output = out.data();
         job.albedo = guides & Guides::albedo ? albedo.data() : nullptr;
         job.normal = guides & Guides::normal ? normal.data() : nullptr;
@@ -53,18 +53,17 @@ struct Change { // relative to a constant level
 
 struct Lab {
     Subject& s;
-    const RestageDenoiser1& d = *s.denoiser;
+    const plugin::Denoiser& d = *s.denoiser;
     std::size_t runs = 0;
 
     // "" or what is wrong.
-    std::string run(const RestageDenoiseJob& job, const Picture& p, const std::string& what) {
-        const char* reason = nullptr;
+    std::string run(const plugin::DenoiseJob& job, const Picture& p, const std::string& what) {
         const std::vector<float> before = p.color;
         s.doing("run() of " + what);
         ++runs;
-        const bool done = d.run(&job, &reason) != 0;
+        const auto done = d.run(job);
         s.alive();
-        if (!done) return what + ": refused: " + (reason ? reason : "no reason given");
+        if (!done) return what + ": refused: " + done.error().message;
         if (p.overrun()) return what + ": it writes behind the end of its output";
         if (job.output != job.color && std::memcmp(before.data(), p.color.data(), before.size() * sizeof(float)) != 0)
             return what + ": it changes the picture it was given";
@@ -87,8 +86,8 @@ Change change(const float* out, std::size_t count, float level) {
 }
 
 std::string unavailable(const Subject& s) {
-    const char* reason = "";
-    return s.denoiser->available(&reason) ? "" : std::string("not available here: ") + (reason ? reason : "");
+    const auto usable = s.denoiser->available();
+    return usable ? "" : "not available here: " + usable.error().message;
 }
 
 } // namespace
@@ -134,9 +133,10 @@ Result<StepResult> check_denoise_sizes(Subject& s) {
                     fmt::format("{}: a constant picture changes by {:.2g} % RMS", what, 100 * c.rms));
         }
     // In place, each quality.
-    for (const auto quality : {RESTAGE_DENOISE_FAST, RESTAGE_DENOISE_BALANCED, RESTAGE_DENOISE_HIGH}) {
+    for (const auto quality :
+         {plugin::DenoiseQuality::fast, plugin::DenoiseQuality::balanced, plugin::DenoiseQuality::high}) {
         Picture p(33, 21, 0.5f);
-        RestageDenoiseJob job = p.job(both, quality);
+        plugin::DenoiseJob job = p.job(both, quality);
         job.output = p.color.data();
         const std::string what = fmt::format("33x21 pixels in place, quality {}", static_cast<int>(quality));
         if (const std::string bad = lab.run(job, p, what); !bad.empty()) return StepResult::failed(bad);
@@ -163,12 +163,11 @@ Result<StepResult> check_denoise_robust(Subject& s) {
             const std::string what =
                 fmt::format("{} in {}, {}", x, all ? "every pixel" : "some pixels", p.describe(both));
             // Refusing is an answer too, with a reason.
-            const char* reason = nullptr;
-            RestageDenoiseJob job = p.job(both);
             s.doing("run() of " + what);
-            const bool done = lab.d.run(&job, &reason) != 0;
+            const auto done = lab.d.run(p.job(both));
             s.alive();
-            if (!done && (!reason || !*reason)) return StepResult::failed(what + ": refused without a reason");
+            if (!done && done.error().message == plugin::Denoiser::no_reason)
+                return StepResult::failed(what + ": refused without a reason");
             if (p.overrun()) return StepResult::failed(what + ": it writes behind the end of its output");
             if (!done) continue;
             for (std::size_t i = 0; i < p.color.size(); ++i)
@@ -182,7 +181,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
         v = -std::log(1 - unit(e));
     std::vector<float> first;
     for (int k = 0; k < 2; ++k) {
-        if (const std::string bad = lab.run(p.job(both, RESTAGE_DENOISE_HIGH), p, "120x75 pixels of noise");
+        if (const std::string bad = lab.run(p.job(both, plugin::DenoiseQuality::high), p, "120x75 pixels of noise");
             !bad.empty())
             return StepResult::failed(bad);
         if (k == 0)
@@ -194,20 +193,15 @@ Result<StepResult> check_denoise_robust(Subject& s) {
     struct Stop {
         std::size_t calls, stop_at;
     } stop{0, ~std::size_t{0}};
-    RestageDenoiseJob job = p.job(both);
-    job.progress_ctx = &stop;
-    job.progress = [](void* ctx, double) {
-        Stop& now = *static_cast<Stop*>(ctx);
-        return ++now.calls < now.stop_at ? 1 : 0;
-    };
+    plugin::DenoiseJob job = p.job(both);
+    job.progress = [&](double) { return ++stop.calls < stop.stop_at; };
     if (const std::string bad = lab.run(job, p, "120x75 pixels, with progress"); !bad.empty())
         return StepResult::failed(bad);
     const std::size_t all = stop.calls;
     for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / 8, 1)) {
         stop = {0, k};
-        const char* reason = nullptr;
         s.doing(fmt::format("run(), stopped at call {} of progress()", k));
-        const bool done = lab.d.run(&job, &reason) != 0;
+        const bool done = lab.d.run(job).has_value();
         s.alive();
         if (done && k < all)
             return StepResult::failed(fmt::format("stopped at call {} of {} of progress(), run() returns 1", k, all));

@@ -13,8 +13,8 @@ namespace {
 constexpr double family_alpha = 0.01;
 
 std::string not_for(const Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return "has no GLSL of its own";
-    if (s.is(RESTAGE_MATERIAL_STOCHASTIC)) return "stochastic: see the step expectation";
+    if (!s.table().has_code()) return "has no GLSL of its own";
+    if (s.table().stochastic) return "stochastic: see the step expectation";
     return "";
 }
 

@@ -43,7 +43,7 @@ const double angles[] = {0, 30, 60, 75, 85, 89, 89.9, 91, 100, 120, 150, 180};
 } // namespace
 
 Result<StepResult> check_energy(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("energy");
     const auto declared = s.exception("energy");
@@ -51,8 +51,8 @@ Result<StepResult> check_energy(Subject& s) {
     std::vector<scene::ParamSet> configs{white_config(s.table())};
     for (scene::ParamSet& set : config_grid(s.table(), e, s.size(48, 10))) {
         // Bright variants: what a dark colour swallows cannot be seen.
-        for (std::uint32_t i = 0; i < s.table().param_count; ++i)
-            if (const RestageParam& p = s.table().params[i]; p.type == RESTAGE_COLOR && p.max == 1 && !set.find(p.id))
+        for (const model::Param& p : s.table().params)
+            if (p.type == model::ParamType::color && p.max == 1 && !set.find(p.id))
                 set.set(p.id, scene::Value::color(1, 1, 1));
         keep_sum(s.table(), set);
         configs.push_back(std::move(set));
@@ -87,8 +87,8 @@ Result<StepResult> check_energy(Subject& s) {
 }
 
 Result<StepResult> check_furnace(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
-    if (!s.is(RESTAGE_MATERIAL_LOSSLESS)) return StepResult::skip("LOSSLESS is not declared");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().lossless) return StepResult::skip("LOSSLESS is not declared");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("furnace");
     const scene::ParamSet set = white_config(s.table());
@@ -120,7 +120,7 @@ Result<StepResult> check_furnace(Subject& s) {
 }
 
 Result<StepResult> check_albedo(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("albedo");
     const auto grid = config_grid(s.table(), e, s.size(24, 8));

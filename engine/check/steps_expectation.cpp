@@ -49,8 +49,8 @@ double light(const Vec3& w) {
 }
 
 std::string unfit(const Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return "has no GLSL of its own";
-    if (!s.is(RESTAGE_MATERIAL_STOCHASTIC)) return "not stochastic: chi-square, integral and weight say more";
+    if (!s.table().has_code()) return "has no GLSL of its own";
+    if (!s.table().stochastic) return "not stochastic: chi-square, integral and weight say more";
     return "";
 }
 

@@ -51,12 +51,12 @@ Scene everything() {
     b.add(Image{.name = "missing", .path = "/nowhere/missing.png"});
     const auto texture = b.add(Texture{.name = "Fläche 板", .type = "imagemap", .image = image});
     Texture checks{.name = "checks", .type = "checkerboard"};
-    checks.params.set("tex1", Value{.type = RESTAGE_COLOR, .texture = texture});
+    checks.params.set("tex1", Value{.type = model::ParamType::color, .texture = texture});
     checks.params.set("uscale", Value::number(4));
     const auto checker = b.add(std::move(checks));
     b.add(Texture{.name = "strange", .type = "no such texture", .is_float = true});
     Material matte{.name = "matte", .type = "diffuse"};
-    matte.params.set("reflectance", Value{.type = RESTAGE_COLOR, .texture = checker});
+    matte.params.set("reflectance", Value{.type = model::ParamType::color, .texture = checker});
     const auto diffuse = b.add(std::move(matte));
     Material strange{.name = "of a plugin that is not there", .type = "nosuchmaterial"};
     strange.params.set("gloss", Value::number(0.5f));
@@ -84,7 +84,7 @@ Scene everything() {
     b.add(Instance{.name = "hidden", .mesh = full, .material = diffuse, .hidden = true});
     apply(b.scene, *remove_instances(b.scene, std::vector{removed}));
     apply(b.scene, *remove(b.scene, gone));
-    for (const auto kind : {RESTAGE_LIGHT_POINT, RESTAGE_LIGHT_SPOT, RESTAGE_LIGHT_DISTANT})
+    for (const auto kind : {scene::LightKind::point, scene::LightKind::spot, scene::LightKind::distant})
         b.add(Light{.name = "light", .kind = kind, .light_to_world = at(1)});
     const auto first = b.add(Camera{.name = "first", .lens_radius = 0.1f, .focal_distance = 4});
     b.add(Camera{.name = "second", .screen_window = glm::vec4(-1, 1, -0.5f, 0.5f)});
@@ -105,27 +105,26 @@ Scene nothing() {
 }
 
 // Every choice of every option, one at a time, after the defaults.
-std::vector<ParamSet> option_sets(const RestageExporter1& exporter) {
+std::vector<ParamSet> option_sets(const model::Exporter& exporter) {
     std::vector<ParamSet> sets{{}};
-    for (std::uint32_t i = 0; i < exporter.option_count; ++i) {
-        const RestageParam& p = exporter.options[i];
+    for (const model::Param& p : exporter.options) {
         const auto with = [&](Value v) {
             ParamSet set;
             set.set(p.id, std::move(v));
             sets.push_back(std::move(set));
         };
-        if (p.type == RESTAGE_ENUM)
+        if (p.type == model::ParamType::choice)
             for (std::size_t k = 0; k < choices(p); ++k)
                 with(Value::choice(choice(p, k)));
-        if (p.type == RESTAGE_BOOL)
+        if (p.type == model::ParamType::boolean)
             for (const bool on : {false, true})
                 with(Value::boolean(on));
-        if (p.type == RESTAGE_FLOAT)
+        if (p.type == model::ParamType::number)
             for (const float x : {p.min, p.max})
                 with(Value::number(x));
-        if (p.type == RESTAGE_INT)
-            for (const float x : {p.min, p.max})
-                with(Value::integer(static_cast<int>(x)));
+        if (p.type == model::ParamType::integer)
+            for (const int x : {p.int_min, p.int_max})
+                with(Value::integer(x));
     }
     return sets;
 }
@@ -133,10 +132,9 @@ std::vector<ParamSet> option_sets(const RestageExporter1& exporter) {
 } // namespace
 
 Result<StepResult> check_write(Subject& s) {
-    const RestageExporter1& exporter = *s.exporter;
+    const model::Exporter& exporter = *s.exporter;
     const TemporaryFolder folder;
-    std::string extension = exporter.extensions;
-    extension = extension.substr(0, extension.find('|'));
+    const std::string& extension = exporter.extensions[0];
     io::ExportOptions options;
     options.format = exporter.format;
     std::size_t saves = 0, bytes = 0, stops = 0;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_glsl(const Subject& s) { return !s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL); }
+bool has_glsl(const Subject& s) { return s.table().has_code(); }
 const char* const no_glsl = "has no GLSL of its own";
 
 double seconds_since(std::chrono::steady_clock::time_point t) {

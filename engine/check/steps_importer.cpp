@@ -17,15 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> extensions_of(const char* list) {
-    std::vector<std::string> all;
-    std::string rest = list ? list : "";
-    for (std::size_t bar; (bar = rest.find('|')) != std::string::npos; rest.erase(0, bar + 1))
-        all.push_back(rest.substr(0, bar));
-    all.push_back(rest);
-    return all;
-}
-
 // The smallest few, in order of their names.
 std::vector<fs::path> samples(const fs::path& folder, const std::vector<std::string>& extensions) {
     std::vector<fs::path> found;
@@ -80,14 +71,14 @@ struct Loading {
 } // namespace
 
 Result<StepResult> check_probe(Subject& s) {
-    const RestageImporter1& importer = *s.importer;
-    const std::string extension = extensions_of(importer.extensions)[0];
+    const model::Importer& importer = *s.importer;
+    const std::string extension = importer.extensions[0];
     Engine e = s.random("importer");
     std::size_t probed = 0;
     for (std::size_t i = 0; i < 200; ++i) {
         const std::string bytes = noise(e, i), name = "/nowhere/noise." + extension;
         s.doing(fmt::format("probe() of {} bytes of noise", bytes.size()));
-        const int answer = importer.probe(name.c_str(), bytes.data(), bytes.size());
+        const int answer = io::probe(s.importer_entry, name, bytes);
         if (answer < 0 || answer > 100)
             return StepResult::failed(
                 fmt::format("probe() of {} bytes of noise answers {}, which is not in 0..100", bytes.size(), answer));
@@ -99,7 +90,7 @@ Result<StepResult> check_probe(Subject& s) {
 
 Result<StepResult> check_read(Subject& s) {
     const TemporaryFolder folder;
-    const auto extensions = extensions_of(s.importer->extensions);
+    const auto& extensions = s.importer->extensions;
     const auto good = samples(s.folder, extensions);
     Engine e = s.random("read");
     Loading loading(s);
@@ -151,7 +142,7 @@ Result<StepResult> check_read(Subject& s) {
 }
 
 Result<StepResult> check_read_stop(Subject& s) {
-    const auto good = samples(s.folder, extensions_of(s.importer->extensions));
+    const auto good = samples(s.folder, s.importer->extensions);
     if (good.empty()) return StepResult::skip("there is no file with its extension in its folder");
     constexpr std::size_t patience = 100; // calls after the first "stop"
     std::size_t calls_in_all = 0, stops = 0;

@@ -30,18 +30,19 @@ std::string placed(std::string text, const std::string& id) { // "m.$" becomes "
 }
 
 // One expression a word, in the order of the table.
-std::vector<std::pair<std::string, std::string>> words_of(const RestageMaterial1& table) { // GLSL, name for people
+std::vector<std::pair<std::string, std::string>> words_of(const model::Material& table) { // GLSL, name for people
     std::vector<std::pair<std::string, std::string>> words;
-    for (std::uint32_t i = 0; i < table.param_count; ++i) {
-        const RestageParam& p = table.params[i];
+    for (std::uint32_t i = 0; i < table.params.size(); ++i) {
+        const model::Param& p = table.params[i];
         const std::string id = p.id;
-        if (p.type == RESTAGE_FLOAT) words.emplace_back("floatBitsToUint(m." + id + ")", id);
-        if (p.type == RESTAGE_COLOR)
+        if (p.type == model::ParamType::number) words.emplace_back("floatBitsToUint(m." + id + ")", id);
+        if (p.type == model::ParamType::color)
             for (const char* c : {".x", ".y", ".z"})
                 words.emplace_back("floatBitsToUint(m." + id + c + ")", id + c);
-        if (p.type == RESTAGE_INT || p.type == RESTAGE_ENUM || p.type == RESTAGE_BOOL)
+        if (p.type == model::ParamType::integer || p.type == model::ParamType::choice ||
+            p.type == model::ParamType::boolean)
             words.emplace_back("uint(m." + id + ")", id);
-        if (p.type == RESTAGE_TABLE)
+        if (p.type == model::ParamType::table)
             for (const char* at : {"0u", "table_size(m.$) - 1u", "table_size(m.$)"}) {
                 std::string word = std::string("table_word(m.$, ") + at + ")", size = "table_size(m.$)";
                 if (std::string_view(at) == "0u") words.emplace_back(placed(size, id), id + ", its size");
@@ -53,25 +54,25 @@ std::vector<std::pair<std::string, std::string>> words_of(const RestageMaterial1
 
 // What the GLSL must see, from the set itself and not from how it is packed.
 Result<std::vector<std::uint32_t>> expected_words(const Subject& s, const ParamSet& set) {
-    const RestageMaterial1& table = s.table();
+    const model::Material& table = s.table();
     std::vector<std::uint32_t> words;
-    for (std::uint32_t i = 0; i < table.param_count; ++i) {
-        const RestageParam& p = table.params[i];
+    for (std::uint32_t i = 0; i < table.params.size(); ++i) {
+        const model::Param& p = table.params[i];
         const scene::Value* v = set.find(p.id);
-        const float first = v ? v->v[0] : p.def[0];
-        if (p.type == RESTAGE_FLOAT) words.push_back(std::bit_cast<std::uint32_t>(first));
-        if (p.type == RESTAGE_COLOR)
+        const scene::Value first = v ? *v : scene::default_value(p);
+        if (p.type == model::ParamType::number) words.push_back(std::bit_cast<std::uint32_t>(first.scalar()));
+        if (p.type == model::ParamType::color)
             for (std::size_t c = 0; c < 3; ++c)
                 words.push_back(std::bit_cast<std::uint32_t>(v ? v->v[c] : p.def[c]));
-        if (p.type == RESTAGE_INT) words.push_back(static_cast<std::uint32_t>(static_cast<int>(std::lround(first))));
-        if (p.type == RESTAGE_BOOL) words.push_back(first != 0);
-        if (p.type == RESTAGE_ENUM) {
-            std::uint32_t index = static_cast<std::uint32_t>(p.def[0]);
+        if (p.type == model::ParamType::integer) words.push_back(static_cast<std::uint32_t>(first.whole()));
+        if (p.type == model::ParamType::boolean) words.push_back(first.whole() != 0);
+        if (p.type == model::ParamType::choice) {
+            std::uint32_t index = static_cast<std::uint32_t>(p.int_def);
             for (std::size_t k = 0; v && k < choices(p); ++k)
                 if (choice(p, k) == v->text) index = static_cast<std::uint32_t>(k);
             words.push_back(index);
         }
-        if (p.type == RESTAGE_TABLE) {
+        if (p.type == model::ParamType::table) {
             RESTAGE_TRY(const auto read, s.material().source->table_reader()->read(p.id, render::table_path(p, set)));
             const auto& in = read->words;
             words.push_back(static_cast<std::uint32_t>(in.size()));
@@ -133,7 +134,7 @@ Result<StepResult> through_glsl(Subject& s, const std::vector<ParamSet>& sets) {
 }
 
 // One material a set, each on a triangle: pbrt keeps no material that nothing has.
-scene::Scene scene_of(const RestageMaterial1& table, const std::vector<ParamSet>& sets) {
+scene::Scene scene_of(const model::Material& table, const std::vector<ParamSet>& sets) {
     scene::Scene scene;
     scene::apply(scene, scene::insert(scene, scene::Camera{}, "check"));
     scene.active_camera.value = {1};
@@ -176,18 +177,22 @@ Result<StepResult> through_project(Subject& s, const scene::Scene& scene) {
 }
 
 // Do both say the same, defaults filled in? What the file says in decimal may differ in the last bit.
-bool same_values(const RestageMaterial1& table, const ParamSet& a, const ParamSet& b) {
-    for (std::uint32_t i = 0; i < table.param_count; ++i) {
-        const RestageParam& p = table.params[i];
-        if (p.type > RESTAGE_ENUM) continue; // neither texts nor references
+bool same_values(const model::Material& table, const ParamSet& a, const ParamSet& b) {
+    for (std::uint32_t i = 0; i < table.params.size(); ++i) {
+        const model::Param& p = table.params[i];
+        if (p.type > model::ParamType::choice) continue; // neither texts nor references
         const scene::Value *x = a.find(p.id), *y = b.find(p.id);
-        if (p.type == RESTAGE_ENUM) {
-            const std::string otherwise = choice(p, static_cast<std::size_t>(p.def[0]));
+        if (p.type == model::ParamType::choice) {
+            const std::string otherwise = choice(p, static_cast<std::size_t>(p.int_def));
             if ((x ? x->text : otherwise) != (y ? y->text : otherwise)) return false;
             continue;
         }
-        for (std::size_t c = 0; c < (p.type == RESTAGE_COLOR ? 3u : 1u); ++c) {
-            const float u = x ? x->v[c] : p.def[c], v = y ? y->v[c] : p.def[c];
+        for (std::size_t c = 0; c < (p.type == model::ParamType::color ? 3u : 1u); ++c) {
+            const auto at = [&](const scene::Value* set) {
+                const scene::Value held = set ? *set : scene::default_value(p);
+                return c == 0 ? held.scalar() : held.v[c];
+            };
+            const float u = at(x), v = at(y);
             if (std::abs(u - v) > 1e-6f * std::max(std::abs(u), std::abs(v))) return false;
         }
     }
@@ -217,7 +222,7 @@ Result<double> difference(Subject& s, const ParamSet& a, const ParamSet& b, Engi
     }
     if (off.empty()) return 0;
     std::sort(off.begin(), off.end());
-    return s.is(RESTAGE_MATERIAL_STOCHASTIC) ? off[off.size() / 2] : off.back();
+    return s.table().stochastic ? off[off.size() / 2] : off.back();
 }
 
 // pbrt says some values otherwise (roughnesses as microfacets' alpha, metals by one of two ways), so it is the BSDF
@@ -252,7 +257,7 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
         if (same_values(s.table(), m.params, other)) continue;
         ++otherwise;
         RESTAGE_TRY(const double off, difference(s, m.params, other, e));
-        if (!(off <= (s.is(RESTAGE_MATERIAL_STOCHASTIC) ? 0.1 : 1e-2)))
+        if (!(off <= (s.table().stochastic ? 0.1 : 1e-2)))
             return StepResult::failed(
                 fmt::format("a pbrt file gives back another material, whose f differs by {:.2g} %:\n  {}\n  for {}",
                             100 * off, describe(other), describe(m.params)));
@@ -263,12 +268,12 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
 } // namespace
 
 Result<StepResult> check_params(Subject& s) {
-    if (s.table().param_count == 0) return StepResult::skip("has no parameters");
+    if (s.table().params.size() == 0) return StepResult::skip("has no parameters");
     Engine e = s.random("params");
     std::vector<ParamSet> sets{{}};
     while (sets.size() < s.size(200, 50))
         sets.push_back(random_config(s.table(), e));
-    const bool glsl = !s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL);
+    const bool glsl = s.table().has_code();
     if (glsl) {
         RESTAGE_TRY(StepResult seen, through_glsl(s, sets));
         if (seen.verdict != Verdict::pass) return seen;
@@ -281,7 +286,7 @@ Result<StepResult> check_params(Subject& s) {
         RESTAGE_TRY(kept, through_pbrt(s, scene, otherwise));
         if (kept.verdict != Verdict::pass) return kept;
     }
-    return StepResult::passed({{"parameters", double(s.table().param_count)},
+    return StepResult::passed({{"parameters", double(s.table().params.size())},
                                {"sets", double(sets.size())},
                                {"said otherwise by pbrt", double(otherwise)}},
                               kept.text);

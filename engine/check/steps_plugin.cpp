@@ -22,7 +22,7 @@ Result<StepResult> check_manifest(Subject& s) {
                                       " is missing");
     if (m.licence.empty())
         return StepResult::failed((s.folder / "plugin.json").string() + ": \"licence\" is missing or empty");
-    return StepResult::passed({}, fmt::format("{} {}, {}, {}", m.id, m.version, to_string(m.kind), m.licence));
+    return StepResult::passed({}, fmt::format("{} {}, {}, {}", m.id, m.version, m.kind(), m.licence));
 }
 
 Result<StepResult> check_load(Subject& s) {

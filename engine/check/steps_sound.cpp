@@ -24,7 +24,7 @@ std::string bad_value(const char* what, const Vec3& v) {
 
 // What is wrong with an answer, or "".
 std::string problem(const Subject& s, const BsdfJob& job, const BsdfAnswer& a) {
-    const bool transmissive = s.is(RESTAGE_MATERIAL_TRANSMISSIVE);
+    const bool transmissive = s.table().transmissive;
     if (!not_negative(a.eval)) return bad_value("eval(wo, wi)", a.eval);
     if (!not_negative(a.eval_sampled)) return bad_value("eval(wo, sampled wi)", a.eval_sampled);
     if (!not_negative(a.eval_reverse)) return bad_value("eval(sampled wi, wo)", a.eval_reverse);
@@ -45,22 +45,20 @@ std::string problem(const Subject& s, const BsdfJob& job, const BsdfAnswer& a) {
     if (side != (a.wi[2] * job.wo[2] > 0 ? reflect : transmit))
         return fmt::format("the flags of a sample ({}) do not say on which side of the surface {} is", a.flags,
                            describe(a.wi));
-    if (side == transmit && !s.is(RESTAGE_MATERIAL_TRANSMISSIVE))
-        return "a sample transmits, but TRANSMISSIVE is not declared";
+    if (side == transmit && !s.table().transmissive) return "a sample transmits, but TRANSMISSIVE is not declared";
     return "";
 }
 
 // Each line at an end of its range, or next to it: alpha -> 0, eta -> 1, k -> 0.
-ParamSet extreme_config(const RestageMaterial1& table, Engine& e) {
+ParamSet extreme_config(const model::Material& table, Engine& e) {
     ParamSet set = random_config(table, e);
-    for (std::uint32_t i = 0; i < table.param_count; ++i) {
-        const RestageParam& p = table.params[i];
+    for (const model::Param& p : table.params) {
         const float steps[] = {0.f, 1e-20f, 1e-12f, 1e-7f, 1e-6f, 1e-5f, 1e-4f, 1e-3f};
         const float step = steps[e() % std::size(steps)];
         const bool up = e() % 3 != 0;
         const float x = up ? p.min + step : p.max - step;
-        if (p.type == RESTAGE_FLOAT) set.set(p.id, Value::number(std::clamp(x, p.min, p.max)));
-        if (p.type == RESTAGE_COLOR && e() % 2) {
+        if (p.type == model::ParamType::number) set.set(p.id, Value::number(std::clamp(x, p.min, p.max)));
+        if (p.type == model::ParamType::color && e() % 2) {
             const float c = std::clamp(x, p.min, p.max);
             set.set(p.id, Value::color(c, e() % 2 ? c : p.max, c));
         }
@@ -72,7 +70,7 @@ ParamSet extreme_config(const RestageMaterial1& table, Engine& e) {
 } // namespace
 
 Result<StepResult> check_sound(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("sound");
     const std::size_t sets = s.size(4000, 1000), count = s.size(600'000, 60'000);

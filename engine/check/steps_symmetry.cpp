@@ -13,9 +13,9 @@ using scene::ParamSet;
 
 // Helmholtz, with Veach's eta^2 (1997, Eq. 5.12): f(wo,wi) eta_i^2 / eta_o^2 = f(wi,wo) in radiance transport.
 Result<StepResult> check_reciprocity(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
-    if (s.is(RESTAGE_MATERIAL_NONRECIPROCAL)) return StepResult::skip("NONRECIPROCAL is declared");
-    if (s.is(RESTAGE_MATERIAL_STOCHASTIC)) return check_mean_reciprocity(s);
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (s.table().nonreciprocal) return StepResult::skip("NONRECIPROCAL is declared");
+    if (s.table().stochastic) return check_mean_reciprocity(s);
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("reciprocity");
     const std::size_t sets = s.size(1000, 250);
@@ -128,9 +128,9 @@ Result<StepResult> check_mean_isotropy(Subject& s) {
 
 // Without TANGENT the frame's x axis is anywhere: what depends on it changes from triangle to triangle.
 Result<StepResult> check_isotropy(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
-    if (s.is(RESTAGE_MATERIAL_TANGENT)) return StepResult::skip("TANGENT is declared");
-    if (s.is(RESTAGE_MATERIAL_STOCHASTIC)) return check_mean_isotropy(s);
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (s.table().tangent) return StepResult::skip("TANGENT is declared");
+    if (s.table().stochastic) return check_mean_isotropy(s);
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("isotropy");
     const std::size_t sets = s.size(500, 100);
@@ -193,7 +193,7 @@ Result<StepResult> check_isotropy(Subject& s) {
 
 namespace {
 
-ParamSet with_roughness(const RestageMaterial1& table, float r) { return rough_config(table, r, r); }
+ParamSet with_roughness(const model::Material& table, float r) { return rough_config(table, r, r); }
 
 Result<double> delta_share(BsdfLab& lab, const ParamSet& set, const Vec3& wo) {
     RESTAGE_TRY(const std::vector<BsdfDrawn> samples, lab.draw(set, wo, 7, 4096));
@@ -237,7 +237,7 @@ Result<std::array<Mean, environments>> response(BsdfLab& lab, const ParamSet& se
 } // namespace
 
 Result<StepResult> check_limit(Subject& s) {
-    if (s.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
     if (with_roughness(s.table(), 0).entries().empty()) return StepResult::skip("no parameter is called a roughness");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     const Vec3 tilted = from_degrees(40, 20);

@@ -192,7 +192,7 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
         broken.clear();
         subject.choose(m);
         run_all(material_steps(), m.table->type);
-        if (measured && broken.empty() && !subject.is(RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL)) measured();
+        if (measured && broken.empty() && subject.table().has_code()) measured();
     }
     broken.clear();
     for (const auto& entry : subject.registry().denoisers()) {
@@ -201,6 +201,7 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
     }
     for (const auto& entry : subject.registry().importers()) {
         subject.importer = entry.table;
+        subject.importer_entry = entry;
         run_all(importer_steps(), entry.table->format);
     }
     for (const auto& entry : subject.registry().exporters()) {

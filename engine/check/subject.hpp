@@ -47,14 +47,14 @@ class Subject {
     const plugin::Entry* entry() const { return entry_; } // null before load
 
     // What the following steps are about, if it is no material.
-    const RestageImporter1* importer = nullptr;
-    const RestageExporter1* exporter = nullptr;
-    const RestageDenoiser1* denoiser = nullptr;
+    const model::Importer* importer = nullptr;
+    plugin::ImporterEntry importer_entry; // of it
+    const model::Exporter* exporter = nullptr;
+    const plugin::Denoiser* denoiser = nullptr;
     // The material that the following steps are about.
     void choose(const plugin::MaterialEntry& material);
-    const RestageMaterial1& table() const { return *table_; }
+    const model::Material& table() const { return *table_; }
     render::MaterialPlugin material() const { return {table_, folder, source_}; }
-    bool is(std::uint32_t flag) const { return (table_->flags & flag) != 0; }
     Result<gpu::Device*> device();
     const std::string& no_device() const { return no_device_; } // why this machine cannot run GLSL; "" = it can
     Result<gpu::ShaderCompiler*> compiler();
@@ -71,7 +71,7 @@ class Subject {
     Log log_;
     std::unique_ptr<plugin::Registry> registry_;
     const plugin::Entry* entry_ = nullptr;
-    const RestageMaterial1* table_ = nullptr;
+    const model::Material* table_ = nullptr;
     std::shared_ptr<const plugin::MaterialSource> source_; // keeps it alive
     std::map<std::string, Exception> exceptions_;
     std::unique_ptr<gpu::Device> device_;

@@ -110,7 +110,7 @@ Result<PluginReport> check_plugin(const Supervision& s) {
     report.seed = s.options.seed, report.quick = s.options.quick;
     if (const auto manifest = plugin::read_manifest(s.folder / "plugin.json")) {
         report.id = manifest->id, report.version = manifest->version;
-        report.kind = plugin::to_string(manifest->kind);
+        report.kind = manifest->kind();
     }
     std::string step, of, doing;
     bool ended = false;

@@ -84,20 +84,20 @@ Result<Id<T>> named(const Scene& scene, const Assignment& a) {
 // A name that is no number is a texture's.
 bool begins_number(const std::string& text) { return !text.empty() && text.find_first_of("0123456789.+-") == 0; }
 
-Result<Value> value_of(const Scene& scene, const Assignment& a, RestageType type) {
+Result<Value> value_of(const Scene& scene, const Assignment& a, model::ParamType type) {
     Value value{.type = type};
     switch (type) {
-        case RESTAGE_FLOAT:
-        case RESTAGE_COLOR:
-        case RESTAGE_TEXTURE: {
+        case model::ParamType::number:
+        case model::ParamType::color:
+        case model::ParamType::texture: {
             if (const auto texture = find_by_name<Texture>(scene, a.value); texture && !begins_number(a.value)) {
                 value.texture = texture;
                 return value;
             }
-            if (type == RESTAGE_TEXTURE || !begins_number(a.value))
+            if (type == model::ParamType::texture || !begins_number(a.value))
                 return fail(a.who + ": there is no texture \"" + a.value + "\"" +
-                            (type == RESTAGE_TEXTURE ? "" : ", nor is it a number"));
-            if (type == RESTAGE_FLOAT) {
+                            (type == model::ParamType::texture ? "" : ", nor is it a number"));
+            if (type == model::ParamType::number) {
                 RESTAGE_TRY(value.v[0], number(a));
             } else {
                 RESTAGE_TRY(const glm::vec3 c, color(a));
@@ -105,17 +105,19 @@ Result<Value> value_of(const Scene& scene, const Assignment& a, RestageType type
             }
             return value;
         }
-        case RESTAGE_INT: {
-            RESTAGE_TRY(value.v[0], number(a));
-            if (value.v[0] != std::floor(value.v[0])) return fail(a.who + ": \"" + a.value + "\" is no whole number");
+        case model::ParamType::integer: {
+            RESTAGE_TRY(const float x, number(a));
+            if (x != std::floor(x) || std::abs(x) > 1e9f)
+                return fail(a.who + ": \"" + a.value + "\" is no whole number");
+            value.i = static_cast<int>(x);
             return value;
         }
-        case RESTAGE_BOOL: {
+        case model::ParamType::boolean: {
             RESTAGE_TRY(const bool on, truth(a));
-            value.v[0] = on ? 1.f : 0.f;
+            value.i = on;
             return value;
         }
-        case RESTAGE_MATERIAL: {
+        case model::ParamType::material: {
             RESTAGE_TRY(value.material, named<Material>(scene, a));
             return value;
         }
@@ -159,7 +161,7 @@ Result<Edit> light_edit(const Scene& scene, Id<Light> id, const Assignment& a) {
     if (a.field == "value") {
         RESTAGE_TRY(light.value, color(a));
     } else {
-        if (light.kind != RESTAGE_LIGHT_SPOT) return fail(a.who + ": only a spot light has a cone");
+        if (light.kind != scene::LightKind::spot) return fail(a.who + ": only a spot light has a cone");
         RESTAGE_TRY((a.field == "cone_angle" ? light.cone_angle : light.cone_delta), number(a));
     }
     return set_light(scene, id, std::move(light));
@@ -212,19 +214,17 @@ class MaterialFields {
     MaterialFields(const Session& session, Id<Material> id) : material_(session.scene().materials[id]) {
         table_ = session.registry().find_material(material_.type);
     }
-    std::optional<RestageType> type_of(const std::string& field) const {
-        if (table_)
-            for (std::uint32_t i = 0; i < table_->table->param_count; ++i)
-                if (table_->table->params[i].id == field) return RestageType(table_->table->params[i].type);
+    std::optional<model::ParamType> type_of(const std::string& field) const {
+        if (const model::Param* line = table_ ? table_->table->find(field) : nullptr) return line->type;
         if (const Value* there = material_.params.find(field)) return there->type;
-        if (field == "bump") return RESTAGE_FLOAT;
+        if (field == "bump") return model::ParamType::number;
         return std::nullopt;
     }
     std::string list() const {
         std::string text = "type";
         if (table_)
-            for (std::uint32_t i = 0; i < table_->table->param_count; ++i)
-                text += std::string(", ") + table_->table->params[i].id;
+            for (const model::Param& line : table_->table->params)
+                text += ", " + line.id;
         return text;
     }
 

@@ -34,7 +34,8 @@ glm::vec3 mean_of_sky(const Scene& s) {
     glm::dvec3 sum(0);
     double weights = 0;
     for (std::uint32_t y = 0; y < p.height; ++y) {
-        const double weight = sky.mapping == RESTAGE_EQUIRECT ? std::sin((y + 0.5) / p.height * 3.14159265358979) : 1;
+        const double weight =
+            sky.mapping == scene::Mapping::equirect ? std::sin((y + 0.5) / p.height * 3.14159265358979) : 1;
         for (std::uint32_t x = 0; x < p.width; ++x) {
             const float* v = &p.values[(std::size_t{y} * p.width + x) * p.channels];
             for (std::size_t c = 0; c < 3; ++c)
@@ -52,28 +53,25 @@ bool passes(const Scene& s, const plugin::Registry& registry, const Instance& in
     const Material* m = s.materials.find(in.material);
     const auto plugin = m ? registry.find_material(m->type) : std::nullopt;
     if (!plugin) return false;
-    if (plugin->table->flags & RESTAGE_MATERIAL_NULL) return true;
-    if (!(plugin->table->flags & RESTAGE_MATERIAL_TRANSMISSIVE)) return false;
-    for (std::uint32_t i = 0; i < plugin->table->param_count; ++i)
-        if (std::string_view(plugin->table->params[i].id) == "transmission")
-            return m->params.number("transmission", plugin->table->params[i].def[0]) > 0.5f;
-    return true;
+    if (plugin->table->null_surface) return true;
+    if (!plugin->table->transmissive) return false;
+    const model::Param* line = plugin->table->find("transmission");
+    return !line || m->params.number("transmission", line->def[0]) > 0.5f;
 }
 
 // Of the first colour that a material of the type has and does not shine by.
 double albedo_of(const Scene& s, const plugin::Registry& registry, const Instance& in) {
     const Material* m = s.materials.find(in.material);
     const auto plugin = m ? registry.find_material(m->type) : std::nullopt;
-    for (std::uint32_t i = 0; plugin && i < plugin->table->param_count; ++i) {
-        const RestageParam& line = plugin->table->params[i];
-        const RestageEmission1* shine = plugin->source ? plugin->source->emission() : nullptr;
-        if (line.type != RESTAGE_COLOR || line.max != 1 || (shine && std::string_view(shine->radiance) == line.id))
-            continue;
+    if (!plugin) return 0.5;
+    const auto& shine = plugin->table->emission;
+    for (const model::Param& line : plugin->table->params) {
+        if (line.type != model::ParamType::color || line.max != 1 || (shine && shine->radiance == line.id)) continue;
         const Value* set = m->params.find(line.id);
         const Value v = set ? *set : default_value(line);
-        const glm::vec3 c = v.texture                 ? io::mean_of(s, v.texture)
-                            : v.type == RESTAGE_FLOAT ? glm::vec3(v.v[0])
-                                                      : glm::vec3(v.v[0], v.v[1], v.v[2]);
+        const glm::vec3 c = v.texture                           ? io::mean_of(s, v.texture)
+                            : v.type == model::ParamType::color ? glm::vec3(v.v[0], v.v[1], v.v[2])
+                                                                : glm::vec3(v.scalar());
         return std::clamp(double(0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z), 0.0, 1.0);
     }
     return 0.5;
@@ -87,7 +85,7 @@ void append(Edit& edit, Edit more) {
 std::optional<Light> headlamp(const Scene& s, const plugin::Registry& registry) {
     const Camera* camera = s.cameras.find(s.active_camera.value);
     if (!camera) return std::nullopt;
-    Light lamp{.name = "Camera lamp", .kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(1)};
+    Light lamp{.name = "Camera lamp", .kind = scene::LightKind::point, .value = glm::vec3(1)};
     // A little above the camera, so that not every shadow is behind its object.
     lamp.light_to_world[3] = camera->camera_to_world[3];
     Scene lit = s;
@@ -141,7 +139,7 @@ Edit light_studio(const Scene& scene, const plugin::Registry& registry) {
 }
 
 void expose(io::ImportedScene& in, const plugin::Registry& registry) {
-    const auto tell = [&](const char* what, std::string note) { in.report.add(RESTAGE_KEPT, what, std::move(note)); };
+    const auto tell = [&](const char* what, std::string note) { in.report.add(io::Fate::kept, what, std::move(note)); };
     if (!in.unexposed) {
         if (!has_light(in.scene, registry)) tell("light", std::string(no_light) + "; studio light can be added");
         return;

@@ -61,7 +61,7 @@ io::Report read_report(const std::string& text) {
     for (const json& e : entries)
         if (e.is_array() && e.size() == 5 && e[0].is_number_integer() && e[2].is_number_unsigned() &&
             e[1].is_string() && e[3].is_string() && e[4].is_string())
-            report.add(static_cast<RestageFate>(std::clamp(e[0].get<int>(), 0, 2)), e[3].get<std::string>(),
+            report.add(static_cast<io::Fate>(std::clamp(e[0].get<int>(), 0, 2)), e[3].get<std::string>(),
                        e[4].get<std::string>(), e[1].get<std::string>(), e[2].get<std::uint32_t>());
     return report;
 }
@@ -109,12 +109,12 @@ Result<std::string> hand_over_pictures(io::ImportedScene& imported, const fs::pa
     for (const Job& job : work) {
         const std::string who = "image \"" + job.image.name + "\"";
         const bool told = std::ranges::any_of(imported.report.entries, [&](const io::ReportEntry& entry) {
-            return entry.fate == RESTAGE_DROPPED && entry.note.ends_with(": " + job.image.path);
+            return entry.fate == io::Fate::dropped && entry.note.ends_with(": " + job.image.path);
         });
         if (!job.problem.empty() && !told)
-            imported.report.add(RESTAGE_DROPPED, who, job.problem, job.image.path);
+            imported.report.add(io::Fate::dropped, who, job.problem, job.image.path);
         else if (!job.warning.empty())
-            imported.report.add(RESTAGE_APPROXIMATED, who, job.warning, job.image.path);
+            imported.report.add(io::Fate::approximated, who, job.warning, job.image.path);
         if (job.problem.empty())
             list.push_back({job.image.path, static_cast<int>(job.image.encoding), job.image.gamma, job.file});
     }

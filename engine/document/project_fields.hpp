@@ -157,29 +157,29 @@ void fields(V& v, scene::Origin& o) {
 template <class E>
 struct Names;
 template <>
-struct Names<RestageEncoding> {
+struct Names<scene::Encoding> {
     static constexpr const char* list[] = {"linear", "srgb", "gamma"};
-    static constexpr int first = RESTAGE_LINEAR;
+    static constexpr int first = static_cast<int>(scene::Encoding::linear);
 };
 template <>
-struct Names<RestageLightKind> {
+struct Names<scene::LightKind> {
     static constexpr const char* list[] = {"point", "spot", "distant"};
-    static constexpr int first = RESTAGE_LIGHT_POINT;
+    static constexpr int first = static_cast<int>(scene::LightKind::point);
 };
 template <>
-struct Names<RestageFalloff> {
+struct Names<scene::Falloff> {
     static constexpr const char* list[] = {"smooth", "quartic"};
-    static constexpr int first = RESTAGE_FALLOFF_SMOOTH;
+    static constexpr int first = static_cast<int>(scene::Falloff::smooth);
 };
 template <>
-struct Names<RestageMapping> {
+struct Names<scene::Mapping> {
     static constexpr const char* list[] = {"equirect", "octahedral"};
-    static constexpr int first = RESTAGE_EQUIRECT;
+    static constexpr int first = static_cast<int>(scene::Mapping::equirect);
 };
 template <>
-struct Names<RestageProjection> {
+struct Names<scene::Projection> {
     static constexpr const char* list[] = {"perspective", "orthographic", "spherical", "spherical_equal_area"};
-    static constexpr int first = RESTAGE_PERSPECTIVE;
+    static constexpr int first = static_cast<int>(scene::Projection::perspective);
 };
 template <>
 struct Names<scene::FilterKind> {

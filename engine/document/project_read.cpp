@@ -171,7 +171,7 @@ class Reader : public ValueReader {
     Result<> judge_lost() {
         if (lost_.empty()) {
             if (base_changed_)
-                doc_.report.add(RESTAGE_APPROXIMATED, "project",
+                doc_.report.add(io::Fate::approximated, "project",
                                 "its scene has changed on disk since it was saved; the changes were found to fit",
                                 doc_.base.file);
             return {};
@@ -188,7 +188,7 @@ class Reader : public ValueReader {
                 path_, doc_.base.file, list));
         }
         for (const std::string& what : lost_)
-            doc_.report.add(RESTAGE_DROPPED, what, "it is not in the scene any more; what changed it was left out",
+            doc_.report.add(io::Fate::dropped, what, "it is not in the scene any more; what changed it was left out",
                             path_);
         return {};
     }
@@ -219,7 +219,7 @@ class Reader : public ValueReader {
                 doc_.sources.note_all(scene->scene, file, format);
                 at->second = std::move(scene->scene);
             } else {
-                doc_.report.add(RESTAGE_DROPPED, fs::path(file).filename().string(), scene.error().message, file);
+                doc_.report.add(io::Fate::dropped, fs::path(file).filename().string(), scene.error().message, file);
             }
         }
         const auto& items = table<T>(at->second);
@@ -229,7 +229,7 @@ class Reader : public ValueReader {
         // Something to see in its place; saved again, it refers to the same file as before.
         const auto data = stand_in();
         doc_.sources.note(data, {file, format, ref.number, ref.name});
-        doc_.report.add(RESTAGE_DROPPED, fmt::format("{} \"{}\"", kind_name<T>, ref.name),
+        doc_.report.add(io::Fate::dropped, fmt::format("{} \"{}\"", kind_name<T>, ref.name),
                         "it is not in " + file + "; something stands in for it", path_);
         return made[current_] = data;
     }
@@ -324,7 +324,7 @@ class Reader : public ValueReader {
         });
         for (std::size_t i = 0; i < work.size(); ++i)
             if (!problems[i].empty())
-                doc_.report.add(RESTAGE_DROPPED, "image \"" + work[i]->name + "\"", problems[i], work[i]->path);
+                doc_.report.add(io::Fate::dropped, "image \"" + work[i]->name + "\"", problems[i], work[i]->path);
     }
 
     const std::string& path_;

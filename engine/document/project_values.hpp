@@ -149,10 +149,10 @@ class ValueReader {
         v = {};
         if (j.is_number()) return void(v.v[0] = j.get<float>());
         if (j.is_boolean()) {
-            v.type = RESTAGE_BOOL;
-            v.v[0] = j.get<bool>() ? 1.f : 0.f;
+            v.type = model::ParamType::boolean;
+            v.i = j.get<bool>();
         } else if (j.is_array() && j.size() == 3) {
-            v.type = RESTAGE_COLOR;
+            v.type = model::ParamType::color;
             for (std::size_t i = 0; i < 3; ++i)
                 read(j[i], v.v[i], field);
         } else if (j.is_object()) {
@@ -160,10 +160,16 @@ class ValueReader {
             const auto known = std::find_if(std::begin(type_names), std::end(type_names),
                                             [&](const char* name) { return type != j.end() && *type == name; });
             if (known == std::end(type_names)) return error(field, "the type of the value is not known");
-            v.type = static_cast<RestageType>(RESTAGE_FLOAT + (known - std::begin(type_names)));
+            v.type = static_cast<model::ParamType>(known - std::begin(type_names));
             if (const auto list = j.find("v"); list != j.end() && list->is_array())
                 for (std::size_t i = 0; i < std::min<std::size_t>(list->size(), 4); ++i)
                     read((*list)[i], v.v[i], field);
+            if (v.is_whole()) { // whole numbers stand where others do
+                v.i = static_cast<int>(std::clamp(v.v[0], -2147483520.f, 2147483520.f));
+                if (const auto list = j.find("v"); list != j.end() && list->is_array() && !list->empty())
+                    if ((*list)[0].is_number_integer()) v.i = (*list)[0].get<int>();
+                v.v = {};
+            }
             if (const auto path = j.find("file"); path != j.end()) { // of a table
                 read(*path, v.text, field);
                 if (!v.text.empty()) v.text = (folder_ / v.text).lexically_normal().string();
@@ -174,7 +180,7 @@ class ValueReader {
         } else if (float x = 0; read_number(j, x)) { // "inf"
             v.v[0] = x;
         } else if (j.is_string()) {
-            v.type = RESTAGE_TEXT;
+            v.type = model::ParamType::text;
             v.text = j.get<std::string>();
         } else
             error(field, "a value is expected");

@@ -173,16 +173,17 @@ class Writer {
         };
         // The commonest in short.
         if (plain && v.text.empty()) {
-            if (v.type == RESTAGE_FLOAT && used <= 1) return number_json(v.v[0]);
-            if (v.type == RESTAGE_COLOR && used <= 3) return list(3);
-            if (v.type == RESTAGE_BOOL && used <= 1 && (v.v[0] == 1 || used == 0)) return v.v[0] == 1;
+            if (v.type == model::ParamType::number && used <= 1) return number_json(v.v[0]);
+            if (v.type == model::ParamType::color && used <= 3) return list(3);
+            if (v.type == model::ParamType::boolean && (v.i == 0 || v.i == 1)) return v.i == 1;
         }
-        if (plain && v.type == RESTAGE_TEXT && used == 0) return v.text;
+        if (plain && v.type == model::ParamType::text && used == 0) return v.text;
         json j;
-        j["type"] = type_names[v.type - RESTAGE_FLOAT];
+        j["type"] = type_names[std::size_t(v.type)];
+        if (v.is_whole() && v.i != 0) j["v"] = json::array({v.i});
         if (used > 0) j["v"] = list(used);
         if (!v.text.empty()) {
-            if (v.type == RESTAGE_TABLE)
+            if (v.type == model::ParamType::table)
                 path_in(j["file"], v.text);
             else
                 j["text"] = v.text;

@@ -104,25 +104,11 @@ Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value 
     const bool common = param == "bump" || param == "normalmap";
     if (plugin && !common) {
         const std::string who = "material \"" + material->name + "\": parameter \"" + std::string(param) + "\"";
-        const auto* begin = plugin->table->params;
-        const auto* end = begin + plugin->table->param_count;
-        const auto* line = std::find_if(begin, end, [&](const RestageParam& p) { return p.id == param; });
-        if (line == end) return fail(who + " is not one of a " + material->type);
-        if (static_cast<RestageType>(line->type) != value.type) return fail(who + " has another type");
-        if (value.type == RESTAGE_TABLE && !value.text.empty())
+        const model::Param* line = plugin->table->find(param);
+        if (!line) return fail(who + " is not one of a " + material->type);
+        if (value.type == model::ParamType::table && !value.text.empty())
             value.text = std::filesystem::absolute(value.text).lexically_normal().string();
-        if (value.texture && !(line->flags & RESTAGE_PARAM_TEXTURABLE) && line->type != RESTAGE_TEXTURE)
-            return fail(who + " takes no texture");
-        if (line->type == RESTAGE_ENUM && !choice_index(line->choices, value.text))
-            return fail(who + " cannot be \"" + value.text + "\"; " + line->choices + " are possible");
-        const int components = line->type == RESTAGE_COLOR                                ? 3
-                               : line->type == RESTAGE_FLOAT || line->type == RESTAGE_INT ? 1
-                                                                                          : 0;
-        for (int i = 0; i < components && !value.texture; ++i)
-            if (!(value.v[static_cast<std::size_t>(i)] >= line->min &&
-                  value.v[static_cast<std::size_t>(i)] <= line->max))
-                return fail(fmt::format("{}: {:f} is out of its range, {:f} to {:f}", who,
-                                        value.v[static_cast<std::size_t>(i)], line->min, line->max));
+        if (const std::string why = misfit(*line, value); !why.empty()) return fail(who + why);
     }
     return scene::set_param(scene_, id, param, std::move(value));
 }
@@ -169,7 +155,7 @@ Result<Merged> Session::insert(const io::ImportedScene& imported, const std::str
     sources_.note_all(imported.scene, path.string(), imported.importer);
     history_.push(scene_, made.edit);
     for (const io::ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
-        if (entry.fate != RESTAGE_KEPT || (entry.what != "camera" && entry.what != "environment"))
+        if (entry.fate != io::Fate::kept || (entry.what != "camera" && entry.what != "environment"))
             report_.entries.push_back(entry);
     return made;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/exchange.hpp"
 
+#include <restage/scene_io.h>
+
 #include <cstring>
 
 namespace restage::io {
@@ -17,7 +19,7 @@ constexpr std::pair<scene::FilterKind, const char*> filters[] = {{scene::FilterK
 
 void Exchange::tell(int fate, const char* what, const char* note, const char* file, std::uint32_t line) {
     const bool known = fate >= RESTAGE_KEPT && fate <= RESTAGE_DROPPED;
-    report.add(known ? static_cast<RestageFate>(fate) : RESTAGE_DROPPED, text(what), text(note), text(file), line);
+    report.add(known ? static_cast<Fate>(fate) : Fate::dropped, text(what), text(note), text(file), line);
 }
 
 void Exchange::raise(const char* file, std::uint32_t line, std::uint32_t column, const char* message) {

@@ -6,7 +6,6 @@
 #include "io/report.hpp"
 #include "scene/scene.hpp"
 
-#include <restage/scene_io.h>
 #include <exception>
 #include <glm/glm.hpp>
 #include <string>
@@ -40,7 +39,7 @@ class Exchange {
             return f(self);
         } catch (const std::exception& e) {
             try {
-                self.report.add(RESTAGE_DROPPED, what, std::string("no memory for it (") + e.what() + ")");
+                self.report.add(Fate::dropped, what, std::string("no memory for it (") + e.what() + ")");
             } catch (...) {
                 return nothing; // no memory for the report either
             }

@@ -4,8 +4,8 @@
 #include "io/scene_reader.hpp"
 #include "scene/validate.hpp"
 
+#include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
@@ -15,38 +15,25 @@ using namespace scene;
 
 namespace {
 
-const RestageParam* find_option(const RestageExporter1& exporter, std::string_view id) {
-    for (std::uint32_t i = 0; i < exporter.option_count; ++i)
-        if (exporter.options[i].id == id) return &exporter.options[i];
-    return nullptr;
-}
-
-std::string known_options(const RestageExporter1& exporter) {
+std::string known_options(const model::Exporter& exporter) {
     std::string list;
-    for (std::uint32_t i = 0; i < exporter.option_count; ++i) {
-        list += (list.empty() ? "" : ", ") + std::string(exporter.options[i].id);
-        if (exporter.options[i].type == RESTAGE_ENUM) list += "=" + std::string(exporter.options[i].choices);
+    for (const model::Param& option : exporter.options) {
+        list += (list.empty() ? "" : ", ") + option.id;
+        if (option.type == model::ParamType::choice) list += "=" + choices_text(option);
     }
     return list.empty() ? "it has no options" : "there are: " + list;
 }
 
-Result<> check_option(const RestageExporter1& exporter, const std::string& id, const Value& value) {
-    const RestageParam* option = find_option(exporter, id);
+Result<> check_option(const model::Exporter& exporter, const std::string& id, const Value& value) {
+    const model::Param* option = find_param(exporter.options, id);
     const std::string who = std::string("exporter \"") + exporter.format + "\": ";
     if (!option) return fail(who + "there is no option \"" + id + "\"; " + known_options(exporter));
-    if (value.type != static_cast<RestageType>(option->type))
-        return fail(who + "option \"" + id + "\" has another type");
-    if (option->type == RESTAGE_ENUM && !choice_index(option->choices, value.text))
-        return fail(who + "option \"" + id + "\" cannot be \"" + value.text + "\"; " + option->choices +
-                    " are possible");
-    if ((option->type == RESTAGE_FLOAT || option->type == RESTAGE_INT) &&
-        !(value.v[0] >= option->min && value.v[0] <= option->max))
-        return fail(who + "option \"" + id + "\" is out of its range");
+    if (const std::string why = misfit(*option, value); !why.empty()) return fail(who + "option \"" + id + "\"" + why);
     return {};
 }
 
-bool has_extension(const RestageExporter1& exporter, std::string_view extension) {
-    return choice_index(exporter.extensions, extension).has_value();
+bool has_extension(const model::Exporter& exporter, std::string_view extension) {
+    return std::ranges::find(exporter.extensions, extension) != exporter.extensions.end();
 }
 
 } // namespace
@@ -71,20 +58,24 @@ Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::
                 known);
 }
 
-Result<> set_option(const RestageExporter1& exporter, const std::string& assignment, ParamSet& values) {
+Result<> set_option(const model::Exporter& exporter, const std::string& assignment, ParamSet& values) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
         return fail("\"" + assignment + "\" is no option; write name=value");
     const std::string id = assignment.substr(0, equals), text = assignment.substr(equals + 1);
-    const RestageParam* option = find_option(exporter, id);
+    const model::Param* option = find_param(exporter.options, id);
     if (!option) return check_option(exporter, id, {});
-    Value value{.type = static_cast<RestageType>(option->type)};
-    if (option->type == RESTAGE_ENUM || option->type == RESTAGE_TEXT) {
+    Value value{.type = option->type};
+    if (option->type == model::ParamType::choice || option->type == model::ParamType::text) {
         value.text = text;
-    } else if (option->type == RESTAGE_BOOL) {
+    } else if (option->type == model::ParamType::boolean) {
         if (text != "true" && text != "false")
             return fail("option \"" + id + "\": \"" + text + "\" is neither true nor false");
-        value.v[0] = text == "true";
+        value.i = text == "true";
+    } else if (option->type == model::ParamType::integer) {
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value.i);
+        if (code != std::errc() || end != text.data() + text.size())
+            return fail("option \"" + id + "\": \"" + text + "\" is not a whole number");
     } else {
         const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value.v[0]);
         if (code != std::errc() || end != text.data() + text.size())
@@ -98,31 +89,22 @@ Result<> set_option(const RestageExporter1& exporter, const std::string& assignm
 Result<Report> export_scene(const Scene& scene, const std::string& path, const plugin::Registry& registry,
                             const ExportOptions& options) {
     RESTAGE_TRY(const plugin::ExporterEntry chosen, find_exporter(path, options.format, registry));
-    const RestageExporter1* exporter = chosen.table;
+    const model::Exporter* exporter = chosen.table;
     for (const auto& [id, value] : options.values.entries())
         RESTAGE_CHECK(check_option(*exporter, id, value));
     for (const Problem& problem : validate(scene))
         if (problem.severity == Problem::Severity::error) return fail(path + ": not written: " + problem.sentence);
 
     ParamSet all; // every option, set or default, in the table's order
-    for (std::uint32_t i = 0; i < exporter->option_count; ++i) {
-        const Value* given = options.values.find(exporter->options[i].id);
-        all.set(exporter->options[i].id, given ? *given : default_value(exporter->options[i]));
+    for (const model::Param& option : exporter->options) {
+        const Value* given = options.values.find(option.id);
+        all.set(option.id, given ? *given : default_value(option));
     }
-    std::vector<RestageValue> values;
-    for (const auto& [id, value] : all.entries()) {
-        RestageValue out{.id = id.c_str(),
-                         .type = static_cast<std::uint32_t>(value.type),
-                         .ref = 0,
-                         .v = {},
-                         .text = value.text.c_str()};
-        std::memcpy(out.v, value.v.data(), sizeof out.v);
-        values.push_back(out);
-    }
+    const std::vector<RestageValue> values = give_values(all);
     SceneReader reader(scene, registry, options.progress);
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it wrote " + path));
-    const bool saved =
-        exporter->save(path.c_str(), &reader.table(), values.data(), static_cast<std::uint32_t>(values.size())) != 0;
+    const bool saved = chosen.native->save(path.c_str(), &reader.table(), values.data(),
+                                           static_cast<std::uint32_t>(values.size())) != 0;
     note.reset();
     if (reader.cancelled()) return cancelled(path + ": stopped on request");
     if (!reader.error().empty()) return fail(reader.error());

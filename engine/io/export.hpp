@@ -22,7 +22,7 @@ Result<Report> export_scene(const scene::Scene&, const std::string& path, const 
                             const ExportOptions& = {});
 
 // "version=v3" of a command line, after the exporter's table.
-Result<> set_option(const RestageExporter1&, const std::string& assignment, scene::ParamSet& values);
+Result<> set_option(const model::Exporter&, const std::string& assignment, scene::ParamSet& values);
 Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::string& format,
                                             const plugin::Registry&);
 

@@ -25,20 +25,20 @@ constexpr const char* out_of_memory =
     "out of memory: the picture is too large for this machine, or for the limit that was set";
 constexpr float largest_half = 65504.f;
 
-float decode(float encoded, RestageEncoding encoding, float gamma) {
+float decode(float encoded, scene::Encoding encoding, float gamma) {
     switch (encoding) {
-        case RESTAGE_SRGB:
+        case scene::Encoding::srgb:
             return srgb_to_linear(encoded);
-        case RESTAGE_GAMMA:
+        case scene::Encoding::gamma:
             return std::pow(encoded, gamma);
-        case RESTAGE_LINEAR:
+        case scene::Encoding::linear:
             break;
     }
     return encoded;
 }
 
 // 0..2^bits-1 -> linear.
-std::vector<float> decoding_table(std::size_t size, RestageEncoding encoding, float gamma) {
+std::vector<float> decoding_table(std::size_t size, scene::Encoding encoding, float gamma) {
     std::vector<float> table(size);
     for (std::size_t i = 0; i < size; ++i)
         table[i] = decode(static_cast<float>(i) / static_cast<float>(size - 1), encoding, gamma);
@@ -46,7 +46,7 @@ std::vector<float> decoding_table(std::size_t size, RestageEncoding encoding, fl
 }
 
 template <class Integer>
-std::vector<float> linearise(const std::vector<Integer>& encoded, std::uint32_t channels, RestageEncoding encoding,
+std::vector<float> linearise(const std::vector<Integer>& encoded, std::uint32_t channels, scene::Encoding encoding,
                              float gamma) {
     constexpr std::size_t levels = std::size_t{1} << (8 * sizeof(Integer));
     const auto table = decoding_table(levels, encoding, gamma);
@@ -100,7 +100,7 @@ float linear_to_srgb(float linear) {
     return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-scene::PixelData linear_image(DecodedImage decoded, RestageEncoding encoding, float gamma) {
+scene::PixelData linear_image(DecodedImage decoded, scene::Encoding encoding, float gamma) {
     scene::PixelData image{.width = decoded.width, .height = decoded.height, .channels = decoded.channels};
     if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&decoded.values))
         image.values = linearise(*bytes, decoded.channels, encoding, gamma);
@@ -155,7 +155,7 @@ Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64
     return {};
 }
 
-Result<scene::PixelData> read_image(const std::string& path, RestageEncoding encoding, float gamma,
+Result<scene::PixelData> read_image(const std::string& path, scene::Encoding encoding, float gamma,
                                     std::string* warning) {
     RESTAGE_TRY(DecodedImage decoded, decode_image_file(path));
     if (warning) *warning = decoded.warning.empty() ? "" : path + ": " + decoded.warning;

@@ -14,7 +14,7 @@ namespace restage::io {
 // and 16-bit files mean; float files are linear; alpha always is. Grey with alpha becomes RGBA. NaN becomes 0, infinity
 // the largest half (65504); `warning`, when given, gets a sentence about that, or "". [any]
 // "wood.tga: truncated: ..." for files that lie about their size or end early.
-Result<scene::PixelData> read_image(const std::string& path, RestageEncoding encoding, float gamma = 2.2f,
+Result<scene::PixelData> read_image(const std::string& path, scene::Encoding encoding, float gamma = 2.2f,
                                     std::string* warning = nullptr);
 
 // Width, height and channels without decoding; data stays empty.

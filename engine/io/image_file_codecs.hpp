@@ -47,7 +47,7 @@ Result<DecodedImage> decode_image_bytes(std::string_view bytes, bool header_only
 Result<DecodedImage> decode_image_file(const std::string& path, bool header_only = false);
 
 // Numbers of 8 and 16 bits become linear, grey with alpha RGBA; as read_image says.
-scene::PixelData linear_image(DecodedImage, RestageEncoding, float gamma);
+scene::PixelData linear_image(DecodedImage, scene::Encoding, float gamma);
 
 // An error when a picture of this size cannot be meant: no pixels, too many to hold, or more than a file of `file_size`
 // bytes can hold when a byte stands for `most_texels_per_byte` at most; 0: the format's packing knows no bound.

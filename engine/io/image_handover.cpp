@@ -37,7 +37,7 @@ Result<std::uint64_t> hand_over_image(const std::string& path, const std::filesy
         image.values);
 }
 
-Result<scene::PixelData> take_over_image(const std::filesystem::path& from, RestageEncoding encoding, float gamma) {
+Result<scene::PixelData> take_over_image(const std::filesystem::path& from, scene::Encoding encoding, float gamma) {
     RESTAGE_TRY(const std::string bytes, read_file(from));
     Header header;
     const auto broken = [&] { return fail(from.string() + ": what was handed over is damaged"); };

@@ -15,6 +15,6 @@ namespace restage::io {
 Result<std::uint64_t> hand_over_image(const std::string& path, const std::filesystem::path& to, std::string* warning);
 
 // As read_image would have given it. [any]
-Result<scene::PixelData> take_over_image(const std::filesystem::path& from, RestageEncoding encoding, float gamma);
+Result<scene::PixelData> take_over_image(const std::filesystem::path& from, scene::Encoding encoding, float gamma);
 
 } // namespace restage::io

@@ -4,6 +4,8 @@
 #include "base/file.hpp"
 #include "io/scene_writer.hpp"
 
+#include <restage/scene_io.h>
+
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -39,8 +41,7 @@ Result<plugin::ImporterEntry> choose(const std::string& path, const std::string&
     plugin::ImporterEntry best;
     int best_score = 0;
     for (const auto& entry : registry.importers()) { // of equals the first of the alphabet
-        const CrashNote note(entry.plugin->blame("while it looked at the beginning of " + path));
-        if (const int score = entry.table->probe(path.c_str(), head.data(), head.size()); score > best_score) {
+        if (const int score = probe(entry, path, head); score > best_score) {
             best = entry;
             best_score = score;
         }
@@ -50,6 +51,11 @@ Result<plugin::ImporterEntry> choose(const std::string& path, const std::string&
 }
 
 } // namespace
+
+int probe(const plugin::ImporterEntry& entry, const std::string& path, std::string_view head) {
+    const CrashNote note(entry.plugin->blame("while it looked at the beginning of " + path));
+    return entry.native->probe(path.c_str(), head.data(), head.size());
+}
 
 std::string to_string(const ReportEntry& entry) {
     std::string line = entry.file;
@@ -62,10 +68,10 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
                                    const ImportOptions& options) {
     RESTAGE_TRY(const std::string head, read_head(path));
     RESTAGE_TRY(const plugin::ImporterEntry chosen, choose(path, head, registry, options.format));
-    const RestageImporter1* importer = chosen.table;
+    const model::Importer* importer = chosen.table;
     SceneWriter writer(registry, options.progress);
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it read " + path));
-    const bool loaded = importer->load(path.c_str(), &writer.table()) != 0;
+    const bool loaded = chosen.native->load(path.c_str(), &writer.table()) != 0;
     note.reset();
     writer.drop_decoded();
     if (writer.cancelled()) return cancelled(path + ": stopped on request");

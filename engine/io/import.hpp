@@ -27,6 +27,9 @@ struct ImportedScene {
     bool unexposed = false; // the file says nothing of exposure, and its light has units: document/exposure.hpp meters
 };
 
+// 0..100: how sure the importer is that a file that begins so is its own; what it answers is not judged.
+int probe(const plugin::ImporterEntry&, const std::string& path, std::string_view head);
+
 Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry&, const ImportOptions& = {});
 
 } // namespace restage::io

@@ -12,15 +12,14 @@ using namespace scene;
 
 MaterialEmissions::MaterialEmissions(const plugin::Registry& registry, const Scene& scene)
     : scene_(scene), types_(registry.materials()) {
-    std::erase_if(types_, [](const plugin::MaterialEntry& e) { return !e.source || !e.source->emission(); });
+    std::erase_if(types_, [](const plugin::MaterialEntry& e) { return !e.table->emission; });
 }
 
 std::optional<MaterialEmission> MaterialEmissions::of(Id<Material> id) const {
     const Material* material = scene_.materials.find(id);
     if (!material) return std::nullopt;
     for (const auto& type : types_)
-        if (material->type == type.table->type)
-            return emission_of(*type.table, *type.source->emission(), material->params);
+        if (material->type == type.table->type) return emission_of(*type.table, material->params);
     return std::nullopt;
 }
 
@@ -42,8 +41,8 @@ glm::vec3 mean_of(const Scene& scene, Id<Texture> id, int depth) {
     const auto operand = [&](const char* param, float otherwise) {
         const Value* v = t->params.find(param);
         if (v && v->texture) return mean_of(scene, v->texture, depth + 1);
-        if (v && v->type == RESTAGE_FLOAT) return glm::vec3(v->v[0]);
-        return v ? glm::vec3(v->v[0], v->v[1], v->v[2]) : glm::vec3(otherwise);
+        if (v && v->type == model::ParamType::color) return glm::vec3(v->v[0], v->v[1], v->v[2]);
+        return glm::vec3(v ? v->scalar() : otherwise);
     };
     if (t->type == "constant") return operand("value", 1);
     if (t->type == "scale") return operand("tex", 1) * operand("scale", 1);

@@ -14,17 +14,19 @@ void report_tables(const scene::Scene& scene, const plugin::Registry& registry, 
         const auto plugin = before && *before == m ? std::nullopt : registry.find_material(m.type);
         const auto reader = plugin && plugin->source ? plugin->source->table_reader() : nullptr;
         if (!reader) return;
-        for (const RestageParam& line : std::span(plugin->table->params, plugin->table->param_count)) {
+        for (const model::Param& line : plugin->table->params) {
             const scene::Value* set = m.params.find(line.id);
-            if (line.type != RESTAGE_TABLE || !set || set->type != RESTAGE_TABLE || set->text.empty()) continue;
+            if (line.type != model::ParamType::table || !set || set->type != model::ParamType::table ||
+                set->text.empty())
+                continue;
             const std::string who = "material \"" + m.name + "\"";
             if (const auto table = reader->read(line.id, set->text); !table) {
-                report.add(RESTAGE_DROPPED, who, table.error().message + "; a grey one stands for it");
+                report.add(io::Fate::dropped, who, table.error().message + "; a grey one stands for it");
             } else {
                 std::string notes;
                 for (const std::string& note : (*table)->notes)
                     notes += (notes.empty() ? ": " : "; ") + note;
-                report.add(RESTAGE_KEPT, who, "looks up " + set->text + notes);
+                report.add(io::Fate::kept, who, "looks up " + set->text + notes);
             }
         }
     });

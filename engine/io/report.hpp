@@ -2,7 +2,6 @@
 // What an import or export did to the things in a file: kept, approximated or dropped, each with its place and reason.
 #pragma once
 
-#include <restage/scene_io.h>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -12,8 +11,10 @@
 
 namespace restage::io {
 
+enum class Fate : std::uint8_t { kept, approximated, dropped };
+
 struct ReportEntry {
-    RestageFate fate = RESTAGE_KEPT;
+    Fate fate = Fate::kept;
     std::string file;       // "" where it is not about a place in a file
     std::uint32_t line = 0; // 0 = the whole file
     std::string what, note; // 'material "oak"', 'bump map dropped'
@@ -23,10 +24,10 @@ struct ReportEntry {
 struct Report {
     std::vector<ReportEntry> entries;
 
-    void add(RestageFate fate, std::string what, std::string note, std::string file = {}, std::uint32_t line = 0) {
+    void add(Fate fate, std::string what, std::string note, std::string file = {}, std::uint32_t line = 0) {
         entries.push_back({fate, std::move(file), line, std::move(what), std::move(note)});
     }
-    std::size_t count(RestageFate fate) const {
+    std::size_t count(Fate fate) const {
         std::size_t n = 0;
         for (const ReportEntry& entry : entries)
             n += entry.fate == fate;
@@ -34,8 +35,8 @@ struct Report {
     }
 };
 
-inline const char* to_string(RestageFate fate) {
-    return fate == RESTAGE_KEPT ? "kept" : fate == RESTAGE_APPROXIMATED ? "approximated" : "dropped";
+inline const char* to_string(Fate fate) {
+    return fate == Fate::kept ? "kept" : fate == Fate::approximated ? "approximated" : "dropped";
 }
 // "scene.pbrt:12: dropped: light "sun": not known"
 std::string to_string(const ReportEntry&);

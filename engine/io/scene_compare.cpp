@@ -66,7 +66,7 @@ class Describer {
                    std::to_string(hash_of(i->data->values, i->data->channels));
         if (text.empty())
             text = "image file " + i->path.substr(i->path.find_last_of("/\\") + 1) +
-                   (i->encoding == RESTAGE_LINEAR ? " linear" : "");
+                   (i->encoding == scene::Encoding::linear ? " linear" : "");
         return text;
     }
 
@@ -92,8 +92,7 @@ class Describer {
         if (!m || depth > 16) return "no material";
         std::map<std::string, std::string> params;
         if (const auto plugin = registry_.find_material(m->type)) {
-            for (std::uint32_t i = 0; i < plugin->table->param_count; ++i) {
-                const RestageParam& line = plugin->table->params[i];
+            for (const model::Param& line : plugin->table->params) {
                 const Value* set = m->params.find(line.id);
                 params[line.id] = value(set ? *set : default_value(line), depth);
             }
@@ -145,16 +144,16 @@ class Describer {
     std::string value(const Value& v, int depth) {
         if (v.texture) return texture(v.texture, depth + 1);
         switch (v.type) {
-            case RESTAGE_COLOR:
+            case model::ParamType::color:
                 return shown(glm::vec3(v.v[0], v.v[1], v.v[2]));
-            case RESTAGE_ENUM:
-            case RESTAGE_TEXT:
+            case model::ParamType::choice:
+            case model::ParamType::text:
                 return v.text;
-            case RESTAGE_TABLE: // an export may have copied it
+            case model::ParamType::table: // an export may have copied it
                 return std::filesystem::path(v.text).filename().string();
-            case RESTAGE_MATERIAL:
+            case model::ParamType::material:
                 return "{" + material(v.material, depth + 1) + "}";
-            case RESTAGE_TEXTURE:
+            case model::ParamType::texture:
                 return "none";
             default:
                 return shown(v.v[0]);
@@ -236,12 +235,13 @@ class Comparison {
             std::vector<std::string> all;
             s.lights.each([&](auto, const Light& l) {
                 const glm::dvec3 at(l.light_to_world[3]), along = glm::normalize(glm::dvec3(l.light_to_world[2]));
-                std::string text = "light " + std::to_string(l.kind) + " of " + shown(l.value);
-                if (l.kind != RESTAGE_LIGHT_DISTANT) text += " at " + shown(glm::vec3(at));
-                if (l.kind != RESTAGE_LIGHT_POINT) text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
-                if (l.kind == RESTAGE_LIGHT_SPOT)
+                std::string text = "light " + std::to_string(int(l.kind)) + " of " + shown(l.value);
+                if (l.kind != scene::LightKind::distant) text += " at " + shown(glm::vec3(at));
+                if (l.kind != scene::LightKind::point)
+                    text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
+                if (l.kind == scene::LightKind::spot)
                     text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta) +
-                            (l.falloff == RESTAGE_FALLOFF_QUARTIC ? " quartic" : "");
+                            (l.falloff == scene::Falloff::quartic ? " quartic" : "");
                 if (l.hidden) text += "; hidden";
                 if (options_.names) text += " called \"" + l.name + "\"";
                 all.push_back(std::move(text));
@@ -284,7 +284,7 @@ class Comparison {
         }
         const auto describe = [](Describer& d, const Environment& e) {
             return shown(e.scale) +
-                   (e.image ? ", " + d.image(e.image) + ", mapping " + std::to_string(e.mapping) : "") +
+                   (e.image ? ", " + d.image(e.image) + ", mapping " + std::to_string(int(e.mapping)) : "") +
                    (e.hidden_from_camera ? ", hidden from the camera" : "");
         };
         same("environment", describe(describe_a_, *x), describe(describe_b_, *y));
@@ -305,9 +305,9 @@ class Comparison {
             return;
         }
         const auto describe = [](const Camera& c, const Scene& s) {
-            std::string text = "projection " + std::to_string(c.projection) +
-                               (c.projection == RESTAGE_PERSPECTIVE ? ", fov " + shown(fov(c, s)) : "") + ", lens " +
-                               shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
+            std::string text = "projection " + std::to_string(int(c.projection)) +
+                               (c.projection == scene::Projection::perspective ? ", fov " + shown(fov(c, s)) : "") +
+                               ", lens " + shown(c.lens_radius) + ", aspect " + shown(c.frame_aspect);
             if (c.lens_radius > 0) text += ", focus " + shown(c.focal_distance);
             if (c.screen_window)
                 text += ", window " + shown(glm::vec3(*c.screen_window)) + " " + shown(c.screen_window->w);

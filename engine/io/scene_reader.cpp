@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scene_reader.hpp"
 
+#include "plugin/adapters.hpp"
 #include "scene/projection.hpp"
 
-#include <cstring>
+#include <algorithm>
 
 namespace restage::io {
 
@@ -16,26 +17,27 @@ RestageText text(const T& item) {
     return {item.name.c_str(), item.origin.verbatim.c_str(), item.origin.format.c_str()};
 }
 
-std::vector<RestageValue> values_of(const ParamSet& params) { // pointing into params
+} // namespace
+
+std::vector<RestageValue> give_values(const ParamSet& params) {
     std::vector<RestageValue> list;
     for (const auto& [id, value] : params.entries()) {
-        RestageValue out{
-            .id = id.c_str(), .type = static_cast<std::uint32_t>(value.type), .ref = 0, .v = {}, .text = nullptr};
-        std::memcpy(out.v, value.v.data(), sizeof out.v);
-        if (value.type == RESTAGE_ENUM || value.type == RESTAGE_TEXT || value.type == RESTAGE_TABLE)
-            out.text = value.text.c_str();
-        out.ref = value.type == RESTAGE_MATERIAL ? value.material.value : value.texture.value;
+        RestageValue out{};
+        out.id = id.c_str();
+        out.type = plugin::abi_type(value.type);
+        out.ref = value.type == ParamType::material ? value.material.value : value.texture.value;
+        out.i = value.i;
+        std::copy(value.v.begin(), value.v.end(), out.v);
+        out.text = value.has_text() ? value.text.c_str() : nullptr;
         list.push_back(out);
     }
     return list;
 }
 
-} // namespace
-
 template <class Description>
 int SceneReader::give_values(const ParamSet& params, Description& out) {
     return guarded<SceneReader>(this, "parameters", [&](SceneReader& r) {
-        const auto& list = r.values_.emplace_back(values_of(params));
+        const auto& list = r.values_.emplace_back(io::give_values(params));
         out.values = list.data();
         out.value_count = static_cast<std::uint32_t>(list.size());
         return 1;
@@ -183,7 +185,7 @@ struct SceneReader::Calls {
         const Light* l = scene(ctx).lights.find({handle});
         if (!l) return 0;
         *out = {.text = text(*l),
-                .kind = static_cast<std::uint32_t>(l->kind),
+                .kind = static_cast<std::uint32_t>(l->kind) + RESTAGE_LIGHT_POINT,
                 .value = {},
                 .light_to_world = {},
                 .cone_angle = l->cone_angle,

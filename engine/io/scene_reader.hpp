@@ -15,6 +15,9 @@
 
 namespace restage::io {
 
+// As plugins see them, pointing into `params`.
+std::vector<RestageValue> give_values(const scene::ParamSet& params);
+
 class SceneReader : public Exchange {
   public:
     // `registry`: says which materials shine.

@@ -7,7 +7,7 @@ namespace restage::io {
 
 using namespace scene;
 
-void SceneWriter::refuse(const std::string& what, const std::string& why) { report.add(RESTAGE_DROPPED, what, why); }
+void SceneWriter::refuse(const std::string& what, const std::string& why) { report.add(Fate::dropped, what, why); }
 
 Origin SceneWriter::origin(const RestageText& t) {
     Origin result{text(t.verbatim), text(t.verbatim_format)};
@@ -50,12 +50,18 @@ int SceneWriter::Calls::progress(void* ctx, float done, const char* what) {
 }
 
 const RestageParam* SceneWriter::Calls::material_table(void* ctx, const char* type, std::uint32_t* count) {
-    auto& self = *static_cast<SceneWriter*>(ctx);
-    const auto entry = self.registry_.find_material(type ? type : "");
-    if (count) *count = entry ? entry->table->param_count : 0;
-    if (!entry) return nullptr;
-    self.tables_.insert(entry->source); // the importer may look at it until it is done
-    return entry->table->params;
+    if (count) *count = 0;
+    const RestageParam* lines = nullptr;
+    guarded(ctx, "material_table", [&](SceneWriter& w) -> RestageHandle {
+        const auto entry = w.registry_.find_material(text(type));
+        if (!entry) return 0;
+        auto& given = w.tables_[entry->table->type]; // the importer may look at it until it is done
+        if (!given) given = std::make_unique<plugin::GivenTable>(entry->table->params);
+        if (count) *count = given->count();
+        lines = given->lines();
+        return 1;
+    });
+    return lines;
 }
 
 SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)

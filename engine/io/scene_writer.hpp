@@ -7,6 +7,7 @@
 #include "base/jobs.hpp"
 #include "base/result.hpp"
 #include "io/exchange.hpp"
+#include "plugin/adapters.hpp"
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
 
@@ -52,7 +53,7 @@ class SceneWriter : public Exchange {
     void add_camera();
 
     const plugin::Registry& registry_;
-    std::set<std::shared_ptr<const plugin::MaterialSource>> tables_; // that the importer was given
+    std::map<std::string, std::unique_ptr<plugin::GivenTable>> tables_; // that the importer was given, by type
     RestageSceneWriter1 table_{};
     std::map<std::string, std::set<std::string>> names_;    // by kind
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given

@@ -38,12 +38,12 @@ void SceneWriter::read_images(Jobs& jobs) {
         const std::string who = "image \"" + job.image.name + "\"";
         // The importer may have named the place that asks for it.
         const bool told = std::ranges::any_of(report.entries, [&](const ReportEntry& entry) {
-            return entry.fate == RESTAGE_DROPPED && entry.note.ends_with(": " + job.image.path);
+            return entry.fate == Fate::dropped && entry.note.ends_with(": " + job.image.path);
         });
         if (!job.problem.empty() && !told)
-            report.add(RESTAGE_DROPPED, who, job.problem, job.image.path);
+            report.add(Fate::dropped, who, job.problem, job.image.path);
         else if (!job.warning.empty())
-            report.add(RESTAGE_APPROXIMATED, who, job.warning, job.image.path);
+            report.add(Fate::approximated, who, job.warning, job.image.path);
         scene.images.set(job.id, std::move(job.image), scene.clock);
     }
 }
@@ -61,7 +61,7 @@ void SceneWriter::add_camera() {
     const Id<Camera> id = scene.cameras.next();
     scene.cameras.set(id, std::move(camera), scene.clock);
     scene.active_camera = {id, scene.clock};
-    report.add(RESTAGE_APPROXIMATED, "camera", "the file has none; one in front of everything stands in for it");
+    report.add(Fate::approximated, "camera", "the file has none; one in front of everything stands in for it");
 }
 
 Result<> SceneWriter::finish(Jobs& jobs, bool with_images) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What things look like: images, textures, materials with their values, media.
 #include "io/scene_writer_calls.hpp"
+#include "plugin/abi.hpp"
 
 #include <memory>
 #include <tuple>
@@ -12,10 +13,11 @@ using namespace scene;
 ParamSet SceneWriter::params(const RestageValue* values, std::uint32_t count, const std::string& who) {
     ParamSet result;
     for (std::uint32_t i = 0; values && i < count; ++i) {
-        const RestageValue& in = values[i];
+        const RestageValue in = plugin::element(values, i);
         const std::string id = text(in.id);
         const auto drop = [&](const char* why) { refuse(who + ": parameter \"" + id + "\"", why); };
-        if (id.empty() || in.type < RESTAGE_FLOAT || in.type > RESTAGE_TABLE) {
+        const auto type = plugin::model_type(in.type);
+        if (id.empty() || !type) {
             drop("it has no id or an unknown type");
             continue;
         }
@@ -23,11 +25,12 @@ ParamSet SceneWriter::params(const RestageValue* values, std::uint32_t count, co
             drop("not a finite number; the default stands for it");
             continue;
         }
-        Value value{.type = static_cast<RestageType>(in.type),
-                    .v = {in.v[0], in.v[1], in.v[2], in.v[3]},
-                    .text = text(in.text)};
-        if (value.type == RESTAGE_COLOR) value.v[3] = 0; // a colour has three; equal colours compare equal
-        if (in.ref && value.type == RESTAGE_MATERIAL) {
+        Value value{.type = *type, .text = text(in.text)};
+        if (value.is_whole())
+            value.i = in.i;
+        else
+            value.v = {in.v[0], in.v[1], in.v[2], *type == ParamType::color ? 0 : in.v[3]}; // a colour has three
+        if (in.ref && value.type == ParamType::material) {
             value.material = {in.ref};
             if (!scene.materials.find(value.material)) {
                 drop("there is no such material");
@@ -47,7 +50,7 @@ ParamSet SceneWriter::params(const RestageValue* values, std::uint32_t count, co
 
 RestageHandle SceneWriter::Calls::image(void* ctx, const RestageImage* in) {
     return guarded(ctx, "image", [&](SceneWriter& w) -> RestageHandle {
-        Image image{.path = text(in->path), .encoding = static_cast<RestageEncoding>(in->encoding), .gamma = in->gamma};
+        Image image{.path = text(in->path), .encoding = static_cast<Encoding>(in->encoding), .gamma = in->gamma};
         std::string name = text(in->text.name);
         if (name.empty()) name = image.path.substr(image.path.find_last_of("/\\") + 1);
         const std::string who = "image \"" + name + "\"";

@@ -34,7 +34,7 @@ RestageHandle SceneWriter::Calls::mesh(void* ctx, const RestageMesh* in) {
             if (!from) return;
             copy(to, from);
             if (const std::string problem = check_mesh(*data); !problem.empty()) {
-                w.report.add(RESTAGE_APPROXIMATED, who, problem + "; done without");
+                w.report.add(Fate::approximated, who, problem + "; done without");
                 to.clear();
             }
         };

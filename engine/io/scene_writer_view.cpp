@@ -18,16 +18,15 @@ RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* in) {
             w.refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
             return 0;
         }
-        return w.push(
-            Light{.name = w.unique_name("light", text(in->text.name)),
-                  .kind = static_cast<RestageLightKind>(in->kind),
-                  .value = vec3(in->value),
-                  .light_to_world = to_world,
-                  .cone_angle = in->cone_angle,
-                  .cone_delta = in->cone_delta,
-                  .origin = w.origin(in->text),
-                  .falloff = in->falloff == RESTAGE_FALLOFF_QUARTIC ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH,
-                  .hidden = (in->flags & RESTAGE_LIGHT_HIDDEN) != 0});
+        return w.push(Light{.name = w.unique_name("light", text(in->text.name)),
+                            .kind = static_cast<LightKind>(in->kind - RESTAGE_LIGHT_POINT),
+                            .value = vec3(in->value),
+                            .light_to_world = to_world,
+                            .cone_angle = in->cone_angle,
+                            .cone_delta = in->cone_delta,
+                            .origin = w.origin(in->text),
+                            .falloff = in->falloff == RESTAGE_FALLOFF_QUARTIC ? Falloff::quartic : Falloff::smooth,
+                            .hidden = (in->flags & RESTAGE_LIGHT_HIDDEN) != 0});
     });
 }
 
@@ -45,7 +44,7 @@ void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* in) {
         const std::string name = text(in->text.name);
         w.scene.environment = {Environment{.name = name.empty() ? "environment" : name,
                                            .image = {in->image},
-                                           .mapping = static_cast<RestageMapping>(in->mapping),
+                                           .mapping = static_cast<Mapping>(in->mapping),
                                            .scale = vec3(in->scale),
                                            .light_to_world = to_world,
                                            .hidden_from_camera = in->hidden_from_camera != 0,
@@ -77,7 +76,7 @@ RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
                       .focal_distance = in->focal_distance,
                       .frame_aspect = in->frame_aspect,
                       .origin = w.origin(in->text),
-                      .projection = static_cast<RestageProjection>(in->projection),
+                      .projection = static_cast<Projection>(in->projection),
                       .fit_aspect = in->fit_aspect};
         if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
             camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_loss(const ReportEntry& entry) { return entry.fate != RESTAGE_KEPT; }
+bool is_loss(const ReportEntry& entry) { return entry.fate != io::Fate::kept; }
 
 // "" = all was kept.
 std::string losses(const std::vector<ReportEntry>& entries) {

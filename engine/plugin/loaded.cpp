@@ -9,7 +9,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
+#include <iterator>
+#include <ranges>
 
 namespace restage::plugin {
 
@@ -31,21 +32,12 @@ const void* host_service(const RestageHost* host, const char* id) {
     return id && std::strcmp(id, RESTAGE_LOG) == 0 ? &reinterpret_cast<const Host*>(host)->log_table : nullptr;
 }
 
-// All tables of a kind, judged; or the first one's fault.
-template <class Table>
-Result<std::vector<const Table*>> query_all(const RestagePlugin& plugin, const char* interface_id,
-                                            const fs::path& folder, const std::string& who) {
-    std::vector<const Table*> found;
-    for (std::uint32_t i = 0; const auto* table = static_cast<const Table*>(plugin.query(interface_id, i)); ++i) {
+// All tables of an interface.
+Result<std::vector<const void*>> query_all(const RestagePlugin& plugin, const char* interface_id,
+                                           const std::string& who) {
+    std::vector<const void*> found;
+    for (std::uint32_t i = 0; const void* table = plugin.query(interface_id, i); ++i) {
         if (i == most_tables) return fail(who + ": provides " + interface_id + " without end");
-        std::string problem;
-        if constexpr (std::is_same_v<Table, RestageMaterial1>)
-            problem = check_table(*table, folder);
-        else
-            problem = check_table(*table);
-        if (!problem.empty()) return fail(who + ": " + problem);
-        if (std::any_of(found.begin(), found.end(), [&](const Table* other) { return key(*other) == key(*table); }))
-            return fail(who + ": provides \"" + std::string(key(*table)) + "\" twice");
         found.push_back(table);
     }
     return found;
@@ -53,36 +45,18 @@ Result<std::vector<const Table*>> query_all(const RestagePlugin& plugin, const c
 
 } // namespace
 
-Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manifest& manifest, Log& log) {
+Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manifest& manifest,
+                                             std::span<const MaterialAdapter> materials, Log& log) {
     const std::string file = (folder / "plugin.json").string();
-    if (RESTAGE_ABI < manifest.abi_min)
-        return fail(file + ": needs plugin interface " + std::to_string(manifest.abi_min) + ", this program has " +
-                    std::to_string(RESTAGE_ABI) + ": the plugin is too new; update the program");
-    if (RESTAGE_ABI > manifest.abi_max)
-        return fail(file + ": was made for plugin interface " + std::to_string(manifest.abi_max) +
-                    ", this program has " + std::to_string(RESTAGE_ABI) + ": the plugin is too old; update the plugin");
+    RESTAGE_CHECK(check_needs(manifest, version(), file));
     std::error_code code;
     for (const fs::path& needed : manifest.files)
         if (!fs::exists(folder / needed, code))
             return fail(file + ": \"files\": " + (folder / needed).string() + " is missing");
     std::unique_ptr<Loaded> loaded(new Loaded);
-    if (manifest.library.empty()) { // no native code: the tables are in the manifest
-        RESTAGE_TRY(const std::string text, read_file(folder / "plugin.json"));
-        RESTAGE_TRY(const auto described, JsonMaterials::parse(text, file));
-        std::vector<const RestageMaterial1*> tables;
-        for (const RestageMaterial1& table : described->tables()) {
-            if (const std::string problem = check_table(table, folder); !problem.empty())
-                return fail(file + ": " + problem);
-            tables.push_back(&table);
-        }
-        std::vector<const RestageEmission1*> emissions;
-        for (const RestageEmission1& emission : described->emissions())
-            emissions.push_back(&emission);
-        RESTAGE_CHECK(loaded->take_materials(tables, emissions, folder, file));
-        return loaded;
-    }
-    RESTAGE_CHECK(loaded->open_library(folder, manifest, log));
-    RESTAGE_CHECK(loaded->take_tables(folder, manifest, log));
+    if (!manifest.library.empty()) RESTAGE_CHECK(loaded->open_library(folder, manifest, log));
+    RESTAGE_CHECK(loaded->take_materials(folder, manifest, materials, log));
+    if (loaded->table_) RESTAGE_CHECK(loaded->take_formats(manifest, (folder / manifest.library).string()));
     return loaded;
 }
 
@@ -100,8 +74,10 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
             "'cmake -B build -DCMAKE_PREFIX_PATH=<where Restage is installed> && cmake --build build', and use " +
             (folder / "build/lib/restage/plugins").string());
     }
-    // A material's library may be built anew while it is in use; what is open is then a copy of the one before.
-    RESTAGE_TRY(library_, manifest.kind == Kind::material ? Library::open_copy(library) : Library::open(library));
+    // A library may be rebuilt while it is in use; what is open is then a copy of the one before. Denoisers find files
+    // beside theirs, and are opened where they are.
+    RESTAGE_TRY(library_,
+                manifest.provides_any("restage.denoiser") ? Library::open(library) : Library::open_copy(library));
     const auto* table = static_cast<const RestagePlugin*>(library_->symbol(RESTAGE_PLUGIN_SYMBOL));
     if (!table) return fail(library.string() + ": exports no symbol \"" RESTAGE_PLUGIN_SYMBOL "\": this is no plugin");
     if (table->abi != RESTAGE_ABI)
@@ -127,93 +103,137 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
     return {};
 }
 
-Result<> Loaded::take_tables(const fs::path& folder, const Manifest& manifest, Log& log) {
-    const std::string library = (folder / manifest.library).string();
-    const auto missing = [&](const char* interface_id) {
-        return fail(library + ": provides no " + interface_id + ", though its kind is " + to_string(manifest.kind));
+Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest,
+                                std::span<const MaterialAdapter> adapters, Log& log) {
+    const std::string who = (folder / (table_ ? manifest.library : fs::path("plugin.json"))).string();
+    std::vector<model::Material> declared;
+    std::size_t native = 0; // of them, from the library; they come first
+    const auto listed = [&](const char* id) {
+        return std::find(manifest.provides.begin(), manifest.provides.end(), id) != manifest.provides.end();
     };
-    switch (manifest.kind) {
-        case Kind::material: {
-            RESTAGE_TRY(const auto found, query_all<RestageMaterial1>(*table_, RESTAGE_MATERIAL1, folder, library));
-            if (found.empty()) return missing(RESTAGE_MATERIAL1);
-            RESTAGE_TRY(const auto readers, query_all<RestageTable1>(*table_, RESTAGE_TABLE1, folder, library));
-            RESTAGE_CHECK(take_table_readers(found, readers, manifest, log, library));
-            RESTAGE_TRY(const auto emissions, query_all<RestageEmission1>(*table_, RESTAGE_EMISSION1, folder, library));
-            RESTAGE_CHECK(take_materials(found, emissions, folder, library));
-            RESTAGE_TRY(inspectors, query_all<RestageInspector1>(*table_, RESTAGE_INSPECTOR1, folder, library));
-            for (const RestageInspector1* i : inspectors)
-                if (std::none_of(materials.begin(), materials.end(),
-                                 [&](const auto& m) { return key(m->table()) == key(*i); }))
-                    return fail(library + ": its inspector is for \"" + i->type + "\", which it does not provide");
-            return {};
-        }
-        case Kind::importer: {
-            RESTAGE_TRY(importers, query_all<RestageImporter1>(*table_, RESTAGE_IMPORTER1, folder, library));
-            if (importers.empty()) return missing(RESTAGE_IMPORTER1);
-            return {};
-        }
-        case Kind::exporter: {
-            RESTAGE_TRY(exporters, query_all<RestageExporter1>(*table_, RESTAGE_EXPORTER1, folder, library));
-            if (exporters.empty()) return missing(RESTAGE_EXPORTER1);
-            return {};
-        }
-        case Kind::denoiser: {
-            RESTAGE_TRY(denoisers, query_all<RestageDenoiser1>(*table_, RESTAGE_DENOISER1, folder, library));
-            if (denoisers.empty()) return missing(RESTAGE_DENOISER1);
-            return {};
+    const auto tables_of = [&](const char* id) -> Result<std::vector<const void*>> {
+        if (!table_ || !listed(id)) return std::vector<const void*>();
+        return query_all(*table_, id, who);
+    };
+    for (const MaterialAdapter& adapter : adapters) {
+        RESTAGE_TRY(const auto tables, tables_of(adapter.interface_id));
+        for (const void* table : tables) {
+            auto material = adapter.read(table);
+            if (!material) return fail(who + ": " + material.error().message);
+            // A type that a newer revision has described already.
+            if (std::ranges::any_of(declared, [&](const auto& m) { return m.type == material->type; })) {
+                if (adapter.interface_id == adapters[0].interface_id)
+                    return fail(who + ": provides \"" + material->type + "\" twice");
+                continue;
+            }
+            declared.push_back(std::move(*material));
         }
     }
-    return {};
-}
-
-Result<> Loaded::take_materials(std::span<const RestageMaterial1* const> tables,
-                                std::span<const RestageEmission1* const> emissions, const fs::path& folder,
-                                const std::string& who) {
-    RESTAGE_TRY(const auto glsl, read_glsl(folder));
-    for (const RestageEmission1* emission : emissions) {
-        const auto its = std::find_if(tables.begin(), tables.end(),
-                                      [&](const RestageMaterial1* m) { return key(*m) == key(*emission); });
-        if (its == tables.end())
-            return fail(who + ": has an emission of \"" + emission->type + "\", which it does not provide");
-        if (const std::string problem = check_emission(*emission, **its); !problem.empty())
-            return fail(who + ": " + problem);
+    native = declared.size();
+    const auto of_ours = [&](const std::string& type) -> model::Material* {
+        const auto it = std::find_if(declared.begin(), declared.begin() + std::ptrdiff_t(native),
+                                     [&](const model::Material& m) { return m.type == type; });
+        return it == declared.begin() + std::ptrdiff_t(native) ? nullptr : &*it;
+    };
+    RESTAGE_TRY(const auto emissions, tables_of(RESTAGE_EMISSION1));
+    for (const void* table : emissions) {
+        auto emission = read_emission1(*static_cast<const RestageEmission1*>(table));
+        if (!emission) return fail(who + ": " + emission.error().message);
+        model::Material* its = of_ours(emission->material_type);
+        if (!its)
+            return fail(who + ": has an emission of \"" + emission->material_type + "\", which it does not provide");
+        its->emission = std::move(emission->emission);
     }
-    for (const RestageMaterial1* table : tables) {
-        for (const auto& other : materials) {
-            if (key(other->table()) == key(*table))
-                return fail(who + ": provides \"" + std::string(key(*table)) + "\" twice");
-            if (table->prefix && other->table().prefix && !std::strcmp(table->prefix, other->table().prefix))
-                return fail(who + ": material \"" + table->type + "\": the prefix \"" + table->prefix +
-                            "\" is already taken by material \"" + other->table().type + "\"");
-        }
-        const auto reader = std::find_if(table_readers.begin(), table_readers.end(),
-                                         [&](const auto& r) { return r->material_type() == key(*table); });
-        const auto emission = std::find_if(emissions.begin(), emissions.end(),
-                                           [&](const RestageEmission1* e) { return key(*e) == key(*table); });
-        materials.push_back(std::make_shared<const MaterialSource>(*table, folder, glsl,
-                                                                   reader == table_readers.end() ? nullptr : *reader,
-                                                                   emission == emissions.end() ? nullptr : *emission));
-    }
-    return {};
-}
-
-Result<> Loaded::take_table_readers(std::span<const RestageMaterial1* const> tables,
-                                    std::span<const RestageTable1* const> readers, const Manifest& manifest, Log& log,
-                                    const std::string& who) {
-    for (const RestageTable1* reader : readers) {
-        const auto its = std::find_if(tables.begin(), tables.end(),
-                                      [&](const RestageMaterial1* m) { return key(*m) == key(*reader); });
-        if (its == tables.end() || !has_table(**its))
-            return fail(who + ": reads tables for \"" + reader->type +
+    RESTAGE_TRY(const auto readers, tables_of(RESTAGE_TABLE1));
+    for (const void* table : readers) {
+        auto reader = TableReader::open(*static_cast<const RestageTable1*>(table), manifest.id, log);
+        if (!reader) return fail(who + ": " + reader.error().message);
+        const model::Material* its = of_ours((*reader)->material_type());
+        if (!its || !has_table(*its))
+            return fail(who + ": reads tables for \"" + (*reader)->material_type() +
                         "\", which is no material of it with a parameter of that type");
-        table_readers.push_back(std::make_shared<TableReader>(*reader, manifest.id, log));
+        table_readers.push_back(std::move(*reader));
     }
-    for (const RestageMaterial1* m : tables)
-        if (has_table(*m) &&
-            std::none_of(readers.begin(), readers.end(), [&](const RestageTable1* r) { return key(*r) == key(*m); }))
-            return fail(who + ": material \"" + m->type +
+    RESTAGE_TRY(const auto uis, tables_of(RESTAGE_INSPECTOR1));
+    for (const void* table : uis) {
+        auto inspector = Inspector::read(*static_cast<const RestageInspector1*>(table));
+        if (!inspector) return fail(who + ": " + inspector.error().message);
+        if (!of_ours(inspector->material_type))
+            return fail(who + ": its inspector is for \"" + inspector->material_type + "\", which it does not provide");
+        inspectors.push_back(std::move(*inspector));
+    }
+    if (manifest.has_materials) {
+        const std::string file = (folder / "plugin.json").string();
+        RESTAGE_TRY(const std::string text, read_file(file));
+        RESTAGE_TRY(auto described, parse_materials(text, file));
+        std::ranges::move(described, std::back_inserter(declared));
+    }
+    if (declared.empty())
+        return manifest.provides_any("restage.material")
+                   ? fail(who + ": provides no restage.material/1, though its manifest says so")
+                   : Result<>();
+    RESTAGE_TRY(const auto glsl, read_glsl(folder));
+    for (std::size_t i = 0; i < declared.size(); ++i) {
+        model::Material& m = declared[i];
+        const std::string from = i < native ? who : (folder / "plugin.json").string();
+        if (const std::string problem = check_material(m, folder); !problem.empty()) return fail(from + ": " + problem);
+        for (const auto& other : materials) {
+            if (other->material().type == m.type) return fail(from + ": provides \"" + m.type + "\" twice");
+            if (!m.prefix.empty() && m.prefix == other->material().prefix)
+                return fail(from + ": material \"" + m.type + "\": the prefix \"" + m.prefix +
+                            "\" is already taken by material \"" + other->material().type + "\"");
+        }
+        const auto reader =
+            std::ranges::find_if(table_readers, [&](const auto& r) { return r->material_type() == m.type; });
+        if (has_table(m) && reader == table_readers.end())
+            return fail(from + ": material \"" + m.type +
                         "\" has a table as a parameter, and nothing reads it: " + RESTAGE_TABLE1 + " is missing");
+        materials.push_back(std::make_shared<const MaterialSource>(std::move(m), folder, glsl,
+                                                                   reader == table_readers.end() ? nullptr : *reader));
+    }
     return {};
+}
+
+Result<> Loaded::take_formats(const Manifest& manifest, const std::string& who) {
+    const auto take = [&]<class Table>(const char* id, const Table*, auto& list, auto&& read) -> Result<> {
+        if (std::ranges::find(manifest.provides, id) == manifest.provides.end()) return {};
+        RESTAGE_TRY(const auto tables, query_all(*table_, id, who));
+        if (tables.empty()) return fail(who + ": provides no " + id + ", though its manifest says so");
+        for (const void* table : tables) {
+            auto item = read(static_cast<const Table*>(table));
+            if (!item) return fail(who + ": " + item.error().message);
+            const auto& name = [](const auto& i) -> decltype(auto) {
+                if constexpr (requires { i.declared; })
+                    return key(i.declared);
+                else
+                    return key(i);
+            };
+            for (const auto& other : list)
+                if (name(other) == name(*item))
+                    return fail(who + ": provides \"" + std::string(name(*item)) + "\" twice");
+            list.push_back(std::move(*item));
+        }
+        return {};
+    };
+    RESTAGE_CHECK(take(RESTAGE_IMPORTER1, static_cast<const RestageImporter1*>(nullptr), importers,
+                       [](const RestageImporter1* t) -> Result<ImporterTable> {
+                           RESTAGE_TRY(auto declared, read_importer1(*t));
+                           if (const auto problem = check_importer(declared); !problem.empty()) return fail(problem);
+                           return ImporterTable{std::move(declared), t};
+                       }));
+    RESTAGE_CHECK(take(RESTAGE_EXPORTER1, static_cast<const RestageExporter1*>(nullptr), exporters,
+                       [](const RestageExporter1* t) -> Result<ExporterTable> {
+                           RESTAGE_TRY(auto declared, read_exporter1(*t));
+                           if (const auto problem = check_exporter(declared); !problem.empty()) return fail(problem);
+                           return ExporterTable{std::move(declared), t};
+                       }));
+    return take(RESTAGE_DENOISER1, static_cast<const RestageDenoiser1*>(nullptr), denoisers,
+                [](const RestageDenoiser1* t) -> Result<Denoiser> {
+                    RESTAGE_TRY(auto declared, Denoiser::read(*t));
+                    if (!is_type_name(declared.type) || declared.label.empty())
+                        return fail("a denoiser without a proper type name or label");
+                    return declared;
+                });
 }
 
 Loaded::~Loaded() {

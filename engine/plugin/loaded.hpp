@@ -5,16 +5,16 @@
 
 #include "base/log.hpp"
 #include "base/result.hpp"
+#include "model/formats.hpp"
+#include "plugin/adapters.hpp"
+#include "plugin/denoiser.hpp"
+#include "plugin/inspector.hpp"
 #include "plugin/library.hpp"
 #include "plugin/manifest.hpp"
 #include "plugin/material_source.hpp"
 
-#include <restage/denoiser.h>
-#include <restage/emission.h>
-#include <restage/inspector.h>
 #include <restage/plugin.h>
-#include <restage/scene_io.h>
-#include <restage/table.h>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -31,30 +31,35 @@ struct Host { // one per opening, so that its log lines carry the plugin's name
 
 class Loaded {
   public:
-    // Judges, in this order: abi range, files there, library opens, entry symbol, entry abi and size, id and version as
-    // promised, init, tables. The error is the sentence that refuses the plugin.
+    // Judges, in this order: what it needs, files there, library opens, entry symbol, entry abi and size, id and
+    // version as promised, init, tables. The error is the sentence that refuses the plugin. `materials`: revisions of
+    // their interface, the newest first.
     static Result<std::unique_ptr<Loaded>> open(const std::filesystem::path& folder, const Manifest& manifest,
-                                                Log& log);
+                                                std::span<const MaterialAdapter> materials, Log& log);
     ~Loaded();
     Loaded(const Loaded&) = delete;
 
     std::vector<std::shared_ptr<const MaterialSource>> materials;
-    std::vector<const RestageInspector1*> inspectors;
     std::vector<std::shared_ptr<TableReader>> table_readers;
-    std::vector<const RestageImporter1*> importers;
-    std::vector<const RestageExporter1*> exporters;
-    std::vector<const RestageDenoiser1*> denoisers;
+    std::deque<Inspector> inspectors; // deques: catalogues point into them
+    std::deque<Denoiser> denoisers;
+    struct ImporterTable {
+        model::Importer declared;
+        const RestageImporter1* native;
+    };
+    struct ExporterTable {
+        model::Exporter declared;
+        const RestageExporter1* native;
+    };
+    std::deque<ImporterTable> importers;
+    std::deque<ExporterTable> exporters;
 
   private:
     Loaded() = default;
     Result<> open_library(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
-    Result<> take_tables(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
-    Result<> take_materials(std::span<const RestageMaterial1* const> tables,
-                            std::span<const RestageEmission1* const> emissions, const std::filesystem::path& folder,
-                            const std::string& who);
-    Result<> take_table_readers(std::span<const RestageMaterial1* const> materials,
-                                std::span<const RestageTable1* const> readers, const Manifest& manifest, Log& log,
-                                const std::string& who);
+    Result<> take_materials(const std::filesystem::path& folder, const Manifest&,
+                            std::span<const MaterialAdapter> adapters, Log&);
+    Result<> take_formats(const Manifest&, const std::string& who);
 
     std::optional<Library> library_;
     Host host_{};
@@ -63,12 +68,10 @@ class Loaded {
 };
 
 // "conductor", "pbrt", "oidn": what a table is found by.
-inline std::string_view key(const RestageMaterial1& t) { return t.type; }
-inline std::string_view key(const RestageInspector1& t) { return t.type; }
-inline std::string_view key(const RestageTable1& t) { return t.type; }
-inline std::string_view key(const RestageEmission1& t) { return t.type; }
-inline std::string_view key(const RestageImporter1& t) { return t.format; }
-inline std::string_view key(const RestageExporter1& t) { return t.format; }
-inline std::string_view key(const RestageDenoiser1& t) { return t.type; }
+inline std::string_view key(const model::Material& t) { return t.type; }
+inline std::string_view key(const model::Importer& t) { return t.format; }
+inline std::string_view key(const model::Exporter& t) { return t.format; }
+inline std::string_view key(const Inspector& t) { return t.material_type; }
+inline std::string_view key(const Denoiser& t) { return t.type; }
 
 } // namespace restage::plugin

@@ -7,7 +7,10 @@
 #include "plugin/manifest_keys.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -20,7 +23,7 @@ namespace {
 
 constexpr std::size_t longest_manifest = 1 << 20;
 
-constexpr std::string_view known_keys[] = {"id",      "version", "kind",      "abi",       "licence",
+constexpr std::string_view known_keys[] = {"id",      "version", "licence",   "provides",  "needs",
                                            "library", "files",   "materials", "exceptions"};
 
 // Where a key of the outermost object stands: the byte of its opening quote. `text` is an object, and JSON.
@@ -84,28 +87,73 @@ Result<fs::path> inner_path(const std::string& text, const char* key, const std:
     return path;
 }
 
-Result<std::uint32_t> revision(const json& value, const std::string& key, const std::string& file) {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() == 0 || value.get<std::uint64_t>() > 0xffffffffull)
-        return fail(file + ": " + key + " must be a whole number from 1 on");
-    return value.get<std::uint32_t>();
+Result<std::vector<std::string>> list_of_texts(const json& value, const std::string& what) {
+    const auto is_text = [](const json& v) { return v.is_string() && !v.get_ref<const std::string&>().empty(); };
+    if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_text))
+        return fail(what + " must be a list of texts");
+    return value.get<std::vector<std::string>>();
 }
 
-Result<> read_abi(const json& object, const std::string& file, Manifest& out) {
-    const auto abi = object.find("abi");
-    if (abi == object.end())
-        return fail(file + ": \"abi\" is missing: write the revision the plugin was built for, for example \"abi\": 1");
-    if (!abi->is_object()) {
-        RESTAGE_TRY(out.abi_min, revision(*abi, "\"abi\"", file));
-        out.abi_max = out.abi_min;
-        return {};
+bool is_interface(std::string_view id) { // restage.material/1
+    const std::size_t slash = id.rfind('/');
+    return slash != std::string_view::npos && id.substr(0, slash).find('.') != std::string_view::npos &&
+           slash + 1 < id.size() && id.find_first_not_of("0123456789", slash + 1) == std::string_view::npos &&
+           id[slash + 1] != '0';
+}
+
+Result<std::vector<std::string>> interfaces_of(const json& value, const std::string& what) {
+    RESTAGE_TRY(auto list, list_of_texts(value, what));
+    for (const std::string& id : list)
+        if (!is_interface(id))
+            return fail(what + ": \"" + id + "\" names no interface; they look like \"restage.material/1\"");
+    return list;
+}
+
+// Parts of "0.2.1", missing ones 0; nullopt = it is no version.
+std::optional<std::array<int, 3>> version_of(std::string_view text) {
+    std::array<int, 3> out{};
+    for (int& part : out) {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), part);
+        if (error != std::errc() || part < 0) return std::nullopt;
+        text.remove_prefix(std::size_t(end - text.data()));
+        if (text.empty()) return out;
+        if (text[0] != '.') return std::nullopt;
+        text.remove_prefix(1);
     }
-    constexpr std::string_view keys[] = {"min", "max"};
-    if (const auto key = unknown_key(*abi, keys)) return fail(file + ": \"abi\": " + unknown_key_text(*key, keys));
-    for (const char* key : {"min", "max"})
-        if (!abi->contains(key)) return fail(file + ": \"abi\" has no \"" + key + "\"");
-    RESTAGE_TRY(out.abi_min, revision((*abi)["min"], "\"abi\".\"min\"", file));
-    RESTAGE_TRY(out.abi_max, revision((*abi)["max"], "\"abi\".\"max\"", file));
-    if (out.abi_min > out.abi_max) return fail(file + ": \"abi\": min is greater than max");
+    return std::nullopt;
+}
+
+// The conditions of ">=0.2 <0.4": {"at least?", version}. nullopt = it is not written so.
+std::optional<std::vector<std::pair<bool, std::array<int, 3>>>> conditions_of(std::string_view text) {
+    std::vector<std::pair<bool, std::array<int, 3>>> out;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' '), text.size());
+        const std::string_view word = text.substr(0, end);
+        const bool least = word.starts_with(">=");
+        const auto version = version_of(word.substr(std::min<std::size_t>(least ? 2 : 1, word.size())));
+        if ((!least && !word.starts_with("<")) || !version) return std::nullopt;
+        out.emplace_back(least, *version);
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out.empty() ? std::nullopt : std::optional(out);
+}
+
+Result<> read_needs(const json& object, const std::string& file, Manifest& out) {
+    const auto needs = object.find("needs");
+    if (needs == object.end()) return {};
+    const std::string what = file + ": \"needs\"";
+    if (!needs->is_object()) return fail(what + " must be an object, for example {\"host\": \">=0.2\"}");
+    constexpr std::string_view keys[] = {"host", "interfaces"};
+    if (const auto key = unknown_key(*needs, keys)) return fail(what + ": " + unknown_key_text(*key, keys));
+    if (needs->contains("host")) {
+        RESTAGE_TRY(out.needs_host, text_of(*needs, "host", what));
+        if (!conditions_of(out.needs_host))
+            return fail(what + ": \"host\": \"" + out.needs_host +
+                        "\" is no range of versions, such as \">=0.2\" or \">=0.2 <0.4\"");
+    }
+    if (const auto list = needs->find("interfaces"); list != needs->end()) {
+        RESTAGE_TRY(out.needs_interfaces, interfaces_of(*list, what + ": \"interfaces\""));
+    }
     return {};
 }
 
@@ -130,18 +178,64 @@ Result<> check_exceptions(const json& object, const std::string& file) {
 
 } // namespace
 
-const char* to_string(Kind kind) {
-    switch (kind) {
-        case Kind::material:
-            return "material";
-        case Kind::importer:
-            return "importer";
-        case Kind::exporter:
-            return "exporter";
-        case Kind::denoiser:
-            return "denoiser";
+bool Manifest::provides_any(std::string_view interface_name) const {
+    return std::any_of(provides.begin(), provides.end(), [&](const std::string& provided) {
+        return std::string_view(provided).substr(0, provided.rfind('/')) == interface_name;
+    });
+}
+
+std::vector<std::string> Manifest::kinds() const {
+    std::vector<std::string> out;
+    for (const std::string& provided : provides) {
+        std::string name = provided.substr(0, provided.rfind('/'));
+        if (name.starts_with("restage.")) name.erase(0, 8);
+        // What belongs to a material is no kind of its own.
+        if (name != "emission" && name != "table" && name != "inspector" &&
+            std::find(out.begin(), out.end(), name) == out.end())
+            out.push_back(std::move(name));
     }
-    return "";
+    return out;
+}
+
+std::string Manifest::kind() const {
+    std::string text;
+    for (const std::string& k : kinds())
+        text += (text.empty() ? "" : ", ") + k;
+    return text;
+}
+
+std::span<const std::string_view> known_interfaces() {
+    static constexpr std::string_view all[] = {"restage.material/1",  "restage.emission/1", "restage.table/1",
+                                               "restage.inspector/1", "restage.importer/1", "restage.exporter/1",
+                                               "restage.denoiser/1"};
+    return all;
+}
+
+std::span<const std::string_view> offered_services() {
+    static constexpr std::string_view all[] = {"restage.log/1"};
+    return all;
+}
+
+Result<> check_needs(const Manifest& manifest, const std::string& host_version, const std::string& file) {
+    if (const auto conditions = conditions_of(manifest.needs_host))
+        for (const auto& [least, version] : *conditions) {
+            const auto host = version_of(host_version).value_or(std::array<int, 3>{});
+            if (least ? host < version : host >= version)
+                return fail(file + ": needs Restage " + manifest.needs_host + ", this is " + host_version +
+                            (least ? ": the plugin is too new; update the program"
+                                   : ": the plugin is too old; update the plugin"));
+        }
+    const auto has = [](std::span<const std::string_view> list, const std::string& id) {
+        return std::find(list.begin(), list.end(), id) != list.end();
+    };
+    for (const std::string& id : manifest.needs_interfaces)
+        if (!has(offered_services(), id) && !has(known_interfaces(), id))
+            return fail(file + ": needs " + id + ", which this program does not have: update the program");
+    if (std::none_of(manifest.provides.begin(), manifest.provides.end(),
+                     [&](const std::string& id) { return has(known_interfaces(), id); }))
+        return fail(file + ": provides " + manifest.provides[0] +
+                    ", which this program cannot use: the plugin is too new; update the program");
+    return {};
 }
 
 Result<Manifest> parse_manifest(const std::string& text, const std::string& file) {
@@ -149,6 +243,10 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
     if (!parsed) return fail(file + ":" + parsed.error().message);
     const json& object = *parsed;
     if (!object.is_object()) return fail(file + ": the manifest must be one JSON object { ... }");
+    if (object.contains("kind") || object.contains("abi"))
+        return fail(file +
+                    ": \"kind\" and \"abi\" are of plugins for Restage 0.1: write, for example, \"provides\": "
+                    "[\"restage.material/1\"], \"needs\": {\"host\": \">=0.2\"}, and rebuild the library");
     RESTAGE_CHECK(check_keys(object, text, file));
     Manifest out;
     RESTAGE_TRY(out.id, text_of(object, "id", file));
@@ -156,23 +254,17 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
         return fail(file + ": \"id\": \"" + out.id + "\" is not in reverse-DNS form, such as \"org.example.velvet\"");
     RESTAGE_TRY(out.version, text_of(object, "version", file));
     RESTAGE_TRY(out.licence, text_of(object, "licence", file));
-    RESTAGE_TRY(const std::string kind, text_of(object, "kind", file));
-    bool known = false;
-    for (const Kind k : {Kind::material, Kind::importer, Kind::exporter, Kind::denoiser})
-        if (kind == to_string(k)) {
-            out.kind = k;
-            known = true;
-        }
-    if (!known)
-        return fail(file + ": \"kind\": \"" + kind +
-                    "\" is unknown; material, importer, exporter and denoiser are known");
-    RESTAGE_CHECK(read_abi(object, file, out));
+    const auto provides = object.find("provides");
+    if (provides == object.end())
+        return fail(file + ": \"provides\" is missing: list the interfaces, for example [\"restage.material/1\"]");
+    RESTAGE_TRY(out.provides, interfaces_of(*provides, file + ": \"provides\""));
+    if (out.provides.empty()) return fail(file + ": \"provides\" is empty: the plugin brings nothing");
+    RESTAGE_CHECK(read_needs(object, file, out));
     RESTAGE_CHECK(check_exceptions(object, file));
-    if (object.contains("materials")) { // material_json.cpp reads them
-        if (out.kind != Kind::material) return fail(file + ": only a plugin of kind material has \"materials\"");
-        if (object.contains("library"))
-            return fail(file + ": has both \"library\" and \"materials\": the tables come from one of them");
-    } else {
+    out.has_materials = object.contains("materials"); // material_json.cpp reads them
+    if (out.has_materials && !out.provides_any("restage.material"))
+        return fail(file + ": has \"materials\", and \"provides\" does not list restage.material/1");
+    if (object.contains("library") || !out.has_materials) {
         RESTAGE_TRY(const std::string library, text_of(object, "library", file));
         RESTAGE_TRY(out.library, inner_path(library, "library", file));
         if (!out.library.has_extension()) out.library += Library::extension();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manifest of a plugin, plugin.json, read before its library is opened, so that what does not fit is refused with a
-// sentence. For example:
-//   { "id": "org.example.velvet", "kind": "material", "version": "1.0.0", "abi": {"min": 1, "max": 1},
-//     "licence": "MIT", "library": "velvet", "files": ["velvet.glsl"] }
-// "abi": 1 is short for min = max = 1. "library" without an extension gets that of the platform. Paths are relative to
-// the manifest's folder and stay inside it. `restage check` reads "exceptions". Keys of somebody else's begin with
-// "x-", here and in all that is nested; others are refused, because they are typing errors. A material without native
-// code has no "library"; its table stands in the manifest:
+// sentence. A plugin is a bundle: it says what it provides and what it needs. For example:
+//   { "id": "org.example.cloth", "version": "1.2.0", "licence": "MIT",
+//     "provides": ["restage.material/1", "restage.inspector/1", "restage.importer/1"],
+//     "needs": {"host": ">=0.2", "interfaces": ["restage.log/1"]},
+//     "library": "cloth", "files": ["velvet.glsl"] }
+// "host" is ">=A.B", or ">=A.B <C.D". What is in "provides" and unknown to this program is passed over; what is in
+// "needs" and missing refuses the plugin. "library" without an extension gets that of the platform. Paths are relative
+// to the manifest's folder and stay inside it. `restage check` reads "exceptions". Keys of somebody else's begin with
+// "x-", here and in all that is nested; others are refused, because they are typing errors. Materials without native
+// code stand in the manifest, beside a library or without one:
 //   "materials": [{ "type": "velvet", "label": "Velvet", "prefix": "velvet", "glsl": "velvet.glsl", "tooltip":
 //   "Cloth.",
 //     "flags": ["lossless"],                       stochastic lossless transmissive nonreciprocal tangent additive
@@ -19,26 +22,38 @@
 
 #include "base/result.hpp"
 
-#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace restage::plugin {
 
-enum class Kind { material, importer, exporter, denoiser };
-const char* to_string(Kind);
-
 struct Manifest {
     std::string id, version, licence;
-    Kind kind = Kind::material;
-    std::uint32_t abi_min = 0, abi_max = 0;
+    std::vector<std::string> provides; // "restage.material/1", ...
+    std::string needs_host; // ">=0.2"; "" = any
+    std::vector<std::string> needs_interfaces;
     std::filesystem::path library; // file name as it is on this platform; empty: no native code
     std::vector<std::filesystem::path> files; // that the plugin needs beside its library
+    bool has_materials = false; // described in the manifest itself
+
+    // "restage.material" in any revision.
+    bool provides_any(std::string_view interface_name) const;
+    // What it is in lists: "material", "importer", ... in the order of "provides", each once.
+    std::vector<std::string> kinds() const;
+    std::string kind() const; // "material", "importer, exporter"
 };
 
 // Errors: '<file>: "version" is missing: ...', '<file>:3:7: not JSON: ...'
 Result<Manifest> parse_manifest(const std::string& text, const std::string& file);
 Result<Manifest> read_manifest(const std::filesystem::path& file);
+
+// What this program can use of a plugin, and what it offers to one.
+std::span<const std::string_view> known_interfaces();
+std::span<const std::string_view> offered_services();
+// Does a program of this version fulfil what the manifest needs? The error is the sentence that refuses the plugin.
+Result<> check_needs(const Manifest&, const std::string& host_version, const std::string& file);
 
 } // namespace restage::plugin

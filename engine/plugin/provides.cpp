@@ -5,19 +5,18 @@ namespace restage::plugin {
 
 std::vector<std::string> provides(const Registry& registry, const Entry& entry) {
     std::vector<std::string> names;
-    for (const auto& m : registry.materials())
-        if (m.plugin->folder == entry.folder) names.push_back(std::string("material ") + m.table->type);
-    for (const auto& m : registry.importers())
-        if (m.plugin->folder == entry.folder) names.push_back(std::string("importer ") + m.table->format);
-    for (const auto& m : registry.exporters())
-        if (m.plugin->folder == entry.folder) names.push_back(std::string("exporter ") + m.table->format);
-    for (const auto& m : registry.denoisers()) {
-        if (m.plugin->folder != entry.folder) continue;
-        const char* reason = "";
-        const bool usable = m.table->available(&reason);
-        names.push_back(std::string("denoiser ") + m.table->type +
-                        (usable ? "" : std::string(" (not available: ") + reason + ")"));
-    }
+    const auto list = [&](const auto& all, const char* kind, auto&& name) {
+        for (const auto& item : all)
+            if (item.plugin->folder == entry.folder) names.push_back(kind + name(*item.table));
+    };
+    const auto catalogue = registry.catalogue();
+    list(catalogue->materials, "material ", [](const model::Material& m) { return m.type; });
+    list(catalogue->importers, "importer ", [](const model::Importer& m) { return m.format; });
+    list(catalogue->exporters, "exporter ", [](const model::Exporter& m) { return m.format; });
+    list(catalogue->denoisers, "denoiser ", [](const Denoiser& d) {
+        const auto usable = d.available();
+        return d.type + (usable ? "" : " (not available: " + usable.error().message + ")");
+    });
     return names;
 }
 

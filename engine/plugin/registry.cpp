@@ -3,12 +3,12 @@
 #include "plugin/registry.hpp"
 
 #include "base/file.hpp"
+#include "plugin/adapters.hpp"
 #include "plugin/loaded.hpp"
 #include "plugin/table_reader.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <set>
 
 namespace restage::plugin {
@@ -81,7 +81,9 @@ Registry::Registry(Log& log, RegistryOptions options)
     : log_(log),
       options_(std::move(options)),
       quarantine_(options_.quarantine),
-      catalogue_(std::make_shared<const Catalogue>()) {}
+      catalogue_(std::make_shared<const Catalogue>()) {
+    if (options_.material_adapters.empty()) options_.material_adapters = material_adapters();
+}
 
 Registry::~Registry() {
     catalogue_.reset();
@@ -174,12 +176,12 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
     std::shared_ptr<Loaded> loaded;
     {
         const CrashNote note(entry.blame("while it was being loaded"));
-        RESTAGE_TRY(loaded, Loaded::open(entry.folder, manifest, log_));
+        RESTAGE_TRY(loaded, Loaded::open(entry.folder, manifest, options_.material_adapters, log_));
     }
     RESTAGE_CHECK(unique(plugin, *loaded));
     if (judged && judge_)
         for (const auto& source : loaded->materials)
-            RESTAGE_CHECK(judge_({&source->table(), std::make_shared<const Entry>(entry),
+            RESTAGE_CHECK(judge_({&source->material(), std::make_shared<const Entry>(entry),
                                   entry.blame("while its GLSL was being compiled"), source}));
     if (plugin.loaded) replaced_.push_back(std::move(plugin.loaded)); // who renders with its tables has copies of them
     plugin.loaded = std::move(loaded);
@@ -199,19 +201,21 @@ Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
     for (const auto& other : plugins_) {
         if (other.get() == &plugin || !other->loaded) continue;
         const auto twice = [&](const auto& mine, const auto& theirs) -> Result<> {
-            for (const auto* a : mine)
-                for (const auto* b : theirs)
-                    if (key(*a) == key(*b)) return taken(key(*a), *other);
+            for (const auto& a : mine)
+                for (const auto& b : theirs)
+                    if (key(a.declared) == key(b.declared)) return taken(key(a.declared), *other);
             return {};
         };
         RESTAGE_CHECK(twice(loaded.importers, other->loaded->importers));
         RESTAGE_CHECK(twice(loaded.exporters, other->loaded->exporters));
-        RESTAGE_CHECK(twice(loaded.denoisers, other->loaded->denoisers));
+        for (const Denoiser& a : loaded.denoisers)
+            for (const Denoiser& b : other->loaded->denoisers)
+                if (a.type == b.type) return taken(a.type, *other);
         for (const auto& a : loaded.materials)
             for (const auto& b : other->loaded->materials) {
-                const RestageMaterial1 &mine = a->table(), &theirs = b->table();
-                if (key(mine) == key(theirs)) return taken(key(mine), *other);
-                if (mine.prefix && theirs.prefix && !std::strcmp(mine.prefix, theirs.prefix))
+                const model::Material &mine = a->material(), &theirs = b->material();
+                if (mine.type == theirs.type) return taken(mine.type, *other);
+                if (!mine.prefix.empty() && mine.prefix == theirs.prefix)
                     return fail(who + ": material \"" + mine.type + "\": the prefix \"" + mine.prefix +
                                 "\" is already taken by material \"" + theirs.type + "\" of " + other->entry.name());
             }
@@ -224,17 +228,18 @@ void Registry::publish() {
     for (const auto& plugin : plugins_) {
         if (!plugin->loaded) continue;
         const auto entry = std::make_shared<const Entry>(plugin->entry);
-        const auto take = [&](auto& list, const auto& tables) {
-            for (const auto* table : tables)
-                list.push_back({table, entry, plugin->loaded});
-        };
-        take(all->inspectors, plugin->loaded->inspectors);
-        take(all->importers, plugin->loaded->importers);
-        take(all->exporters, plugin->loaded->exporters);
-        take(all->denoisers, plugin->loaded->denoisers);
+        const std::shared_ptr<const void> library = plugin->loaded;
+        for (const Inspector& i : plugin->loaded->inspectors)
+            all->inspectors.push_back({&i, entry, library});
+        for (const Denoiser& d : plugin->loaded->denoisers)
+            all->denoisers.push_back({&d, entry, library});
+        for (const auto& [declared, native] : plugin->loaded->importers)
+            all->importers.push_back({{&declared, entry, library}, native});
+        for (const auto& [declared, native] : plugin->loaded->exporters)
+            all->exporters.push_back({{&declared, entry, library}, native});
         for (const auto& source : plugin->loaded->materials)
             all->materials.push_back(
-                {&source->table(), entry, entry->blame("while its GLSL was being compiled"), source});
+                {&source->material(), entry, entry->blame("while its GLSL was being compiled"), source});
         for (const auto& reader : plugin->loaded->table_readers)
             reader->set_blame(entry->blame("while it read a table"));
     }
@@ -262,7 +267,7 @@ std::vector<Reload> Registry::reload_changed() {
     std::vector<Reload> news;
     for (const auto& plugin : plugins_) {
         Entry& entry = plugin->entry;
-        if (!entry.manifest.id.empty() && entry.manifest.kind != Kind::material) continue;
+        if (!entry.manifest.id.empty() && entry.manifest.provides_any("restage.denoiser")) continue;
         if (stamp_of(entry.folder) == entry.stamp) continue;
         const auto done = load(*plugin, true);
         if (done) {
@@ -312,7 +317,7 @@ std::optional<ExporterEntry> Registry::find_exporter(std::string_view format) co
 std::optional<DenoiserEntry> Registry::find_denoiser(std::string_view type) const {
     return find_in(catalogue()->denoisers, type);
 }
-const RestageInspector1* Registry::find_inspector(std::string_view type) const {
+const Inspector* Registry::find_inspector(std::string_view type) const {
     const auto found = find_in(catalogue()->inspectors, type);
     return found ? found->table : nullptr;
 }

@@ -7,14 +7,13 @@
 #include "base/crash_note.hpp"
 #include "base/log.hpp"
 #include "base/result.hpp"
+#include "model/formats.hpp"
+#include "plugin/denoiser.hpp"
+#include "plugin/inspector.hpp"
 #include "plugin/manifest.hpp"
 #include "plugin/material_source.hpp"
 #include "plugin/quarantine.hpp"
 
-#include <restage/denoiser.h>
-#include <restage/inspector.h>
-#include <restage/material.h>
-#include <restage/scene_io.h>
 #include <atomic>
 #include <filesystem>
 #include <functional>
@@ -26,7 +25,12 @@
 #include <string_view>
 #include <vector>
 
+struct RestageImporter1;
+struct RestageExporter1;
+
 namespace restage::plugin {
+
+struct MaterialAdapter;
 
 enum class State { loaded, refused };
 
@@ -46,22 +50,26 @@ struct Entry {
     Blame blame(const std::string& doing) const;
 };
 
-template <class Table>
-struct Provided { // a table and who provides it
-    const Table* table = nullptr;
+template <class Declared>
+struct Provided { // what was declared, and who provides it
+    const Declared* table = nullptr;
     std::shared_ptr<const Entry> plugin; // as it was when this was listed; its files are in plugin->folder
     std::shared_ptr<const void> library; // stays open while somebody holds this
 };
-using ImporterEntry = Provided<RestageImporter1>;
-using ExporterEntry = Provided<RestageExporter1>;
-using DenoiserEntry = Provided<RestageDenoiser1>;
-using InspectorEntry = Provided<RestageInspector1>;
+using DenoiserEntry = Provided<Denoiser>;
+using InspectorEntry = Provided<Inspector>;
+struct ImporterEntry : Provided<model::Importer> {
+    const RestageImporter1* native = nullptr; // for io/, which calls it
+};
+struct ExporterEntry : Provided<model::Exporter> {
+    const RestageExporter1* native = nullptr; // for io/, which calls it
+};
 
 struct MaterialEntry {
-    const RestageMaterial1* table = nullptr; // source's
+    const model::Material* table = nullptr;  // source's
     std::shared_ptr<const Entry> plugin;     // as it was when this was listed
     Blame blame; // for compiling its GLSL
-    std::shared_ptr<const MaterialSource> source; // keeps the table alive, also after the plugin was loaded anew
+    std::shared_ptr<const MaterialSource> source; // keeps the table alive, also after the plugin was reloaded
 };
 
 // All that was provided at one moment, by type or format in order of the alphabet. Never changes.
@@ -82,6 +90,7 @@ struct SearchPath {
 struct RegistryOptions {
     bool safe_mode = false; // the program's own plugins only
     std::filesystem::path quarantine; // folder, see Quarantine; empty: crashes are not remembered
+    std::span<const MaterialAdapter> material_adapters = {}; // empty: those of plugin/adapters.hpp
 };
 
 // What became of a plugin whose files changed.
@@ -106,9 +115,9 @@ class Registry {
     static std::filesystem::path default_quarantine();
     void scan(std::span<const SearchPath>); // [main] may be called again: adds what is new
 
-    // [main] Loads anew the materials whose files have changed since: manifest, library or GLSL. A version that does
+    // [main] Reloads the plugins whose files have changed since: manifest, library or GLSL. A version that does
     // not fit, or that `judge` refuses, is not taken, and the one before goes on; values of parameters live in the
-    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Other kinds of plugins need a new start.
+    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Denoisers need a new start.
     std::vector<Reload> reload_changed();
     Result<> reload(const Entry& plugin); // this one, changed or not
     // Asked before a material is taken by reload_changed: does its GLSL compile? See render/material_types.hpp.
@@ -134,7 +143,7 @@ class Registry {
     std::vector<ImporterEntry> importers() const { return catalogue()->importers; }
     std::vector<ExporterEntry> exporters() const { return catalogue()->exporters; }
     std::vector<DenoiserEntry> denoisers() const { return catalogue()->denoisers; }
-    const RestageInspector1* find_inspector(std::string_view material_type) const; // [main] until the next reload
+    const Inspector* find_inspector(std::string_view material_type) const; // [main] until the next reload
 
     Log& log() const { return log_; }
 

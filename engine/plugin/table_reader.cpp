@@ -4,6 +4,9 @@
 #include "plugin/table_reader.hpp"
 
 #include "base/file.hpp"
+#include "plugin/abi.hpp"
+#include "plugin/adapters.hpp"
+#include "plugin/tables.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -88,13 +91,24 @@ std::uint64_t stamp_of(const std::string& path) {
 
 } // namespace
 
-TableReader::TableReader(const RestageTable1& table, std::string plugin_id, Log& log)
-    : type_(table.type), plugin_id_(std::move(plugin_id)), log_(log), table_(&table) {
-    std::string rest = table.extensions;
-    for (std::size_t bar; (bar = rest.find('|')) != std::string::npos; rest.erase(0, bar + 1))
-        extensions_.push_back(rest.substr(0, bar));
-    extensions_.push_back(rest);
+Result<std::shared_ptr<TableReader>> TableReader::open(const RestageTable1& table, std::string plugin_id, Log& log) {
+    if (table.size < RESTAGE_SIZE_UP_TO(RestageTable1, read))
+        return fail("its table " RESTAGE_TABLE1 " has " + std::to_string(table.size) + " bytes, " +
+                    std::to_string(RESTAGE_SIZE_UP_TO(RestageTable1, read)) + " are needed: rebuild it with this SDK");
+    if (!table.type || !is_type_name(table.type))
+        return fail("a reader of tables that does not say for which material it is");
+    const std::string who = std::string("the reader of tables of \"") + table.type + "\"";
+    if (!table.extensions || !*table.extensions) return fail(who + " names no extensions");
+    if (!table.read) return fail(who + " lacks read");
+    return std::make_shared<TableReader>(table, std::move(plugin_id), log);
 }
+
+TableReader::TableReader(const RestageTable1& table, std::string plugin_id, Log& log)
+    : type_(table.type),
+      plugin_id_(std::move(plugin_id)),
+      extensions_(split_words(table.extensions)),
+      log_(log),
+      table_(&table) {}
 
 void TableReader::set_blame(Blame blame) {
     const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TableReader: files of a material's RESTAGE_TABLE parameters, read through its plugin. What was read is remembered by
+// TableReader: files of a material's table parameters, read through its plugin. What was read is remembered by
 // parameter, path, time and size of the file, so that all who ask share the words. [any] thread; one file at a time.
 #pragma once
 
@@ -7,7 +7,6 @@
 #include "base/log.hpp"
 #include "base/result.hpp"
 
-#include <restage/table.h>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -16,6 +15,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+struct RestageTable1;
 
 namespace restage::plugin {
 
@@ -26,6 +27,8 @@ struct Table { // immutable once shared
 
 class TableReader {
   public:
+    // The table outlives it, until close(). Errors: a table that lacks something.
+    static Result<std::shared_ptr<TableReader>> open(const RestageTable1& table, std::string plugin_id, Log& log);
     TableReader(const RestageTable1& table, std::string plugin_id, Log& log);
 
     const std::string& material_type() const { return type_; }

@@ -198,19 +198,19 @@ class Meter {
         scene_.lights.each([&](scene::Id<scene::Light>, const scene::Light& l) {
             if (l.hidden) return;
             const dvec3 axis = glm::normalize(dvec3(l.light_to_world[2]));
-            dvec3 d = l.kind == RESTAGE_LIGHT_DISTANT ? -axis : dvec3(l.light_to_world[3]) - origin_ - at.position;
+            dvec3 d = l.kind == scene::LightKind::distant ? -axis : dvec3(l.light_to_world[3]) - origin_ - at.position;
             const double distance = glm::length(d);
             if (!(distance > 0)) return;
             d /= distance;
             double value = luminance(dvec3(l.value)) * glm::dot(d, at.normal);
-            if (l.kind != RESTAGE_LIGHT_DISTANT) value /= distance * distance;
-            if (l.kind == RESTAGE_LIGHT_SPOT) { // pbrt 4ed, 12.2.1
+            if (l.kind != scene::LightKind::distant) value /= distance * distance;
+            if (l.kind == scene::LightKind::spot) { // pbrt 4ed, 12.2.1
                 const double total = std::cos(glm::radians(double(l.cone_angle))),
                              start = std::cos(glm::radians(double(l.cone_angle - l.cone_delta)));
                 const double x = std::clamp((glm::dot(-d, axis) - total) / std::max(start - total, 1e-9), 0.0, 1.0);
                 value *= x * x * (3 - 2 * x);
             }
-            const double far = l.kind == RESTAGE_LIGHT_DISTANT ? std::numeric_limits<double>::infinity() : distance;
+            const double far = l.kind == scene::LightKind::distant ? std::numeric_limits<double>::infinity() : distance;
             if (value > 0 && sees(at.position, d, far)) sum += value;
         });
         return sum;

@@ -65,14 +65,16 @@ void translate_local(scene::Camera& camera, const glm::dvec3& by) {
 
 void pan(scene::Camera& camera, glm::dvec2 delta, double distance, double aspect) {
     const glm::dvec4 window = film_window(camera, aspect);
-    if (camera.projection == RESTAGE_ORTHOGRAPHIC) distance = glm::length(glm::dvec3(camera.camera_to_world[1]));
+    if (camera.projection == scene::Projection::orthographic)
+        distance = glm::length(glm::dvec3(camera.camera_to_world[1]));
     const double per_height = (window.w - window.z) * distance; // world units the height of the film spans there
     translate_local(camera, {-delta.x * per_height, delta.y * per_height, 0});
 }
 
 void dolly(scene::Camera& camera, const glm::dvec3& towards, double part) {
     glm::dvec3 way = (towards - position(camera)) * part;
-    if (camera.projection == RESTAGE_ORTHOGRAPHIC) { // nearer is no larger: the film shrinks around the point
+    if (camera.projection ==
+        scene::Projection::orthographic) { // nearer is no larger: the film shrinks around the point
         scale_film(camera, 1 - part);
         way -= axis(camera, 2) * glm::dot(way, axis(camera, 2));
     }
@@ -85,7 +87,7 @@ void frame(scene::Camera& camera, const scene::Bounds& bounds, double aspect) {
     const double half = std::min(window.y - window.x, window.w - window.z) / 2;
     const double radius = std::max(bounds.radius(), 1e-9);
     double distance = radius / std::sin(std::atan(half));
-    if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
+    if (camera.projection == scene::Projection::orthographic) {
         const double unit = glm::length(glm::dvec3(camera.camera_to_world[1]));
         scale_film(camera, radius / (half * unit));
         distance = 2 * radius;
@@ -118,13 +120,13 @@ glm::dvec2 octahedral_point(const glm::dvec3& w) {
 ViewRay view_ray(const scene::Camera& camera, glm::dvec2 film, double aspect) {
     const glm::dvec4 window = film_window(camera, aspect);
     glm::dvec3 from(0), local(glm::mix(window.x, window.y, film.x), glm::mix(window.w, window.z, film.y), 1);
-    if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
+    if (camera.projection == scene::Projection::orthographic) {
         from = {local.x, local.y, 0};
         local = {0, 0, 1};
-    } else if (camera.projection == RESTAGE_SPHERICAL) {
+    } else if (camera.projection == scene::Projection::spherical) {
         const double theta = film.y * pi, phi = film.x * 2 * pi;
         local = {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
-    } else if (camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA) {
+    } else if (camera.projection == scene::Projection::spherical_equal_area) {
         const glm::dvec3 w = octahedral_direction(film);
         local = {w.x, w.z, w.y};
     }
@@ -135,17 +137,18 @@ ViewRay view_ray(const scene::Camera& camera, glm::dvec2 film, double aspect) {
 glm::dvec3 project(const scene::Camera& camera, const glm::dvec3& world, double aspect) {
     const glm::dvec3 local(glm::affineInverse(camera.camera_to_world) * glm::dvec4(world, 1));
     const double away = glm::length(local);
-    if (camera.projection == RESTAGE_SPHERICAL) {
+    if (camera.projection == scene::Projection::spherical) {
         const double phi = std::atan2(local.z, local.x);
         return {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi), std::atan2(std::hypot(local.x, local.z), local.y) / pi,
                 away};
     }
-    if (camera.projection == RESTAGE_SPHERICAL_EQUAL_AREA) {
+    if (camera.projection == scene::Projection::spherical_equal_area) {
         if (!(away > 0)) return {0.5, 0.5, 0};
         return {octahedral_point(glm::dvec3(local.x, local.z, local.y) / away), away};
     }
     const glm::dvec4 window = film_window(camera, aspect);
-    const glm::dvec2 p = camera.projection == RESTAGE_ORTHOGRAPHIC ? glm::dvec2(local) : glm::dvec2(local) / local.z;
+    const glm::dvec2 p =
+        camera.projection == scene::Projection::orthographic ? glm::dvec2(local) : glm::dvec2(local) / local.z;
     return {(p.x - window.x) / (window.y - window.x), (window.w - p.y) / (window.w - window.z), local.z};
 }
 

@@ -17,10 +17,9 @@ Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry& registry, 
             if (name == entry.table->type || name == entry.plugin->manifest.id) return entry;
             continue;
         }
-        const char* reason = nullptr;
         const CrashNote note(entry.plugin->blame("while it was asked whether it can be used"));
-        if (!entry.table->available(&reason))
-            why = std::string(entry.table->type) + " cannot be used: " + (reason ? reason : "it does not say why");
+        if (const auto usable = entry.table->available(); !usable)
+            why = entry.table->type + " cannot be used: " + usable.error().message;
         else if (!best || (entry.plugin->own && !best->plugin->own))
             best = &entry;
     }
@@ -29,46 +28,30 @@ Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry& registry, 
     return *best;
 }
 
-std::string denoiser_label(const plugin::DenoiserEntry& entry, RestageDenoiseQuality quality) {
+std::string denoiser_label(const plugin::DenoiserEntry& entry, plugin::DenoiseQuality quality) {
     const char* words[] = {"fast", "balanced", "high"};
-    return std::string(entry.table->type) + " " + words[quality];
+    return entry.table->type + " " + words[std::size_t(quality)];
 }
 
 Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& entry,
-                                       RestageDenoiseQuality quality, unsigned threads,
+                                       plugin::DenoiseQuality quality, unsigned threads,
                                        std::function<bool(double done)> keep_going) {
-    const RestageDenoiser1& denoiser = *entry.table;
+    const plugin::Denoiser& denoiser = *entry.table;
     const CrashNote note(entry.plugin->blame("while it denoised a picture"));
-    const char* reason = "";
-    if (!denoiser.available(&reason))
-        return fail(std::string("the denoiser ") + denoiser.type + " is not available: " + reason);
+    if (const auto usable = denoiser.available(); !usable)
+        return fail("the denoiser " + denoiser.type + " is not available: " + usable.error().message);
     std::vector<glm::vec3> output(image.color.size());
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-    RestageDenoiseJob job{};
-    job.size = sizeof(job);
-    job.width = image.width;
-    job.height = image.height;
-    job.color = &image.color[0].x;
-    job.albedo = &image.albedo[0].x;
-    job.normal = &image.normal[0].x;
-    job.output = &output[0].x;
-    job.quality = quality;
-    job.threads = threads;
-    struct Progress {
-        std::function<bool(double)> keep_going;
-        std::atomic<bool> stopped{false}; // a denoiser may ask from any thread
-    } progress{std::move(keep_going)};
-    if (progress.keep_going) {
-        job.progress_ctx = &progress;
-        job.progress = [](void* ctx, double done) {
-            auto& p = *static_cast<Progress*>(ctx);
-            if (!p.keep_going(done)) p.stopped = true;
-            return p.stopped ? 0 : 1;
-        };
-    }
-    const bool ran = denoiser.run(&job, &reason) != 0;
-    if (!ran && progress.stopped) return cancelled(std::string(denoiser.type) + ": stopped on request");
-    if (!ran) return fail(std::string(denoiser.type) + ": " + (reason ? reason : "failed"));
+    const plugin::DenoiseJob job{.width = image.width,
+                                 .height = image.height,
+                                 .color = &image.color[0].x,
+                                 .albedo = &image.albedo[0].x,
+                                 .normal = &image.normal[0].x,
+                                 .output = &output[0].x,
+                                 .quality = quality,
+                                 .threads = threads,
+                                 .progress = std::move(keep_going)};
+    if (const auto done = denoiser.run(job); !done) return fail(denoiser.type, done.error());
     return output;
 }
 

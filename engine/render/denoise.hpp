@@ -15,12 +15,12 @@ namespace restage::render {
 // used here, else the first that can. An error lists what there is, or says why none can be used.
 Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry&, const std::string& name);
 // For the file: "oidn high".
-std::string denoiser_label(const plugin::DenoiserEntry&, RestageDenoiseQuality);
+std::string denoiser_label(const plugin::DenoiserEntry&, plugin::DenoiseQuality);
 
 // Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: the error is a
 // cancelled one.
 Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& denoiser,
-                                       RestageDenoiseQuality quality, unsigned threads = 0,
+                                       plugin::DenoiseQuality quality, unsigned threads = 0,
                                        std::function<bool(double done)> keep_going = {});
 
 } // namespace restage::render

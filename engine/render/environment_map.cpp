@@ -9,7 +9,7 @@
 
 namespace restage::render {
 
-EnvironmentMap make_environment_map(const scene::PixelData* image, RestageMapping mapping) {
+EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mapping mapping) {
     EnvironmentMap map;
     if (!image || image->width == 0 || image->height == 0) {
         map.mean = glm::vec3(1);
@@ -24,9 +24,9 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, RestageMappin
     double total = 0;
     for (std::uint32_t y = 0; y < map.height; ++y) {
         // Solid angle of a row's texels, exact: the difference of the cosines at its edges.
-        const double row = mapping == RESTAGE_EQUIRECT ? std::cos(std::numbers::pi * y / map.height) -
-                                                             std::cos(std::numbers::pi * (y + 1) / map.height)
-                                                       : 1.0;
+        const double row = mapping == scene::Mapping::equirect ? std::cos(std::numbers::pi * y / map.height) -
+                                                                     std::cos(std::numbers::pi * (y + 1) / map.height)
+                                                               : 1.0;
         for (std::uint32_t x = 0; x < map.width; ++x) {
             const std::size_t i = std::size_t(y) * map.width + x;
             const float* v = &image->values[i * image->channels];

@@ -19,6 +19,6 @@ struct EnvironmentMap {
 };
 
 // An image without light, or none, gives an empty map with mean 1 (constant) or 0 (black image).
-EnvironmentMap make_environment_map(const scene::PixelData*, RestageMapping);
+EnvironmentMap make_environment_map(const scene::PixelData*, scene::Mapping);
 
 } // namespace restage::render

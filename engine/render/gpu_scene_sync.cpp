@@ -15,9 +15,9 @@ namespace restage::render {
 using scene::Id;
 using scene::Scene;
 
-static_assert(CAMERA_ORTHOGRAPHIC == std::uint32_t(RESTAGE_ORTHOGRAPHIC) &&
-              CAMERA_SPHERICAL == std::uint32_t(RESTAGE_SPHERICAL) &&
-              CAMERA_EQUAL_AREA == std::uint32_t(RESTAGE_SPHERICAL_EQUAL_AREA));
+static_assert(CAMERA_ORTHOGRAPHIC == std::uint32_t(scene::Projection::orthographic) &&
+              CAMERA_SPHERICAL == std::uint32_t(scene::Projection::spherical) &&
+              CAMERA_EQUAL_AREA == std::uint32_t(scene::Projection::spherical_equal_area));
 
 std::uint32_t GpuScene::type_index(const std::string& type) {
     for (std::uint32_t i = 0; i < types_.size(); ++i)
@@ -51,7 +51,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         if (!m || depth > 8 || used[id.value]) return;
         used[id.value] = 1;
         for (const auto& e : m->params.entries())
-            if (e.value.type == RESTAGE_MATERIAL) self(self, e.value.material, depth + 1);
+            if (e.value.type == model::ParamType::material) self(self, e.value.material, depth + 1);
     };
     used_material_.assign(scene.instances.size() + 1, 0);
     scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& i) {
@@ -81,7 +81,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type,
                           std::span<const DeviceTable> tables = {}) {
         record.type = type;
-        const auto color = stand_in_color(*types_[type].plugin.table, params, types_[type].plugin.emission());
+        const auto color = stand_in_color(*types_[type].plugin.table, params);
         words.insert(words.end(), color.begin(), color.end());
         record.params = std::uint32_t(words.size());
         const auto packed = pack_material(*types_[type].plugin.table, params, tables);
@@ -107,7 +107,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             const auto child = [&](const char* param) {
                 const auto* v = m.params.find(param);
                 const auto* m2 = v ? scene.materials.find(v->material) : nullptr;
-                if (m2 && types_[type_index(m2->type)].plugin.emission())
+                if (m2 && types_[type_index(m2->type)].plugin.emits())
                     said[id.value] = "its share \"" + m2->name + "\" does not shine within a mix";
                 if (m2 && types_[type_index(m2->type)].null_surface()) return MATERIAL_NOTHING;
                 return m2 ? v->material.value : 0u;
@@ -134,14 +134,13 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             return;
         }
         pack(record, m.params, index, *tables);
-        if (const auto* names = type.plugin.emission())
-            emission[id.value] = scene::emission_of(*type.plugin.table, *names, m.params);
+        if (type.plugin.emits()) emission[id.value] = scene::emission_of(*type.plugin.table, m.params);
         record.bump = m.params.texture("bump").value;
         record.normal_map = m.params.texture("normalmap").value;
         type.bump |= record.bump || record.normal_map;
-        const RestageMaterial1& table = *type.plugin.table;
-        for (std::uint32_t i = 0; i < table.param_count; ++i) {
-            if (!(table.params[i].flags & RESTAGE_PARAM_TEXTURABLE) || !m.params.texture(table.params[i].id)) continue;
+        const model::Material& table = *type.plugin.table;
+        for (std::uint32_t i = 0; i < table.params.size(); ++i) {
+            if (!table.params[i].texturable || !m.params.texture(table.params[i].id)) continue;
             if (type.textured.size() <= i) type.textured.resize(i + 1);
             type.textured[i] = true;
         }
@@ -380,7 +379,8 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
     const auto& env = scene.environment.value;
     if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
         const auto* image = env ? scene.images.find(env->image) : nullptr;
-        environment_ = make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : RESTAGE_EQUIRECT);
+        environment_ =
+            make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : scene::Mapping::equirect);
         if (environment_.mended > 0)
             changes.warnings.push_back(
                 fmt::format("environment \"{}\": {} values of its image are negative or not finite; taken as 0",
@@ -471,9 +471,9 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
         d.environment.env_from_world = glm::mat3(glm::inverse(rotation));
         d.environment.scale = env->scale;
         d.environment.hidden = env->hidden_from_camera;
-        d.environment.mapping = environment_.texels.empty()          ? ENV_CONSTANT
-                                : env->mapping == RESTAGE_OCTAHEDRAL ? ENV_OCTAHEDRAL
-                                                                     : ENV_EQUIRECT;
+        d.environment.mapping = environment_.texels.empty()                  ? ENV_CONSTANT
+                                : env->mapping == scene::Mapping::octahedral ? ENV_OCTAHEDRAL
+                                                                             : ENV_EQUIRECT;
         d.environment.width = environment_.width;
         d.environment.height = environment_.height;
         d.environment.texels = env_texels_.address();

@@ -7,33 +7,33 @@
 namespace restage::render {
 namespace {
 
-const char* glsl_type(const RestageParam& p) {
+const char* glsl_type(const model::Param& p) {
     switch (p.type) {
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             return "vec3";
-        case RESTAGE_FLOAT:
+        case model::ParamType::number:
             return "float";
-        case RESTAGE_BOOL:
+        case model::ParamType::boolean:
             return "bool";
-        case RESTAGE_TABLE:
+        case model::ParamType::table:
             return "Table";
         default:
             return "int";
     }
 }
 
-std::string read_value(const RestageParam& p, std::uint32_t at) {
+std::string read_value(const model::Param& p, std::uint32_t at) {
     switch (p.type) {
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             return fmt::format(
                 "vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
                 "uintBitsToFloat(w.at[at + {}]))",
                 at, at + 1, at + 2);
-        case RESTAGE_FLOAT:
+        case model::ParamType::number:
             return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
-        case RESTAGE_BOOL:
+        case model::ParamType::boolean:
             return fmt::format("w.at[at + {}] != 0u", at);
-        case RESTAGE_TABLE:
+        case model::ParamType::table:
             return fmt::format(
                 "Table(uint64_t(w.at[at + {}]) | uint64_t(w.at[at + {}]) << 32, "
                 "w.at[at + {}])",
@@ -43,47 +43,47 @@ std::string read_value(const RestageParam& p, std::uint32_t at) {
     }
 }
 
-std::string default_value(const RestageParam& p) {
+std::string default_value(const model::Param& p) {
     switch (p.type) {
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             return fmt::format("vec3({}, {}, {})", p.def[0], p.def[1], p.def[2]);
-        case RESTAGE_FLOAT:
+        case model::ParamType::number:
             return fmt::format("float({})", p.def[0]);
-        case RESTAGE_BOOL:
-            return p.def[0] != 0 ? "true" : "false";
-        case RESTAGE_TABLE:
+        case model::ParamType::boolean:
+            return p.int_def != 0 ? "true" : "false";
+        case model::ParamType::table:
             return "Table(uint64_t(0), 0u)";
         default:
-            return fmt::format("{}", int(p.def[0]));
+            return fmt::format("{}", p.int_def);
     }
 }
 
 gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage,
                           bool stand_in) {
-    const RestageMaterial1& table = *type.plugin.table;
+    const model::Material& table = *type.plugin.table;
     const std::string prefix = table.prefix;
     std::string fields, fetch;
     std::uint32_t at = 0;
     bool colored = false, tables = false;
-    for (std::uint32_t i = 0; i < table.param_count; ++i) {
-        const RestageParam& line = table.params[i];
+    for (std::uint32_t i = 0; i < table.params.size(); ++i) {
+        const model::Param& line = table.params[i];
         const auto n = value_words(line);
         if (n == 0) continue;
-        tables |= line.type == RESTAGE_TABLE;
+        tables |= line.type == model::ParamType::table;
         fields += fmt::format("    {} {};\n", glsl_type(line), line.id);
         if (stand_in) {
-            const bool color = line.type == RESTAGE_COLOR && std::exchange(colored, true) == false;
+            const bool color = line.type == model::ParamType::color && std::exchange(colored, true) == false;
             fetch += fmt::format("    m.{} = {};\n", line.id, color ? read_value(line, 0) : default_value(line));
             continue;
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
         if (type.is_textured(i)) // a slot nobody has textured carries no texture code
             fetch += fmt::format("    if (w.at[at + {0}] != 0u) m.{1} = texture_eval(scene, w.at[at + {0}], uv).{2};\n",
-                                 at + n, line.id, line.type == RESTAGE_COLOR ? "xyz" : "x");
+                                 at + n, line.id, line.type == model::ParamType::color ? "xyz" : "x");
         at += line_words(line);
     }
     if (fields.empty()) fields = "    int unused;\n", fetch = "    m.unused = 0;\n";
-    const char* rng = (table.flags & RESTAGE_MATERIAL_STOCHASTIC) ? ", rng" : "";
+    const char* rng = table.stochastic ? ", rng" : "";
 
     gpu::ShaderSource source;
     source.name = stand_in ? "<stand-in>" : "<composed for " + type.type + ">";
@@ -138,7 +138,7 @@ plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {
         MaterialType type;
         type.type = entry.table->type;
         type.plugin = {entry.table, entry.plugin->folder, entry.source};
-        type.textured.assign(entry.table->param_count, true);
+        type.textured.assign(entry.table->params.size(), true);
         if (type.mix() || type.null_surface()) return {};
         RESTAGE_CHECK(compiler->compile(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute)));
         return {};
@@ -149,7 +149,7 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
                                               const MaterialType* type) {
     const bool bump = type && type->bump;
     const bool textures = type && (bump || !type->textured.empty());
-    const bool tangents = type && (bump || (type->plugin.table->flags & RESTAGE_MATERIAL_TANGENT));
+    const bool tangents = type && (bump || type->plugin.table->tangent);
     return {{0, f.environment},
             {1, textures},
             {2, bump},

@@ -6,7 +6,6 @@
 #include "plugin/registry.hpp"
 #include "scene/scene.hpp"
 
-#include <restage/material.h>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -18,12 +17,12 @@
 namespace restage::render {
 
 struct MaterialPlugin {
-    const RestageMaterial1* table = nullptr;
+    const model::Material* table = nullptr;
     std::filesystem::path folder; // where its GLSL is
     // Holds the table and the text of the GLSL; nullptr: the table outlives the renderer, and the folder is read.
     std::shared_ptr<const plugin::MaterialSource> source = nullptr;
     Blame blame = {}; // of a crash while it is compiled
-    const RestageEmission1* emission() const { return source ? source->emission() : nullptr; }
+    bool emits() const { return table && table->emission; }
     std::uint64_t revision() const { return source ? source->revision() : 0; }
 };
 // Finds the plugin of a material type; nullopt = there is none. Asked at each Renderer::sync: an answer of another
@@ -38,15 +37,15 @@ struct MaterialType {
     bool used = false;          // by a visible instance; types are never taken away
     bool bump = false;          // some material of the type has a bump or normal map
     bool is_textured(std::size_t line) const { return line < textured.size() && textured[line]; }
-    bool mix() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_MIX); }
-    bool null_surface() const { return plugin.table && (plugin.table->flags & RESTAGE_MATERIAL_NULL); }
+    bool mix() const { return plugin.table && plugin.table->mix; }
+    bool null_surface() const { return plugin.table && plugin.table->null_surface; }
 };
 
 // Words of one table line: its components, then the texture when it may have one. Lines shaders never see have none.
-std::uint32_t value_words(const RestageParam&);
-inline std::uint32_t line_words(const RestageParam& p) {
+std::uint32_t value_words(const model::Param&);
+inline std::uint32_t line_words(const model::Param& p) {
     const auto n = value_words(p);
-    return n == 0 ? 0 : n + ((p.flags & RESTAGE_PARAM_TEXTURABLE) ? 1 : 0);
+    return n == 0 ? 0 : n + (p.texturable ? 1 : 0);
 }
 
 // A table in device memory; see TableStore.
@@ -54,21 +53,19 @@ struct DeviceTable {
     std::uint64_t address = 0;
     std::uint32_t size = 0; // words
 };
-// The file a RESTAGE_TABLE line names: what is set, else its default; "" = none.
-std::string table_path(const RestageParam& line, const scene::ParamSet&);
+// The file a model::ParamType::table line names: what is set, else its default; "" = none.
+std::string table_path(const model::Param& line, const scene::ParamSet&);
 
 // The words of one material: values of the table's lines in order, defaults where nothing is set. `tables`: of its
-// RESTAGE_TABLE lines, in order; those that are missing are empty.
-std::vector<std::uint32_t> pack_material(const RestageMaterial1&, const scene::ParamSet&,
+// model::ParamType::table lines, in order; those that are missing are empty.
+std::vector<std::uint32_t> pack_material(const model::Material&, const scene::ParamSet&,
                                          std::span<const DeviceTable> tables = {});
 
 // How those words lie, as a text: shaders composed for one table read what was packed for another of the same layout.
-std::string word_layout(const RestageMaterial1*);
+std::string word_layout(const model::Material*);
 
 // What the material looks like while its shader is being compiled: its first colour that is a reflectance, or grey.
-// `emission`: of which parameter it is no reflectance; may be null. Lies in the three words before its own, for
-// compose_stand_in.
-std::array<std::uint32_t, 3> stand_in_color(const RestageMaterial1&, const scene::ParamSet&,
-                                            const RestageEmission1* emission = nullptr);
+// Lies in the three words before its own, for compose_stand_in.
+std::array<std::uint32_t, 3> stand_in_color(const model::Material&, const scene::ParamSet&);
 
 } // namespace restage::render

@@ -7,8 +7,8 @@ namespace restage::render {
 
 Result<std::vector<DeviceTable>> TableStore::find(const MaterialPlugin& plugin, const scene::ParamSet& params) {
     std::vector<DeviceTable> found;
-    for (const RestageParam& line : std::span(plugin.table->params, plugin.table->param_count)) {
-        if (line.type != RESTAGE_TABLE) continue;
+    for (const model::Param& line : plugin.table->params) {
+        if (line.type != model::ParamType::table) continue;
         const auto reader = plugin.source ? plugin.source->table_reader() : nullptr;
         if (!reader) return fail(std::string("nothing reads the table \"") + line.id + "\"");
         RESTAGE_TRY(const auto table, reader->read(line.id, table_path(line, params)));

@@ -15,7 +15,7 @@ class TableStore {
   public:
     explicit TableStore(gpu::Device& device) : device_(&device) {}
 
-    // Of the RESTAGE_TABLE lines of a material, in their order. Reads and uploads what is new or has changed.
+    // Of the model::ParamType::table lines of a material, in their order. Reads and uploads what is new or has changed.
     Result<std::vector<DeviceTable>> find(const MaterialPlugin&, const scene::ParamSet&);
     // Between these two everything that stays is asked for with find; the rest is dropped.
     void begin();

@@ -78,10 +78,10 @@ class Compiler {
         if (height >= stack_size) return false;
         if (!v)
             constant({fallback, fallback, fallback});
-        else if (v->type == RESTAGE_COLOR)
+        else if (v->type == model::ParamType::color)
             constant({v->v[0], v->v[1], v->v[2]});
         else
-            constant({v->v[0], v->v[0], v->v[0]});
+            constant({v->scalar(), v->scalar(), v->scalar()});
         return true;
     }
     bool combine(std::uint32_t kind, const Texture& t) {

@@ -209,7 +209,7 @@ class VulkanTracer final : public Tracer {
         bool mixes = c_.stand_ins;
         for (const MaterialType& type : types) {
             mixes |= type.mix();
-            if (!plain && type.used && type.plugin.table && type.plugin.table->glsl_file) {
+            if (!plain && type.used && type.plugin.table && type.plugin.table->has_code()) {
                 r.callables.push_back(
                     shader(compose_material(type, "trace_material.glsl", gpu::ShaderStage::callable)));
                 r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));

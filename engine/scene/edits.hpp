@@ -88,7 +88,7 @@ Result<Edit> set_material_type(const Scene&, Id<Material>, std::string type); //
 
 // --- edits_material.cpp ---------------------------------------------------------------------------------------------
 
-using ParamTable = std::span<const RestageParam>;
+using model::ParamTable;
 // Changes the type and keeps what both have in common: a value of the same id goes on where the new table can hold it
 // (clamped to its range), else its default holds. The main colour (the first COLOR of range 0..1) and roughness go on
 // under the new type's names.
@@ -103,7 +103,7 @@ Result<MadeUnique> make_unique(const Scene&, std::span<const Id<Instance>>, Id<M
 
 // An `imagemap` of this image stands for the parameter. An image of the same file and encoding that the scene has is
 // shared, and so is a texture that shows it as it is. `scalar`: of one channel.
-Result<Edit> set_image_texture(const Scene&, Id<Material>, std::string_view param, RestageType type, bool scalar,
+Result<Edit> set_image_texture(const Scene&, Id<Material>, std::string_view param, model::ParamType type, bool scalar,
                                Image);
 
 Result<Edit> set_light(const Scene&, Id<Light>, Light, std::string label = "Change light");

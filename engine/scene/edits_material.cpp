@@ -8,28 +8,25 @@ namespace restage::scene {
 
 namespace {
 
-const RestageParam* line_of(ParamTable table, std::string_view id) {
-    const auto found = std::find_if(table.begin(), table.end(), [&](const RestageParam& p) { return p.id == id; });
+const model::Param* main_color(ParamTable table) {
+    const auto found = std::find_if(table.begin(), table.end(), [](const model::Param& p) {
+        return p.type == model::ParamType::color && p.max == 1;
+    });
     return found == table.end() ? nullptr : &*found;
 }
 
-const RestageParam* main_color(ParamTable table) {
-    const auto found = std::find_if(table.begin(), table.end(),
-                                    [](const RestageParam& p) { return p.type == RESTAGE_COLOR && p.max == 1; });
-    return found == table.end() ? nullptr : &*found;
-}
-
-bool is_roughness(const RestageParam& p) {
-    return p.type == RESTAGE_FLOAT && p.max == 1 && std::string_view(p.id).ends_with("roughness");
+bool is_roughness(const model::Param& p) {
+    return p.type == model::ParamType::number && p.max == 1 && p.id.ends_with("roughness");
 }
 
 // The value as the table line can hold it; nothing where it cannot.
-std::optional<Value> fitted(Value value, const RestageParam& line) {
-    const auto type = static_cast<RestageType>(line.type);
-    if (value.texture && !(line.flags & RESTAGE_PARAM_TEXTURABLE) && type != RESTAGE_TEXTURE) return {};
+std::optional<Value> fitted(Value value, const model::Param& line) {
+    const auto type = line.type;
+    if (value.texture && !line.texturable && type != model::ParamType::texture) return {};
     if (value.type != type) return {};
-    if (type == RESTAGE_ENUM && !choice_index(line.choices, value.text)) return {};
-    if (type == RESTAGE_FLOAT || type == RESTAGE_INT || type == RESTAGE_COLOR)
+    if (type == model::ParamType::choice && !line.choice_index(value.text)) return {};
+    if (type == model::ParamType::integer) value.i = std::clamp(value.i, line.int_min, line.int_max);
+    if (type == model::ParamType::number || type == model::ParamType::color)
         for (float& x : value.v)
             x = std::clamp(x, line.min, line.max);
     return value;
@@ -41,12 +38,12 @@ Result<Edit> switch_material_type(const Scene& scene, Id<Material> id, std::stri
                                   ParamTable after) {
     const Material* old = scene.materials.find(id);
     if (!old) return fail("there is no material with id " + std::to_string(id.value));
-    const auto held = [&](const RestageParam& line) { // what the old type showed for it
+    const auto held = [&](const model::Param& line) { // what the old type showed for it
         const Value* set = old->params.find(line.id);
         return set ? *set : default_value(line);
     };
     ParamSet params = old->params; // ids of neither table travel along
-    for (const RestageParam& line : after) {
+    for (const model::Param& line : after) {
         const Value* set = params.find(line.id);
         if (!set) continue;
         if (const auto value = fitted(*set, line))
@@ -54,13 +51,13 @@ Result<Edit> switch_material_type(const Scene& scene, Id<Material> id, std::stri
         else
             params.remove(line.id);
     }
-    const auto carry = [&](const RestageParam* from, const RestageParam& to) {
-        if (!from || params.find(to.id) || line_of(before, to.id)) return;
+    const auto carry = [&](const model::Param* from, const model::Param& to) {
+        if (!from || params.find(to.id) || find_param(before, to.id)) return;
         if (const auto value = fitted(held(*from), to)) params.set(to.id, *value);
     };
-    if (const RestageParam* color = main_color(after)) carry(main_color(before), *color);
+    if (const model::Param* color = main_color(after)) carry(main_color(before), *color);
     const auto rough = std::find_if(before.begin(), before.end(), is_roughness);
-    for (const RestageParam& line : after)
+    for (const model::Param& line : after)
         if (is_roughness(line)) carry(rough == before.end() ? nullptr : &*rough, line);
     return modify(scene, id, old->name + ": type " + type, [&](Material& m) {
         m.type = std::move(type);
@@ -90,7 +87,7 @@ Result<MadeUnique> make_unique(const Scene& scene, std::span<const Id<Instance>>
     return made;
 }
 
-Result<Edit> set_image_texture(const Scene& scene, Id<Material> id, std::string_view param, RestageType type,
+Result<Edit> set_image_texture(const Scene& scene, Id<Material> id, std::string_view param, model::ParamType type,
                                bool scalar, Image image) {
     const Material* material = scene.materials.find(id);
     if (!material) return fail("there is no material with id " + std::to_string(id.value));

@@ -2,10 +2,9 @@
 // What a material emits by itself (restage.emission/1). Lights are made of it by render/, and written by io/.
 #pragma once
 
+#include "model/material.hpp"
 #include "scene/params.hpp"
 
-#include <restage/emission.h>
-#include <restage/material.h>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -18,7 +17,7 @@ struct MaterialEmission {
     bool operator==(const MaterialEmission&) const = default;
 };
 
-// nullopt = it is dark, or its values are no light: negative or not finite.
-std::optional<MaterialEmission> emission_of(const RestageMaterial1&, const RestageEmission1&, const ParamSet&);
+// nullopt = it is dark, or its values are no light: negative or non-finite.
+std::optional<MaterialEmission> emission_of(const model::Material&, const ParamSet&);
 
 } // namespace restage::scene

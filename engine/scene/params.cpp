@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/params.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 namespace restage::scene {
@@ -24,7 +25,12 @@ void ParamSet::remove(std::string_view id) {
 
 float ParamSet::number(std::string_view id, float fallback) const {
     const Value* value = find(id);
-    return value ? value->v[0] : fallback;
+    return value ? value->scalar() : fallback;
+}
+
+int ParamSet::integer(std::string_view id, int fallback) const {
+    const Value* value = find(id);
+    return value ? value->whole() : fallback;
 }
 
 std::string_view ParamSet::choice(std::string_view id, std::string_view fallback) const {
@@ -42,43 +48,48 @@ Id<Texture> ParamSet::texture(std::string_view id) const {
     return value ? value->texture : Id<Texture>{};
 }
 
-Value default_value(const RestageParam& param) {
+Value default_value(const model::Param& param) {
     Value value;
-    value.type = static_cast<RestageType>(param.type);
-    switch (value.type) {
-        case RESTAGE_FLOAT:
-        case RESTAGE_INT:
-        case RESTAGE_BOOL:
+    value.type = param.type;
+    switch (param.type) {
+        case ParamType::number:
             value.v[0] = param.def[0];
             break;
-        case RESTAGE_COLOR:
-            std::copy_n(param.def, 3, value.v.begin());
+        case ParamType::color:
+            std::copy_n(param.def.begin(), 3, value.v.begin());
             break;
-        case RESTAGE_ENUM: {
-            std::string_view rest = param.choices ? param.choices : "";
-            for (int i = static_cast<int>(param.def[0]); i > 0; --i)
-                rest.remove_prefix(std::min(rest.find('|'), rest.size() - 1) + 1);
-            value.text = rest.substr(0, rest.find('|'));
+        case ParamType::integer:
+        case ParamType::boolean:
+            value.i = param.int_def;
             break;
-        }
-        case RESTAGE_TABLE:
-            value.text = param.choices ? param.choices : "";
+        case ParamType::choice:
+            if (param.int_def >= 0 && std::size_t(param.int_def) < param.choices.size())
+                value.text = param.choices[std::size_t(param.int_def)];
             break;
-        case RESTAGE_TEXT:
-        case RESTAGE_MATERIAL:
-        case RESTAGE_TEXTURE:
+        case ParamType::table:
+            value.text = param.file;
+            break;
+        case ParamType::text:
+        case ParamType::material:
+        case ParamType::texture:
             break;
     }
     return value;
 }
 
-std::optional<int> choice_index(std::string_view choices, std::string_view choice) {
-    for (int i = 0;; ++i) {
-        const std::size_t bar = choices.find('|');
-        if (choices.substr(0, bar) == choice) return i;
-        if (bar == std::string_view::npos) return std::nullopt;
-        choices.remove_prefix(bar + 1);
-    }
+std::string misfit(const model::Param& line, const Value& value) {
+    if (line.type != value.type) return " has another type";
+    if (value.texture && !line.texturable && line.type != ParamType::texture) return " takes no texture";
+    if (value.texture) return "";
+    if (line.type == ParamType::choice && !line.choice_index(value.text))
+        return " cannot be \"" + value.text + "\"; " + choices_text(line) + " are possible";
+    if (line.type == ParamType::integer && (value.i < line.int_min || value.i > line.int_max))
+        return fmt::format(": {} is out of its range, {} to {}", value.i, line.int_min, line.int_max);
+    if (line.type == ParamType::number || line.type == ParamType::color)
+        for (std::size_t k = 0; k < std::size_t(line.components()); ++k)
+            if (!(value.v[k] >= line.min && value.v[k] <= line.max))
+                return fmt::format(": {:f} is out of its range, {:f} to {:f}", value.v[k], line.min, line.max);
+    return "";
 }
 
 } // namespace restage::scene

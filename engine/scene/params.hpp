@@ -3,11 +3,10 @@
 // kept and travel along.
 #pragma once
 
+#include "model/param.hpp"
 #include "scene/id.hpp"
 
-#include <restage/params.h>
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,19 +16,27 @@ namespace restage::scene {
 struct Texture;
 struct Material;
 
-struct Value {
-    RestageType type = RESTAGE_FLOAT;
-    std::array<float, 4> v{};
-    std::string text;      // ENUM, TEXT; TABLE: an absolute path
-    Id<Texture> texture;   // stands for v
-    Id<Material> material; // MATERIAL
+using model::ParamType;
 
-    static Value number(float x) { return {.type = RESTAGE_FLOAT, .v = {x, 0, 0, 0}}; }
-    static Value color(float r, float g, float b) { return {.type = RESTAGE_COLOR, .v = {r, g, b, 0}}; }
-    static Value integer(int i) { return {.type = RESTAGE_INT, .v = {static_cast<float>(i), 0, 0, 0}}; }
-    static Value boolean(bool b) { return {.type = RESTAGE_BOOL, .v = {b ? 1.f : 0.f, 0, 0, 0}}; }
-    static Value choice(std::string text) { return {.type = RESTAGE_ENUM, .text = std::move(text)}; }
-    static Value table(std::string path) { return {.type = RESTAGE_TABLE, .text = std::move(path)}; }
+struct Value {
+    ParamType type = ParamType::number;
+    std::array<float, 4> v{}; // number, color
+    int i = 0;                // integer; boolean: 0 or 1
+    std::string text;         // choice, text; table: an absolute path
+    Id<Texture> texture;      // stands for v
+    Id<Material> material;    // material
+
+    static Value number(float x) { return {.type = ParamType::number, .v = {x, 0, 0, 0}}; }
+    static Value color(float r, float g, float b) { return {.type = ParamType::color, .v = {r, g, b, 0}}; }
+    static Value integer(int i) { return {.type = ParamType::integer, .i = i}; }
+    static Value boolean(bool b) { return {.type = ParamType::boolean, .i = b}; }
+    static Value choice(std::string text) { return {.type = ParamType::choice, .text = std::move(text)}; }
+    static Value table(std::string path) { return {.type = ParamType::table, .text = std::move(path)}; }
+    // What stands in v[0] or i, whichever the type has.
+    float scalar() const { return is_whole() ? static_cast<float>(i) : v[0]; }
+    int whole() const { return is_whole() ? i : static_cast<int>(v[0]); }
+    bool is_whole() const { return type == ParamType::integer || type == ParamType::boolean; }
+    bool has_text() const { return type == ParamType::choice || type == ParamType::text || type == ParamType::table; }
     bool operator==(const Value&) const = default;
 };
 
@@ -39,7 +46,8 @@ class ParamSet {
     const Value* find(std::string_view id) const;
     void set(std::string_view id, Value value); // replaces or appends
     void remove(std::string_view id);
-    float number(std::string_view id, float fallback) const;
+    float number(std::string_view id, float fallback) const; // an integer or boolean, too
+    int integer(std::string_view id, int fallback) const;    // a boolean, too
     std::string_view choice(std::string_view id, std::string_view fallback) const;
     std::array<float, 3> color(std::string_view id, std::array<float, 3> fallback) const;
     Id<Texture> texture(std::string_view id) const; // none when absent
@@ -67,8 +75,8 @@ class ParamSet {
 };
 
 // The value a table line stands for when nothing is set.
-Value default_value(const RestageParam&);
-// Index of `choice` in "a|b|c", or nullopt.
-std::optional<int> choice_index(std::string_view choices, std::string_view choice);
+Value default_value(const model::Param&);
+// Why the line cannot hold the value, to follow its name: " takes no texture"; "" = it can.
+std::string misfit(const model::Param& line, const Value&);
 
 } // namespace restage::scene

@@ -9,7 +9,7 @@ namespace restage::scene {
 glm::dvec4 film_window(const Camera& camera, double aspect) {
     if (camera.frame_aspect > 0) aspect = camera.frame_aspect;
     const double half =
-        camera.projection == RESTAGE_ORTHOGRAPHIC ? 1.0 : std::tan(glm::radians(double(camera.fov)) / 2);
+        camera.projection == scene::Projection::orthographic ? 1.0 : std::tan(glm::radians(double(camera.fov)) / 2);
     if (camera.screen_window) return glm::dvec4(*camera.screen_window) * half;
     double height = aspect > 1 ? half : half / aspect;
     if (const double fit = camera.fit_aspect; fit > 0 && !(camera.frame_aspect > 0)) {
@@ -28,7 +28,7 @@ glm::uvec4 crop_window(const Film& f) {
 
 double camera_fov(const Camera& camera, double aspect) {
     if (!(camera.fit_aspect > 0) || camera.screen_window || camera.frame_aspect > 0 ||
-        camera.projection != RESTAGE_PERSPECTIVE)
+        camera.projection != scene::Projection::perspective)
         return double(camera.fov);
     const glm::dvec4 window = film_window(camera, aspect);
     return glm::degrees(2 * std::atan(std::min(window.y, window.w)));

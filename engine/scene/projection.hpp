@@ -20,7 +20,7 @@ glm::uvec4 crop_window(const Film&);
 double camera_fov(const Camera&, double aspect);
 
 inline bool is_spherical(const Camera& c) {
-    return c.projection == RESTAGE_SPHERICAL || c.projection == RESTAGE_SPHERICAL_EQUAL_AREA;
+    return c.projection == scene::Projection::spherical || c.projection == scene::Projection::spherical_equal_area;
 }
 
 } // namespace restage::scene

@@ -8,7 +8,6 @@
 #include "scene/id.hpp"
 #include "scene/params.hpp"
 
-#include <restage/scene_io.h>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -50,17 +49,20 @@ struct PixelData { // immutable once shared; linear
     std::vector<float> values; // width * height * channels
 };
 
+// How the numbers of an 8-bit file become linear; float files are.
+enum class Encoding : std::uint8_t { linear, srgb, gamma };
+
 struct Image {
     std::string name;
     std::string path; // absolute; "" = only in memory
-    RestageEncoding encoding = RESTAGE_SRGB;
+    Encoding encoding = Encoding::srgb;
     float gamma = 2.2f;
     std::shared_ptr<const PixelData> data; // null = the file could not be read (reported); shades as `missing`
     Origin origin;
     bool operator==(const Image&) const = default;
 };
 
-struct Texture { // types and values: restage/scene_io.h, RestageTexture
+struct Texture { // types and values: restage/scene_io.h
     std::string name;
     std::string type;
     bool is_float = false;
@@ -122,27 +124,47 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
+enum class LightKind : std::uint8_t { point, spot, distant };
+// How a spot fades over its edge, t = (cos - cos cone) / (cos(cone - delta) - cos cone) in [0,1].
+enum class Falloff : std::uint8_t {
+    smooth, // t^2 (3 - 2t): pbrt-v4
+    quartic // t^4: pbrt-v3
+};
+
 struct Light { // without a surface
     std::string name;
-    RestageLightKind kind = RESTAGE_LIGHT_POINT;
+    LightKind kind = LightKind::point;
     glm::vec3 value{1}; // point, spot: [W/sr]; distant: [W/m^2]
     glm::dmat4 light_to_world{1};
     float cone_angle = 30, cone_delta = 5; // spot [deg]
     Origin origin;
-    RestageFalloff falloff = RESTAGE_FALLOFF_SMOOTH; // of a spot's edge
+    Falloff falloff = Falloff::smooth; // of a spot's edge
     bool hidden = false; // switched off
     bool operator==(const Light&) const = default;
+};
+
+enum class Mapping : std::uint8_t {
+    equirect, // z up, u = phi/2pi, v = theta/pi, row 0 = +z: pbrt-v3
+    octahedral // equal-area, Clarberg 2008: pbrt-v4
 };
 
 struct Environment {
     std::string name;
     Id<Image> image; // none = constant
-    RestageMapping mapping = RESTAGE_EQUIRECT;
+    Mapping mapping = Mapping::equirect;
     glm::vec3 scale{1};
     glm::dmat4 light_to_world{1};
     bool hidden_from_camera = false; // it shines; a camera ray that leaves the scene sees black
     Origin origin;
     bool operator==(const Environment&) const = default;
+};
+
+// How a camera maps directions to the film, and what of Camera it uses.
+enum class Projection : std::uint8_t {
+    perspective,
+    orthographic, // parallel to +z; the screen window is in units of the camera's space, fov is not used
+    spherical, // all directions, +y up: u = phi/2pi from +x over +z, v = theta/pi from +y; no window, no lens
+    spherical_equal_area // the same by Clarberg's octahedral map, as in pbrt-v4
 };
 
 struct Camera {
@@ -153,7 +175,7 @@ struct Camera {
     float lens_radius = 0, focal_distance = 1; // 0 = pinhole
     float frame_aspect = 0; // 0 = width/height
     Origin origin;
-    RestageProjection projection = RESTAGE_PERSPECTIVE;
+    Projection projection = Projection::perspective;
     float fit_aspect = 0; // > 0: fov is of a frame of this aspect, which is always seen whole (projection.hpp)
     bool operator==(const Camera&) const = default;
 };

@@ -39,13 +39,14 @@ glm::dmat4 upright_sky(const glm::dvec3& up) {
 
 Edit studio_sky(const Scene& scene, const glm::dvec3& up) {
     const Id<Image> id = scene.images.next();
-    Edit edit = insert(
-        scene,
-        Image{.name = "studio", .encoding = RESTAGE_LINEAR, .data = std::make_shared<const PixelData>(studio_pixels())},
-        "Neutral studio");
+    Edit edit = insert(scene,
+                       Image{.name = "studio",
+                             .encoding = scene::Encoding::linear,
+                             .data = std::make_shared<const PixelData>(studio_pixels())},
+                       "Neutral studio");
     append(edit, set_environment(scene, Environment{.name = "Studio",
                                                     .image = id,
-                                                    .mapping = RESTAGE_EQUIRECT,
+                                                    .mapping = scene::Mapping::equirect,
                                                     .light_to_world = upright_sky(up)}));
     return edit;
 }
@@ -53,7 +54,8 @@ Edit studio_sky(const Scene& scene, const glm::dvec3& up) {
 Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<const PixelData> pixels,
                const glm::dvec3& up) {
     const std::string name = std::filesystem::path(path).stem().string();
-    const RestageMapping mapping = pixels->width == pixels->height ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT;
+    const scene::Mapping mapping =
+        pixels->width == pixels->height ? scene::Mapping::octahedral : scene::Mapping::equirect;
     Environment sky{.light_to_world = upright_sky(up)};
     if (const auto& now = scene.environment.value; now && now->image) {
         if (now->mapping == mapping) sky.light_to_world = now->light_to_world;
@@ -63,14 +65,14 @@ Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<cons
     sky.name = name;
     sky.mapping = mapping;
     scene.images.each([&](Id<Image> id, const Image& image) {
-        if (image.path == path && image.encoding == RESTAGE_SRGB && image.data) sky.image = id;
+        if (image.path == path && image.encoding == scene::Encoding::srgb && image.data) sky.image = id;
     });
     Edit edit{"Sky " + name, {}};
     if (!sky.image) {
         sky.image = scene.images.next();
-        edit.changes.push_back(
-            Change<Image>{sky.image, std::nullopt,
-                          Image{.name = name, .path = path, .encoding = RESTAGE_SRGB, .data = std::move(pixels)}});
+        edit.changes.push_back(Change<Image>{
+            sky.image, std::nullopt,
+            Image{.name = name, .path = path, .encoding = scene::Encoding::srgb, .data = std::move(pixels)}});
     }
     append(edit, set_environment(scene, sky));
     return edit;

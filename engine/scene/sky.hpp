@@ -16,9 +16,9 @@ glm::dmat4 upright_sky(const glm::dvec3& up);
 // Soft grey light from all around: a wide soft box overhead and one at the side, made without a file.
 Edit studio_sky(const Scene& scene, const glm::dvec3& up);
 
-// The image, with its pixels read as RESTAGE_SRGB, becomes the sky; square ones are octahedral maps as pbrt-v4 has
-// them, others panoramas. The rotation and strength of a sky that was an image of the same mapping stay. An image the
-// scene has already is used again.
+// The image, with its pixels read as scene::Encoding::srgb, becomes the sky; square ones are octahedral maps as pbrt-v4
+// has them, others panoramas. The rotation and strength of a sky that was an image of the same mapping stay. An image
+// the scene has already is used again.
 Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<const PixelData> pixels,
                const glm::dvec3& up);
 

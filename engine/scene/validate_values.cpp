@@ -183,7 +183,7 @@ std::vector<ValueProblem> value_problems(const Light& light) {
     out.light(called(light), "light", "a value", light.value);
     if (!finite(light.cone_angle, light.cone_delta))
         out.error("light", called(light) + " holds a value that is not a finite number");
-    else if (light.kind == RESTAGE_LIGHT_SPOT &&
+    else if (light.kind == scene::LightKind::spot &&
              !(light.cone_angle > 0 && light.cone_angle <= 180 && light.cone_delta >= 0 && light.cone_delta <= 180))
         out.warning("cone", fmt::format("{}: a cone of {:g} degrees with an edge of {:g}; more than 0 and 0 or more, "
                                         "up to 180, make sense",
@@ -194,7 +194,7 @@ std::vector<ValueProblem> value_problems(const Light& light) {
 std::vector<ValueProblem> value_problems(const Camera& c) {
     Found out;
     out.transform(called(c), c.camera_to_world);
-    if (c.projection == RESTAGE_PERSPECTIVE && !(c.fov > 0 && c.fov < 180))
+    if (c.projection == scene::Projection::perspective && !(c.fov > 0 && c.fov < 180))
         out.error("camera",
                   fmt::format("{}: a field of view of {:g} degrees; it must be between 0 and 180", called(c), c.fov));
     if (!(c.lens_radius >= 0 && c.lens_radius <= largest_length))

@@ -61,16 +61,12 @@ std::uint32_t heat(float x) {
     return pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
 }
 
-} // namespace
-
-namespace {
-
 using render::LayerLook;
 
-void show_color(std::span<const glm::vec3> colors, const Curve& curve, float scale, std::uint32_t* out) {
+void show_color(std::span<const glm::vec3> colors, const Curve& tone, float scale, std::uint32_t* out) {
     for (const glm::vec3& color : colors) {
         const glm::vec3 c = color * scale;
-        *out++ = pack(curve(c.x), curve(c.y), curve(c.z));
+        *out++ = pack(tone(c.x), tone(c.y), tone(c.z));
     }
 }
 
@@ -106,7 +102,9 @@ std::span<const LayerChoice> layer_choices() {
         render::each_film_layer([&](const auto& layer) {
             if (layer.look != LayerLook::hidden) all.push_back({layer.name, layer.label});
         });
-        all.push_back({error_layer.data(), "Error"});
+        static constexpr const char* name = "error";
+        static_assert(name == error_layer);
+        all.push_back({name, "Error"});
         return all;
     }();
     return choices;

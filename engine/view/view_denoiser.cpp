@@ -80,7 +80,7 @@ void ViewDenoiser::run() {
             }
             return host_.wanted(*source);
         };
-        auto color = render::denoise(source->image, *denoiser, RESTAGE_DENOISE_FAST, 0, keep_going);
+        auto color = render::denoise(source->image, *denoiser, plugin::DenoiseQuality::fast, 0, keep_going);
         if (!color && color.error().cancelled()) continue;
         host_.says(color ? "" : color.error().message); // where it failed, pictures are shown as they are
         if (!color) continue;

@@ -22,7 +22,7 @@ class Lab {
         Host::begin_threads();
         const auto entry = host_->registry().find_material(type);
         if (!entry) throw Failure("there is no material type \"" + type + "\"; see restage.material_types()");
-        table_ = {entry->table->params, entry->table->param_count};
+        table_ = entry->table->params;
         type_ = type;
         const nb::gil_scoped_release release;
         const auto cache = cache_dir().value_or(std::filesystem::path()); // without: the device says so
@@ -45,11 +45,11 @@ class Lab {
                 const auto id = nb::cast<std::string>(key);
                 const std::string who = type_ + ": parameter \"" + id + "\"";
                 const auto line =
-                    std::find_if(table_.begin(), table_.end(), [&](const RestageParam& p) { return p.id == id; });
+                    std::find_if(table_.begin(), table_.end(), [&](const model::Param& p) { return p.id == id; });
                 if (line == table_.end()) throw Failure(who + " is not one of a " + type_);
-                scene::Value v = to_value(nullptr, static_cast<RestageType>(line->type), value, who);
-                if (line->type == RESTAGE_ENUM && !scene::choice_index(line->choices, v.text))
-                    throw Failure(who + " cannot be \"" + v.text + "\"; " + line->choices + " are possible");
+                scene::Value v = to_value(nullptr, line->type, value, who);
+                if (line->type == model::ParamType::choice && !line->choice_index(v.text))
+                    throw Failure(who + " cannot be \"" + v.text + "\"; " + choices_text(*line) + " are possible");
                 values.set(id, std::move(v));
             }
         }
@@ -86,7 +86,7 @@ class Lab {
     };
     std::shared_ptr<Host> host_;
     std::string type_;
-    std::span<const RestageParam> table_;
+    std::vector<model::Param> table_;
     std::unique_ptr<gpu::Device> device_;
     std::unique_ptr<gpu::ShaderCompiler> compiler_;
     std::optional<check::BsdfLab> lab_;

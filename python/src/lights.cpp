@@ -15,8 +15,8 @@ namespace {
 using LightHandle = Handle<Light>;
 using CameraHandle = Handle<Camera>;
 
-const char* kind_of(RestageLightKind kind) {
-    return kind == RESTAGE_LIGHT_POINT ? "point" : kind == RESTAGE_LIGHT_SPOT ? "spot" : "distant";
+const char* kind_of(scene::LightKind kind) {
+    return kind == scene::LightKind::point ? "point" : kind == scene::LightKind::spot ? "spot" : "distant";
 }
 
 // Looks from `from` to `to` along +z with +y near `up`; `mirrored` frames have a negative determinant.
@@ -91,10 +91,10 @@ void bind_light(nb::module_& m) {
         [](const Light& l) { return exact(l.cone_delta); }, [](Light& l, double v) { l.cone_delta = float(v); });
     field<Light>(
         c, "falloff", "Change light", "Of a spot: how its edge fades, smooth (pbrt-v4) or quartic (pbrt-v3: t^4).",
-        [](const Light& l) { return std::string(l.falloff == RESTAGE_FALLOFF_QUARTIC ? "quartic" : "smooth"); },
+        [](const Light& l) { return std::string(l.falloff == scene::Falloff::quartic ? "quartic" : "smooth"); },
         [](Light& l, const std::string& v) {
             if (v != "smooth" && v != "quartic") throw Failure("falloff is smooth or quartic, not \"" + v + "\"");
-            l.falloff = v == "quartic" ? RESTAGE_FALLOFF_QUARTIC : RESTAGE_FALLOFF_SMOOTH;
+            l.falloff = v == "quartic" ? scene::Falloff::quartic : scene::Falloff::smooth;
         });
     c.def_prop_rw(
         "hidden", [](const LightHandle& h) { return h.get().hidden; },
@@ -105,9 +105,9 @@ void bind_light(nb::module_& m) {
 
 constexpr const char* projections[] = {"perspective", "orthographic", "spherical", "spherical_equal_area"};
 
-RestageProjection projection_of(const std::string& name) {
+scene::Projection projection_of(const std::string& name) {
     for (int i = 0; i < 4; ++i)
-        if (name == projections[i]) return RestageProjection(i);
+        if (name == projections[i]) return scene::Projection(i);
     throw nb::value_error(
         ("there is no projection \"" + name + "\"; it is perspective, orthographic, spherical or spherical_equal_area")
             .c_str());
@@ -132,7 +132,7 @@ void bind_camera(nb::module_& m) {
     field<Camera>(
         c, "projection", "Change camera",
         "perspective, orthographic, spherical (all directions, equirectangular) or spherical_equal_area.",
-        [](const Camera& v) { return std::string(projections[v.projection]); },
+        [](const Camera& v) { return std::string(projections[std::size_t(v.projection)]); },
         [](Camera& v, const std::string& x) { v.projection = projection_of(x); });
     field<Camera>(
         c, "screen_window", "Change camera",
@@ -164,7 +164,8 @@ void bind_lights(nb::module_& m) {
         .def_prop_ro(
             "is_image", [](const Environment& e) { return bool(e.image); }, "False: one colour everywhere.")
         .def_prop_ro(
-            "mapping", [](const Environment& e) { return e.mapping == RESTAGE_EQUIRECT ? "equirect" : "octahedral"; },
+            "mapping",
+            [](const Environment& e) { return e.mapping == scene::Mapping::equirect ? "equirect" : "octahedral"; },
             "equirect (a panorama) or octahedral (square, equal-area).")
         .def_prop_ro(
             "color", [](const Environment& e) { return triple(e.scale); },

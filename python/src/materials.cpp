@@ -16,23 +16,16 @@ namespace {
 using MaterialHandle = Handle<Material>;
 using TextureHandle = Handle<Texture>;
 
-// What any material may have besides its table.
-constexpr RestageParam common[] = {{.id = "bump", .label = "Bump", .type = RESTAGE_TEXTURE},
-                                   {.id = "normalmap", .label = "Normal map", .type = RESTAGE_TEXTURE}};
-
-const RestageParam* find_line(std::span<const RestageParam> table, const std::string& id) {
-    for (const RestageParam& line : table)
-        if (id == line.id) return &line;
-    for (const RestageParam& line : common)
-        if (id == line.id) return &line;
-    return nullptr;
+const model::Param* find_line(model::ParamTable table, const std::string& id) {
+    const model::Param* line = find_param(table, id);
+    return line ? line : find_param(model::surface_params(), id);
 }
 
 nb::object get_param(const MaterialHandle& h, const std::string& id) {
     const Material& material = h.get();
     if (const Value* value = material.params.find(id)) return to_python(h.in, *value);
     const auto table = table_of(*h.in, material.type);
-    const RestageParam* line = find_line(table, id);
+    const model::Param* line = find_line(table, id);
     if (!line)
         throw nb::key_error(
             ("material \"" + material.name + "\": parameter \"" + id + "\" is not one of a " + material.type).c_str());
@@ -43,20 +36,21 @@ void set_param(const MaterialHandle& h, const std::string& id, nb::handle given)
     const Material& material = h.get();
     const std::string who = "material \"" + material.name + "\": parameter \"" + id + "\"";
     const auto table = table_of(*h.in, material.type);
-    const RestageParam* line = find_line(table, id);
+    const model::Param* line = find_line(table, id);
     if (!line && !table.empty()) throw Failure(who + " is not one of a " + material.type);
-    const auto type = line ? static_cast<RestageType>(line->type) : guess_type(material.params.find(id), given);
-    const bool image = type == RESTAGE_FLOAT || type == RESTAGE_COLOR || type == RESTAGE_TEXTURE;
+    const auto type = line ? line->type : guess_type(material.params.find(id), given);
+    const bool image =
+        type == model::ParamType::number || type == model::ParamType::color || type == model::ParamType::texture;
     if (const auto path = image ? to_path(given) : std::nullopt) {
-        if (line && type != RESTAGE_TEXTURE && !(line->flags & RESTAGE_PARAM_TEXTURABLE))
-            throw Failure(who + " takes no texture");
+        if (line && type != model::ParamType::texture && !line->texturable) throw Failure(who + " takes no texture");
         // Colours are painted for the eye; heights, normals and roughness are data.
-        Image pixels = read_image(*h.in, *path, type == RESTAGE_COLOR ? RESTAGE_SRGB : RESTAGE_LINEAR);
-        h.in->edit(
-            set_image_texture(h.in->scene(), h.id, id, type, type == RESTAGE_FLOAT || id == "bump", std::move(pixels)));
+        Image pixels =
+            read_image(*h.in, *path, type == model::ParamType::color ? scene::Encoding::srgb : scene::Encoding::linear);
+        h.in->edit(set_image_texture(h.in->scene(), h.id, id, type, type == model::ParamType::number || id == "bump",
+                                     std::move(pixels)));
         return;
     }
-    if (type == RESTAGE_TEXTURE && given.is_none()) {
+    if (type == model::ParamType::texture && given.is_none()) {
         h.in->edit(reset_param(h.in->scene(), h.id, id));
         return;
     }
@@ -66,66 +60,59 @@ void set_param(const MaterialHandle& h, const std::string& id, nb::handle given)
 std::vector<std::string> param_ids(const MaterialHandle& h) { // the table's, then what else is set
     std::vector<std::string> ids;
     const Material& material = h.get();
-    for (const RestageParam& line : table_of(*h.in, material.type))
+    for (const model::Param& line : table_of(*h.in, material.type))
         ids.emplace_back(line.id);
     for (const auto& entry : material.params.entries())
         if (std::find(ids.begin(), ids.end(), entry.id) == ids.end()) ids.push_back(entry.id);
     return ids;
 }
 
-struct Parameter { // of a table; strings live as long as the plugin
-    const RestageParam* line;
+struct Parameter { // of a table
+    model::Param line;
 };
 
-std::string type_name(const RestageParam& line) {
-    static constexpr const char* names[] = {"?",    "float", "color",    "int",     "bool",
-                                            "enum", "text",  "material", "texture", "table"};
-    return line.type < std::size(names) ? names[line.type] : "?";
+std::string type_name(const model::Param& line) {
+    static constexpr const char* names[] = {"float", "color",    "int",     "bool", "enum",
+                                            "text",  "material", "texture", "table"};
+    return names[std::size_t(line.type)];
 }
 
 void bind_parameter(nb::module_& m) {
-    const auto text = [](const char* s) { return std::string(s ? s : ""); };
     nb::class_<Parameter>(m, "Parameter", "One line of a material type's parameter table.")
         .def_prop_ro(
-            "id", [text](const Parameter& p) { return text(p.line->id); }, "Its key: m[id].")
+            "id", [](const Parameter& p) { return p.line.id; }, "Its key: m[id].")
         .def_prop_ro(
-            "label", [text](const Parameter& p) { return text(p.line->label); }, "Its name in the editor.")
+            "label", [](const Parameter& p) { return p.line.label; }, "Its name in the editor.")
         .def_prop_ro(
-            "type", [](const Parameter& p) { return type_name(*p.line); },
+            "type", [](const Parameter& p) { return type_name(p.line); },
             "float, color, int, bool, enum, text, material, texture or table (a file).")
         .def_prop_ro(
-            "unit", [text](const Parameter& p) { return text(p.line->unit); }, "Unit, or \"\".")
+            "unit", [](const Parameter& p) { return p.line.unit; }, "Unit, or \"\".")
         .def_prop_ro(
-            "range", [](const Parameter& p) { return std::make_tuple(exact(p.line->min), exact(p.line->max)); },
+            "range",
+            [](const Parameter& p) {
+                const bool whole = p.line.type == model::ParamType::integer;
+                return whole ? std::make_tuple(double(p.line.int_min), double(p.line.int_max))
+                             : std::make_tuple(exact(p.line.min), exact(p.line.max));
+            },
             "Least and largest value, of each component.")
         .def_prop_ro(
-            "default", [](const Parameter& p) { return to_python({}, default_value(*p.line)); },
+            "default", [](const Parameter& p) { return to_python({}, default_value(p.line)); },
             "What holds while nothing is set.")
         .def_prop_ro(
-            "choices",
-            [text](const Parameter& p) {
-                std::vector<std::string> out;
-                std::string rest = p.line->type == RESTAGE_ENUM ? text(p.line->choices) : "";
-                for (std::size_t bar; (bar = rest.find('|')) != std::string::npos; rest.erase(0, bar + 1))
-                    out.push_back(rest.substr(0, bar));
-                if (!rest.empty()) out.push_back(rest);
-                return out;
-            },
-            "Of an enum: the words it may be.")
+            "choices", [](const Parameter& p) { return p.line.choices; }, "Of an enum: the words it may be.")
         .def_prop_ro(
-            "texturable", [](const Parameter& p) { return (p.line->flags & RESTAGE_PARAM_TEXTURABLE) != 0; },
-            "May a texture stand for it?")
+            "texturable", [](const Parameter& p) { return p.line.texturable; }, "May a texture stand for it?")
         .def_prop_ro(
-            "tooltip", [text](const Parameter& p) { return text(p.line->tooltip); }, "One sentence on it.")
-        .def("__repr__", [](const Parameter& p) {
-            return "<restage.Parameter " + std::string(p.line->id) + ": " + type_name(*p.line) + ">";
-        });
+            "tooltip", [](const Parameter& p) { return p.line.tooltip; }, "One sentence on it.")
+        .def("__repr__",
+             [](const Parameter& p) { return "<restage.Parameter " + p.line.id + ": " + type_name(p.line) + ">"; });
 }
 
-std::vector<Parameter> parameters(std::span<const RestageParam> table) {
+std::vector<Parameter> parameters(model::ParamTable table) {
     std::vector<Parameter> out;
-    for (const RestageParam& line : table)
-        out.push_back({&line});
+    for (const model::Param& line : table)
+        out.push_back({line});
     return out;
 }
 
@@ -230,7 +217,7 @@ void bind_texture(nb::module_& m) {
             "__setitem__",
             [](const TextureHandle& h, const std::string& id, nb::handle given) {
                 const std::string who = "texture \"" + h.get().name + "\": \"" + id + "\"";
-                const RestageType type = guess_type(h.get().params.find(id), given);
+                const model::ParamType type = guess_type(h.get().params.find(id), given);
                 h.in->edit(set_param(h.in->scene(), h.id, id, to_value(h.in.get(), type, given, who)));
             },
             "id"_a, "value"_a,
@@ -261,7 +248,7 @@ void bind_materials(nb::module_& m) {
         [] {
             nb::typed<nb::dict, nb::str, nb::list> types;
             for (const auto& entry : Host::get()->registry().materials())
-                types[entry.table->type] = nb::cast(parameters({entry.table->params, entry.table->param_count}));
+                types[entry.table->type.c_str()] = nb::cast(parameters(entry.table->params));
             return types;
         },
         "The material types of all loaded plugins: a dict from type to its table, a list of Parameter.",

@@ -195,9 +195,9 @@ void denoise(Picture& p, const std::string& quality, unsigned threads, const std
     if (p.film.color.empty() || p.film.samples == 0) throw Failure("denoise: the picture has no samples");
     Host::begin_threads();
     const auto chosen = take(render::choose_denoiser(p.host->registry(), denoiser));
-    const auto as = quality == "fast"       ? RESTAGE_DENOISE_FAST
-                    : quality == "balanced" ? RESTAGE_DENOISE_BALANCED
-                                            : RESTAGE_DENOISE_HIGH;
+    const auto as = quality == "fast"       ? plugin::DenoiseQuality::fast
+                    : quality == "balanced" ? plugin::DenoiseQuality::balanced
+                                            : plugin::DenoiseQuality::high;
     Pulse pulse;
     Result<std::vector<glm::vec3>> clean = [&] {
         const nb::gil_scoped_release release;
@@ -211,7 +211,7 @@ void denoise(Picture& p, const std::string& quality, unsigned threads, const std
 }
 
 void bind_picture(nb::module_& m) {
-    const std::string save_doc = fmt::format(
+    static const std::string save_doc = fmt::format(
         "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where there "
         "is one.\n"
         "aovs: of an .exr, comma-separated {}; all; none. exposure: of a .png or .jpg [stops].",

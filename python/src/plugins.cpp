@@ -20,7 +20,7 @@ std::vector<PluginInfo> describe(const std::vector<const plugin::Entry*>& entrie
     for (const plugin::Entry* e : entries)
         out.push_back({.id = e->manifest.id,
                        .version = e->manifest.version,
-                       .kind = plugin::to_string(e->manifest.kind),
+                       .kind = e->manifest.kind(),
                        .licence = e->manifest.licence,
                        .reason = e->reason,
                        .folder = e->folder,
@@ -42,12 +42,12 @@ void bind_report(nb::module_& m) {
     nb::class_<io::Report>(m, "Report", "What an import or export did to the things in a file.")
         .def_ro("entries", &io::Report::entries, "All lines: a list of ReportEntry.")
         .def_prop_ro(
-            "kept", [](const io::Report& r) { return r.count(RESTAGE_KEPT); }, "How many things were kept.")
+            "kept", [](const io::Report& r) { return r.count(io::Fate::kept); }, "How many things were kept.")
         .def_prop_ro(
-            "approximated", [](const io::Report& r) { return r.count(RESTAGE_APPROXIMATED); },
+            "approximated", [](const io::Report& r) { return r.count(io::Fate::approximated); },
             "How many became something similar.")
         .def_prop_ro(
-            "dropped", [](const io::Report& r) { return r.count(RESTAGE_DROPPED); }, "How many were left out.")
+            "dropped", [](const io::Report& r) { return r.count(io::Fate::dropped); }, "How many were left out.")
         .def("__len__", [](const io::Report& r) { return r.entries.size(); })
         .def("__str__",
              [](const io::Report& r) {
@@ -57,9 +57,9 @@ void bind_report(nb::module_& m) {
                  return text;
              })
         .def("__repr__", [](const io::Report& r) {
-            return "<restage.Report: " + std::to_string(r.count(RESTAGE_KEPT)) + " kept, " +
-                   std::to_string(r.count(RESTAGE_APPROXIMATED)) + " approximated, " +
-                   std::to_string(r.count(RESTAGE_DROPPED)) + " dropped>";
+            return "<restage.Report: " + std::to_string(r.count(io::Fate::kept)) + " kept, " +
+                   std::to_string(r.count(io::Fate::approximated)) + " approximated, " +
+                   std::to_string(r.count(io::Fate::dropped)) + " dropped>";
         });
 }
 

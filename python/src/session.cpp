@@ -89,9 +89,9 @@ std::shared_ptr<const PixelData> pixels_of(nb::handle h, const char* who) {
 Handle<Texture> add_texture(const Shared& w, nb::handle image, const std::optional<std::string>& name, bool scalar) {
     Image made;
     if (const auto path = to_path(image))
-        made = read_image(*w, *path, scalar ? RESTAGE_LINEAR : RESTAGE_SRGB);
+        made = read_image(*w, *path, scalar ? scene::Encoding::linear : scene::Encoding::srgb);
     else
-        made = {.name = "image", .encoding = RESTAGE_LINEAR, .data = pixels_of(image, "add_texture")};
+        made = {.name = "image", .encoding = scene::Encoding::linear, .data = pixels_of(image, "add_texture")};
     if (name) made.name = *name;
     const Handle<Texture> h{w, w->scene().textures.next()};
     Texture texture{.name = made.name, .type = "imagemap", .is_float = scalar, .image = w->scene().images.next()};
@@ -105,9 +105,9 @@ Handle<Texture> add_texture(const Shared& w, nb::handle image, const std::option
 Handle<Light> add_light(const Shared& w, const std::string& kind, const Three& value, const std::string& name) {
     Light light{.name = name, .value = glm::vec3(vec(value))};
     if (kind == "spot")
-        light.kind = RESTAGE_LIGHT_SPOT;
+        light.kind = scene::LightKind::spot;
     else if (kind == "distant")
-        light.kind = RESTAGE_LIGHT_DISTANT;
+        light.kind = scene::LightKind::distant;
     else if (kind != "point")
         throw Failure("there is no kind of light \"" + kind + "\"; there are point, spot and distant");
     const Handle<Light> h{w, w->scene().lights.next()};
@@ -124,7 +124,7 @@ void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& colo
     if (!image.is_none()) {
         std::shared_ptr<const PixelData> pixels;
         if (const auto path = to_path(image)) {
-            pixels = read_image(*w, *path, RESTAGE_SRGB).data;
+            pixels = read_image(*w, *path, scene::Encoding::srgb).data;
             edit = scene::image_sky(w->scene(), *path, pixels, up);
             sky = *std::get<ChangeOne<std::optional<Environment>>>(edit.changes.back()).after;
             edit.changes.pop_back();
@@ -132,10 +132,11 @@ void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& colo
             pixels = pixels_of(image, "set_sky");
             sky = {.name = "sky",
                    .image = w->scene().images.next(),
-                   .mapping = pixels->width == pixels->height ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT,
+                   .mapping = pixels->width == pixels->height ? scene::Mapping::octahedral : scene::Mapping::equirect,
                    .light_to_world = scene::upright_sky(up)};
-            edit.changes.push_back(Change<Image>{
-                sky.image, std::nullopt, Image{.name = "sky", .encoding = RESTAGE_LINEAR, .data = std::move(pixels)}});
+            edit.changes.push_back(
+                Change<Image>{sky.image, std::nullopt,
+                              Image{.name = "sky", .encoding = scene::Encoding::linear, .data = std::move(pixels)}});
         }
         sky.scale = glm::vec3(1);
     } else if (color) {

@@ -12,28 +12,28 @@ using namespace scene;
 nb::object to_python(const std::shared_ptr<Workspace>& in, const Value& value) {
     if (value.texture) return nb::cast(Handle<Texture>{in, value.texture});
     switch (value.type) {
-        case RESTAGE_FLOAT:
+        case model::ParamType::number:
             return nb::float_(exact(value.v[0]));
-        case RESTAGE_COLOR:
+        case model::ParamType::color:
             return nb::make_tuple(exact(value.v[0]), exact(value.v[1]), exact(value.v[2]));
-        case RESTAGE_INT:
-            return nb::int_(static_cast<long>(value.v[0]));
-        case RESTAGE_BOOL:
-            return nb::bool_(value.v[0] != 0);
-        case RESTAGE_ENUM:
-        case RESTAGE_TEXT:
-        case RESTAGE_TABLE:
+        case model::ParamType::integer:
+            return nb::int_(value.i);
+        case model::ParamType::boolean:
+            return nb::bool_(value.i != 0);
+        case model::ParamType::choice:
+        case model::ParamType::text:
+        case model::ParamType::table:
             return nb::str(value.text.c_str());
-        case RESTAGE_MATERIAL:
+        case model::ParamType::material:
             if (value.material) return nb::cast(Handle<Material>{in, value.material});
             break;
-        case RESTAGE_TEXTURE:
+        case model::ParamType::texture:
             break;
     }
     return nb::none();
 }
 
-Value to_value(const Workspace* in, RestageType type, nb::handle h, const std::string& who) {
+Value to_value(const Workspace* in, model::ParamType type, nb::handle h, const std::string& who) {
     Value value{.type = type};
     const auto wrong = [&](const char* expected) {
         return Failure(who + ": expected " + expected + ", not " + nb::cast<std::string>(nb::repr(h)));
@@ -41,17 +41,17 @@ Value to_value(const Workspace* in, RestageType type, nb::handle h, const std::s
     Handle<Texture> texture;
     if (nb::try_cast(h, texture, false)) {
         if (texture.in.get() != in) throw Failure(who + ": this texture belongs to another session");
-        if (type != RESTAGE_FLOAT && type != RESTAGE_COLOR && type != RESTAGE_TEXTURE)
+        if (type != model::ParamType::number && type != model::ParamType::color && type != model::ParamType::texture)
             throw Failure(who + " takes no texture");
         (void)texture.get();
         value.texture = texture.id;
         return value;
     }
     switch (type) {
-        case RESTAGE_FLOAT:
+        case model::ParamType::number:
             if (nb::isinstance<nb::bool_>(h) || !nb::try_cast(h, value.v[0])) throw wrong("a number or a texture");
             return value;
-        case RESTAGE_COLOR: {
+        case model::ParamType::color: {
             std::array<float, 3> rgb{};
             if (nb::try_cast(h, rgb[0])) {
                 rgb[1] = rgb[2] = rgb[0];
@@ -61,57 +61,57 @@ Value to_value(const Workspace* in, RestageType type, nb::handle h, const std::s
             value.v = {rgb[0], rgb[1], rgb[2], 0};
             return value;
         }
-        case RESTAGE_INT: {
-            int number = 0;
-            if (!nb::try_cast(h, number)) throw wrong("a whole number");
-            value.v[0] = static_cast<float>(number);
+        case model::ParamType::integer: {
+            if (!nb::try_cast(h, value.i)) throw wrong("a whole number");
             return value;
         }
-        case RESTAGE_BOOL: {
+        case model::ParamType::boolean: {
             bool flag = false;
             if (!nb::try_cast(h, flag)) throw wrong("True or False");
-            value.v[0] = flag ? 1.f : 0.f;
+            value.i = flag;
             return value;
         }
-        case RESTAGE_ENUM:
-        case RESTAGE_TEXT:
+        case model::ParamType::choice:
+        case model::ParamType::text:
             if (!nb::try_cast(h, value.text)) throw wrong("a word");
             return value;
-        case RESTAGE_TABLE: {
+        case model::ParamType::table: {
             const auto path = to_path(h);
             if (!path) throw wrong("the path of a file");
             value.text = *path;
             return value;
         }
-        case RESTAGE_MATERIAL: {
+        case model::ParamType::material: {
             Handle<Material> material;
             if (!nb::try_cast(h, material, false)) throw wrong("a material");
             if (material.in.get() != in) throw Failure(who + ": this material belongs to another session");
             value.material = material.id;
             return value;
         }
-        case RESTAGE_TEXTURE:
+        case model::ParamType::texture:
             if (!h.is_none()) throw wrong("a texture, the path of an image, or None");
             return value;
     }
     throw wrong("another value");
 }
 
-RestageType guess_type(const Value* before, nb::handle h) {
-    if (nb::isinstance<Handle<Texture>>(h)) return before ? before->type : RESTAGE_COLOR;
-    if (nb::isinstance<nb::bool_>(h)) return RESTAGE_BOOL;
-    if (nb::isinstance<Handle<Material>>(h)) return RESTAGE_MATERIAL;
-    if (nb::isinstance<nb::str>(h)) return before && before->type == RESTAGE_TEXT ? RESTAGE_TEXT : RESTAGE_ENUM;
+model::ParamType guess_type(const Value* before, nb::handle h) {
+    if (nb::isinstance<Handle<Texture>>(h)) return before ? before->type : model::ParamType::color;
+    if (nb::isinstance<nb::bool_>(h)) return model::ParamType::boolean;
+    if (nb::isinstance<Handle<Material>>(h)) return model::ParamType::material;
+    if (nb::isinstance<nb::str>(h))
+        return before && before->type == model::ParamType::text ? model::ParamType::text : model::ParamType::choice;
     float number = 0;
     if (nb::try_cast(h, number))
-        return before && (before->type == RESTAGE_INT || before->type == RESTAGE_COLOR) ? before->type : RESTAGE_FLOAT;
-    return RESTAGE_COLOR;
+        return before && (before->type == model::ParamType::integer || before->type == model::ParamType::color)
+                   ? before->type
+                   : model::ParamType::number;
+    return model::ParamType::color;
 }
 
-std::span<const RestageParam> table_of(Workspace& in, const std::string& type) {
+std::vector<model::Param> table_of(Workspace& in, const std::string& type) {
     const auto entry = in.host().registry().find_material(type);
-    if (!entry) return {};
-    return {entry->table->params, entry->table->param_count};
+    return entry ? entry->table->params : std::vector<model::Param>();
 }
 
 std::optional<std::string> to_path(nb::handle h) {
@@ -120,7 +120,7 @@ std::optional<std::string> to_path(nb::handle h) {
     return std::filesystem::absolute(text).lexically_normal().string();
 }
 
-Image read_image(Workspace& in, const std::string& path, RestageEncoding encoding) {
+Image read_image(Workspace& in, const std::string& path, scene::Encoding encoding) {
     std::string warning;
     Result<PixelData> pixels = [&] {
         const nb::gil_scoped_release release;

@@ -13,18 +13,18 @@ nb::object to_python(const std::shared_ptr<Workspace>&, const scene::Value&);
 
 // `who`: 'parameter "roughness"', for messages. A COLOR takes one number for all three as well. Textures and materials
 // are those of the workspace; without one there are none.
-scene::Value to_value(const Workspace*, RestageType, nb::handle, const std::string& who);
+scene::Value to_value(const Workspace*, model::ParamType, nb::handle, const std::string& who);
 
 // The type a value has where no table says one: from what is there, or from the looks of it.
-RestageType guess_type(const scene::Value* before, nb::handle);
+model::ParamType guess_type(const scene::Value* before, nb::handle);
 
 // The lines of a material type's table; empty for types without a plugin.
-std::span<const RestageParam> table_of(Workspace&, const std::string& type);
+std::vector<model::Param> table_of(Workspace&, const std::string& type);
 
 // str or os.PathLike: the path of a file, absolute. Nothing else is one.
 std::optional<std::string> to_path(nb::handle);
 
 // The image of a file, ready for an edit. [GIL, which it releases while it reads]
-scene::Image read_image(Workspace&, const std::string& path, RestageEncoding);
+scene::Image read_image(Workspace&, const std::string& path, scene::Encoding);
 
 } // namespace restage::python

@@ -49,7 +49,8 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
     Plugins plugins;
     auto imported = take(io::import_scene(path, plugins.registry));
     scene::Scene& scene = imported.scene;
-    const auto a = take(io::read_image(half1, RESTAGE_LINEAR)), b = take(io::read_image(half2, RESTAGE_LINEAR));
+    const auto a = take(io::read_image(half1, scene::Encoding::linear)),
+               b = take(io::read_image(half2, scene::Encoding::linear));
     if (a.width != b.width || a.height != b.height) die(half1 + " and " + half2 + " differ in size");
     const auto reference = mean(a, b);
     scene.film.value.width = a.width;
@@ -57,9 +58,8 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
     scene.film.version = ++scene.clock;
     const float exposure = scene.film.value.exposure;
     std::optional<plugin::DenoiserEntry> denoiser;
-    const char* reason = "";
     for (const auto& entry : plugins.registry.denoisers())
-        if (!denoiser && entry.table->available(&reason)) denoiser = entry;
+        if (!denoiser && entry.table->available()) denoiser = entry;
 
     using render::Strategy;
     const std::uint32_t deep = o.quick ? 16 : o.samples, most = std::max(deep / 2, 8u);
@@ -93,8 +93,8 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
                                 {"trimmed", raw.trimmed}});
                 if (!config.denoised || !denoiser) continue;
                 std::vector<glm::vec3> clean;
-                const Seconds d =
-                    time([&] { clean = take(render::denoise(film, *denoiser, RESTAGE_DENOISE_HIGH, o.threads)); });
+                const Seconds d = time(
+                    [&] { clean = take(render::denoise(film, *denoiser, plugin::DenoiseQuality::high, o.threads)); });
                 rows.back()["denoise_wall"] = d.wall;
                 rows.back()["denoise_cpu"] = d.cpu;
                 const Error denoised = error_of(picture(clean, film, exposure), reference);
@@ -111,7 +111,7 @@ Json measure_error(const Options& o, const std::string& path, const std::string&
                    {"reference_noise", noise.rel_mse},
                    {"reference_noise_trimmed", noise.trimmed},
                    {"rows", rows}};
-    if (!denoiser) result["not_denoised"] = reason;
+    if (!denoiser) result["not_denoised"] = "no denoiser is available";
     return result;
 }
 

@@ -34,8 +34,8 @@ void add_every_type(Scene& scene, const plugin::Registry& registry) {
     Hidden hidden{scene};
     for (const auto& entry : registry.materials()) {
         ParamSet params;
-        if (entry.table->flags & RESTAGE_MATERIAL_MIX) {
-            Value v{.type = RESTAGE_MATERIAL};
+        if (entry.table->mix) {
+            Value v{.type = model::ParamType::material};
             v.material = Id<Material>{1};
             params.set("first", v);
             params.set("second", v);

@@ -19,8 +19,8 @@ std::vector<Row> rows(const plugin::Registry& registry) {
     for (const auto& entry : registry.materials()) {
         bool has = false;
         ParamSet params;
-        for (std::uint32_t i = 0; i < entry.table->param_count; ++i) {
-            const RestageParam& p = entry.table->params[i];
+        for (std::uint32_t i = 0; i < entry.table->params.size(); ++i) {
+            const model::Param& p = entry.table->params[i];
             const std::string_view id = p.id;
             has = has || id == "multiscatter";
             if (id == "remap") params.set(p.id, Value::choice("none"));

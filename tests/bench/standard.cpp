@@ -44,7 +44,7 @@ Json measure_standard(const Options& o, const std::string& name, const std::stri
             std::filesystem::create_directories(folder);
             check(io::write_image(file.string(), picture(renderer->image().color, renderer->image())));
         }
-        halves[i] = take(io::read_image(file.string(), RESTAGE_LINEAR));
+        halves[i] = take(io::read_image(file.string(), scene::Encoding::linear));
     }
     const auto reference = mean(halves[0], halves[1]);
     // half1 - mean = (half1 - half2) / 2, whose square is an estimate of the mean's variance

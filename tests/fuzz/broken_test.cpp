@@ -56,7 +56,7 @@ std::vector<Case> cases(const std::string& folder) {
 bool drops(const io::ImportedScene& imported, const std::string& text) {
     const auto& entries = imported.report.entries;
     return std::any_of(entries.begin(), entries.end(), [&](const io::ReportEntry& e) {
-        return e.fate == RESTAGE_DROPPED && to_string(e).find(text) != std::string::npos;
+        return e.fate == io::Fate::dropped && to_string(e).find(text) != std::string::npos;
     });
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("broken: images are an error to the reader and a line in the report of
     for (const Case& c : cases("images")) {
         CAPTURE(c.path.filename().string());
         const test::Watch watch;
-        const auto image = io::read_image(c.path.string(), RESTAGE_SRGB);
+        const auto image = io::read_image(c.path.string(), scene::Encoding::srgb);
         REQUIRE_FALSE(image);
         CHECK_THAT(image.error().message, ContainsSubstring(c.path.string() + ": "));
         CHECK_THAT(image.error().message, ContainsSubstring(c.message));

@@ -52,7 +52,7 @@ TEST_CASE("every file of the corpora opens, or is refused with a sentence", "[co
                 else
                     ++counts[ending].opened;
             } else if (is_one_of(ending, image_endings)) {
-                if (const auto image = io::read_image(path, RESTAGE_SRGB); !image)
+                if (const auto image = io::read_image(path, scene::Encoding::srgb); !image)
                     error = image.error().message;
                 else
                     ++counts[ending].opened;

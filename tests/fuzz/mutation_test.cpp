@@ -155,7 +155,7 @@ TEST_CASE("mutations: images of every format") {
             test::write_bytes(bad, damage(good, random));
             CAPTURE(file.filename().string(), seed);
             const test::Watch watch;
-            const auto image = io::read_image(bad.string(), RESTAGE_SRGB);
+            const auto image = io::read_image(bad.string(), scene::Encoding::srgb);
             if (image) {
                 REQUIRE(image->values.size() == std::size_t{image->width} * image->height * image->channels);
                 REQUIRE(

@@ -36,9 +36,8 @@ class BsdfLab {
     BsdfLab(Bench& bench, const plugin::MaterialEntry& material); // throws std::runtime_error
     std::vector<BsdfAnswer> run(std::span<const scene::ParamSet> configs, std::span<const BsdfJob> jobs,
                                 std::uint32_t repeats = 1);
-    const RestageMaterial1& table() const { return lab_.table(); }
+    const model::Material& table() const { return lab_.table(); }
     const std::filesystem::path& folder() const { return lab_.folder(); }
-    bool is(std::uint32_t flag) const { return lab_.is(flag); }
 
   private:
     check::BsdfLab lab_;

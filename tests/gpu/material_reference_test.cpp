@@ -22,10 +22,10 @@ V mirrored(V w) { return {w.x, w.y, -w.z}; }
 // A parameter set as a reference formula wants it.
 struct Params {
     const scene::ParamSet& set;
-    const RestageMaterial1& table;
-    const RestageParam& line(const char* id) const {
-        return *std::find_if(table.params, table.params + table.param_count,
-                             [&](const RestageParam& p) { return std::string_view(p.id) == id; });
+    const model::Material& table;
+    const model::Param& line(const char* id) const {
+        return *std::find_if(table.params.begin(), table.params.end(),
+                             [&](const model::Param& p) { return std::string_view(p.id) == id; });
     }
     double number(const char* id) const { return set.number(id, line(id).def[0]); }
     bool flag(const char* id) const { return number(id) != 0; }
@@ -34,8 +34,8 @@ struct Params {
         return set.color(id, {d[0], d[1], d[2]})[static_cast<std::size_t>(channel)];
     }
     int index(const char* id) const {
-        const auto c = set.choice(id, choice(line(id), static_cast<std::size_t>(line(id).def[0])));
-        return scene::choice_index(line(id).choices, c).value();
+        const auto c = set.choice(id, choice(line(id), static_cast<std::size_t>(line(id).int_def)));
+        return line(id).choice_index(c).value();
     }
     Alpha alpha(const char* u, const char* v, double least = 0) const {
         const int remap = index("remap");

@@ -86,7 +86,7 @@ TEST_CASE("multiple scattering: the white furnace is white at every roughness", 
         {"dielectric", {{"remap", off}, {"eta", Value::number(2.2f)}, {"distribution", beckmann}}, 0.06},
     };
     for (const auto& m : Bench::get().materials())
-        for (std::uint32_t i = 0; i < m.table->param_count; ++i)
+        for (std::uint32_t i = 0; i < m.table->params.size(); ++i)
             if (std::string_view(m.table->params[i].id) == "multiscatter") {
                 INFO(m.table->type << " has multiscatter, and no furnace here");
                 CHECK(std::ranges::any_of(cases,

@@ -42,20 +42,20 @@
 #define PARAM_DEFAULT 0.5f
 #endif
 #if defined(TEST_BAD_ENUM)
-#define ENUM_DEFAULT 2.0f
+#define ENUM_DEFAULT 2
 #else
-#define ENUM_DEFAULT 1.0f
+#define ENUM_DEFAULT 1
 #endif
 
 #if !defined(TEST_IMPORTER) && !defined(TEST_NO_TABLES)
 static const RestageParam params[] = {
-    {PARAM_ID, "Fuzz", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0.0f, 1.0f, {PARAM_DEFAULT}, "", NULL, "How fuzzy."},
+    RESTAGE_FLOAT_PARAM(PARAM_ID, "Fuzz", 0.0f, 1.0f, PARAM_DEFAULT, RESTAGE_PARAM_TEXTURABLE, "", "How fuzzy."),
 #if defined(TEST_TABLE_UNREAD) || defined(TEST_TABLE_GREEDY)
-    {"weave", "Weave", RESTAGE_TABLE, 0, 0.0f, 0.0f, {0}, "", NULL, "A file."},
+    RESTAGE_TABLE_PARAM("weave", "Weave", NULL, 0, "A file."),
 #elif defined(TEST_TABLE_DEFAULT_GONE)
-    {"weave", "Weave", RESTAGE_TABLE, 0, 0.0f, 0.0f, {0}, "", "gone.dat", "A file."},
+    RESTAGE_TABLE_PARAM("weave", "Weave", "gone.dat", 0, "A file."),
 #else
-    {"weave", "Weave", RESTAGE_ENUM, 0, 0.0f, 0.0f, {ENUM_DEFAULT}, "", "plain|twill", "Which weave."},
+    RESTAGE_ENUM_PARAM("weave", "Weave", "plain|twill", ENUM_DEFAULT, 0, "Which weave."),
 #endif
 };
 static const RestageMaterial1 material = {TABLE_SIZE,    0,      "velvet", "Velvet", TABLE_PREFIX,

@@ -11,12 +11,13 @@
 #define TABLE_SIZE sizeof(RestageMaterial1)
 #endif
 
-#define ROUGHNESS {"roughness", "Roughness", RESTAGE_FLOAT, 0, 0, 1, {0.3f}, "", NULL, "Its square is alpha."}
-#define TINT {"tint", "Tint", RESTAGE_COLOR, 0, 0, 1, {0.9f, 0.9f, 0.9f}, "", NULL, "Multiplies what is reflected."}
+#define ROUGHNESS RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.3f, 0, "", "Its square is alpha.")
+#define TINT RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.9f, 0.9f, 0.9f, 0, "", "Multiplies what is reflected.")
 
 #if defined(BROKEN_COUNT_LIES)
 /* What follows two lines is no table line. */
-#define NOWHERE {(const char*)16, (const char*)16, RESTAGE_FLOAT, 0, 0, 1, {0}, (const char*)16, NULL, (const char*)16}
+#define WILD ((const char*)16)
+#define NOWHERE {sizeof(RestageParam), RESTAGE_FLOAT, 0, 0, 0, 0, 0, 1, {0}, WILD, WILD, WILD, NULL, WILD}
 static const RestageParam params[] = {ROUGHNESS, TINT, NOWHERE, NOWHERE};
 #define PARAM_COUNT 4
 #else

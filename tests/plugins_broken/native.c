@@ -162,15 +162,15 @@ static const RestageDenoiser1 denoiser = {sizeof(RestageDenoiser1), "copy", "Cop
  */
 
 static const RestageParam params[] = {
-    {"share", "Share", RESTAGE_FLOAT, 0, 0, 1, {0.5f}, "", NULL, "Of light."},
-    {"file", "File", RESTAGE_TABLE, 0, 0, 0, {0}, "", NULL, "Numbers."},
+    RESTAGE_FLOAT_PARAM("share", "Share", 0, 1, 0.5f, 0, "", "Of light."),
+    RESTAGE_TABLE_PARAM("file", "File", NULL, 0, "Numbers."),
 };
 static const RestageMaterial1 material = {
     sizeof(RestageMaterial1), 0, "broken", "Broken", "broken", "broken.glsl", params, 2, "Grey."};
 
 static void draw(const RestageUi1* ui, void* ctx) {
     static const char* const names[] = {"Half", "All"};
-    RestageValue value;
+    RestageValue value = {.size = sizeof value};
     int chosen;
     if (!ui->get(ctx, "share", &value)) return;
     chosen = ui->combo(ctx, "Preset", names, 2, value.v[0] == 1);

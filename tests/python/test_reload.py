@@ -31,7 +31,7 @@ def test_a_material_is_loaded_anew(tmp_path):
     write("m.tint")
     params = [{"id": "tint", "type": "color", "default": [0.5, 0.5, 0.5]}]
     material = {"type": "paint", "glsl": "paint.glsl", "params": params}
-    manifest = {"id": "org.example.paint", "kind": "material", "version": "1", "licence": "MIT", "abi": 1}
+    manifest = {"id": "org.example.paint", "provides": ["restage.material/1"], "version": "1", "licence": "MIT", "needs": {"host": ">=0.2"}}
     (folder / "plugin.json").write_text(json.dumps({**manifest, "materials": [material]}))
     first = restage.load_plugins(folder)
     assert [p.id for p in restage.load_plugins(folder)] == [p.id for p in first], "twice is once"

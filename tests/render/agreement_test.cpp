@@ -88,7 +88,7 @@ void edit_instance(SceneBuilder& b, scene::Id<scene::Instance> id, auto&& change
     change(instance);
     b.scene.instances.set(id, instance, ++b.scene.clock);
 }
-void environment_image(SceneBuilder& b, RestageMapping mapping) {
+void environment_image(SceneBuilder& b, scene::Mapping mapping) {
     std::vector<float> sky;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
@@ -108,15 +108,15 @@ void environment_image(SceneBuilder& b, RestageMapping mapping) {
 
 // The types of all material plugins there are but those that need something else (mixes, interfaces), which have scenes
 // of their own below.
-std::vector<const RestageMaterial1*> material_types() {
-    std::vector<const RestageMaterial1*> types;
+std::vector<const model::Material*> material_types() {
+    std::vector<const model::Material*> types;
     for (const auto& entry : plugins().registry.materials())
-        if (!(entry.table->flags & (RESTAGE_MATERIAL_MIX | RESTAGE_MATERIAL_NULL))) types.push_back(entry.table);
+        if (entry.table->has_code()) types.push_back(entry.table);
     return types;
 }
 
 // Two spheres of each type: behind with what its table says, in front with textures and roughness.
-void gallery(SceneBuilder& b, const std::vector<const RestageMaterial1*>& types) {
+void gallery(SceneBuilder& b, const std::vector<const model::Material*>& types) {
     b.set_film(64, 36);
     b.set_camera({0, -11, 4.5}, {0, 0.2, 0.7}, {0, 0, 1}, 30);
     const auto colors = texture(b, "imagemap", waves(b, 8, 3, 0.1f, 0.45f));
@@ -133,16 +133,16 @@ void gallery(SceneBuilder& b, const std::vector<const RestageMaterial1*>& types)
     area_light(b, glm::vec3(6));
     const auto ball = b.sphere(24, 48);
     for (std::size_t k = 0; k < types.size(); ++k) {
-        const RestageMaterial1& table = *types[k];
+        const model::Material& table = *types[k];
         const double x = 2.0 * (double(k) - 0.5 * double(types.size() - 1));
         b.instance(ball, b.material(table.type), at(x, 1.8, 0.85, 0.85));
         scene::ParamSet params;
-        for (std::uint32_t p = 0; p < table.param_count; ++p) {
-            const RestageParam& line = table.params[p];
+        for (std::uint32_t p = 0; p < table.params.size(); ++p) {
+            const model::Param& line = table.params[p];
             const std::string_view id = line.id;
-            if (line.type == RESTAGE_COLOR && (line.flags & RESTAGE_PARAM_TEXTURABLE) && line.max <= 1)
+            if (line.type == model::ParamType::color && line.texturable && line.max <= 1)
                 params.set(id, textured(scene::default_value(line), colors));
-            if (line.type == RESTAGE_FLOAT && id.find("rough") != id.npos)
+            if (line.type == model::ParamType::number && id.find("rough") != id.npos)
                 params.set(id, scene::Value::number(id.find('u') < id.find("rough") ? 0.15f : 0.35f));
         }
         params.set("bump", textured(scene::Value::number(0), heights));
@@ -161,12 +161,12 @@ TEMPLATE_TEST_CASE_SIG("tracers agree: every material, area light, sky, textures
     static_assert(Part < gallery_parts);
     const auto all = material_types();
     REQUIRE(all.size() >= 11);
-    std::vector<const RestageMaterial1*> types;
+    std::vector<const model::Material*> types;
     for (std::size_t k = Part; k < all.size(); k += gallery_parts)
         types.push_back(all[k]);
     SceneBuilder b;
     gallery(b, types);
-    environment_image(b, Part % 2 == 0 ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL);
+    environment_image(b, Part % 2 == 0 ? scene::Mapping::equirect : scene::Mapping::octahedral);
     check_agreement(b.scene);
 }
 
@@ -182,8 +182,8 @@ TEST_CASE("tracers agree: mixes and cut-outs") {
     const auto scaled = texture(b, "scale", {}, flip);
     const auto mix = [&](scene::Id<scene::Material> first, scene::Id<scene::Material> second, scene::Value amount) {
         scene::ParamSet p;
-        p.set("first", {.type = RESTAGE_MATERIAL, .material = first});
-        p.set("second", {.type = RESTAGE_MATERIAL, .material = second});
+        p.set("first", {.type = model::ParamType::material, .material = first});
+        p.set("second", {.type = model::ParamType::material, .material = second});
         p.set("amount", amount);
         return b.material("mix", p);
     };
@@ -233,13 +233,13 @@ TEST_CASE("tracers agree: lamps without surface, lens, crop window, tabulated fi
     b.instance(b.quad({3, 0, 0.5}, {4, 0, 0.5}, {4, 0.5, 1.5}, {3, 0.5, 1.5}), b.material("interface"), glm::dmat4(1),
                scene::Emission{glm::vec3(3), true});
     b.instance(ball, b.material("interface"), at(-2, -2, 1)); // nothing to see
-    b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(15, 10, 8), .light_to_world = at(-4, -3, 4)});
-    b.light({.kind = RESTAGE_LIGHT_SPOT,
+    b.light({.kind = scene::LightKind::point, .value = glm::vec3(15, 10, 8), .light_to_world = at(-4, -3, 4)});
+    b.light({.kind = scene::LightKind::spot,
              .value = glm::vec3(30, 40, 60),
              .light_to_world = glm::rotate(at(2, -2, 5), 3.0, glm::dvec3(1, 0, 0)),
              .cone_angle = 25,
              .cone_delta = 10});
-    b.light({.kind = RESTAGE_LIGHT_DISTANT,
+    b.light({.kind = scene::LightKind::distant,
              .value = glm::vec3(0.6f),
              .light_to_world = glm::rotate(glm::dmat4(1), 2.4, glm::dvec3(1, 0.3, 0))});
     b.scene.settings.value.clamp_indirect = 4;
@@ -273,7 +273,7 @@ TEST_CASE("validation and synchronization validation are silent") {
     const auto types = material_types();
     REQUIRE(types.size() >= 2);
     gallery(b, {types[0], types[1]});
-    environment_image(b, RESTAGE_EQUIRECT);
+    environment_image(b, scene::Mapping::equirect);
     const auto renderer = make_renderer(tracer, {.validation = true});
     render_image(*renderer, b.scene, 3);
     // an edit of everything that is updated in place: an instance moves, one comes, a mesh is replaced

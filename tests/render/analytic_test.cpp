@@ -47,13 +47,13 @@ TEST_CASE("point light: inverse square and cosine") {
     ground(b, 0.5f);
     glm::dmat4 m(1);
     m[3] = {3, 0, 4, 1}; // 5 away, cosine 0.8
-    b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(20), .light_to_world = m});
+    b.light({.kind = scene::LightKind::point, .value = glm::vec3(20), .light_to_world = m});
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 20 / 25 * 0.8);
 }
 
 TEST_CASE("spot light: its edge fades as pbrt-v4's or as pbrt-v3's") {
     const auto tracer = GENERATE("embree", "vulkan");
-    const auto falloff = GENERATE(RESTAGE_FALLOFF_SMOOTH, RESTAGE_FALLOFF_QUARTIC);
+    const auto falloff = GENERATE(scene::Falloff::smooth, scene::Falloff::quartic);
     SceneBuilder b;
     look_down(b);
     ground(b, 0.5f);
@@ -61,14 +61,14 @@ TEST_CASE("spot light: its edge fades as pbrt-v4's or as pbrt-v3's") {
                  edge = 40 * pi / 180; // seen 20 degrees off its axis, all of it edge
     glm::dmat4 m = glm::rotate(glm::dmat4(1), pi, glm::dvec3(1, 0, 0)); // down
     m[3] = {height * std::tan(angle), 0, height, 1};
-    b.light({.kind = RESTAGE_LIGHT_SPOT,
+    b.light({.kind = scene::LightKind::spot,
              .value = glm::vec3(100),
              .light_to_world = m,
              .cone_angle = 40,
              .cone_delta = 40,
              .falloff = falloff});
     const double t = (std::cos(angle) - std::cos(edge)) / (1 - std::cos(edge));
-    const double faded = falloff == RESTAGE_FALLOFF_QUARTIC ? t * t * t * t : t * t * (3 - 2 * t);
+    const double faded = falloff == scene::Falloff::quartic ? t * t * t * t : t * t * (3 - 2 * t);
     const double distance = height / std::cos(angle);
     check_mean(render_image(*make_renderer(tracer), b.scene, 16),
                0.5 / pi * 100 * faded * std::cos(angle) / (distance * distance)); // 0.441 and 0.160
@@ -79,7 +79,7 @@ TEST_CASE("distant light: irradiance times cosine") {
     SceneBuilder b;
     look_down(b);
     ground(b, 0.5f);
-    b.light({.kind = RESTAGE_LIGHT_DISTANT,
+    b.light({.kind = scene::LightKind::distant,
              .value = glm::vec3(3),
              .light_to_world = glm::rotate(glm::dmat4(1), pi * 0.75, glm::dvec3(1, 0, 0))});
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 3 * std::cos(pi / 4));
@@ -91,8 +91,8 @@ TEST_CASE("a light that is switched off lights nothing") {
     look_down(b);
     ground(b, 0.5f);
     const glm::dmat4 down = glm::rotate(glm::dmat4(1), pi * 0.75, glm::dvec3(1, 0, 0));
-    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(5), .light_to_world = down, .hidden = true});
-    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(3), .light_to_world = down});
+    b.light({.kind = scene::LightKind::distant, .value = glm::vec3(5), .light_to_world = down, .hidden = true});
+    b.light({.kind = scene::LightKind::distant, .value = glm::vec3(3), .light_to_world = down});
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 3 * std::cos(pi / 4));
 }
 
@@ -166,8 +166,8 @@ TEST_CASE("a cut-out lamp shines with what is left of it, and one without a surf
     auto material = left == "interface" ? b.material("interface") : b.diffuse(0, 0, 0);
     if (left == "half of it in a mix") {
         scene::ParamSet p;
-        p.set("first", {.type = RESTAGE_MATERIAL, .material = material});
-        p.set("second", {.type = RESTAGE_MATERIAL, .material = b.material("interface")});
+        p.set("first", {.type = model::ParamType::material, .material = material});
+        p.set("second", {.type = model::ParamType::material, .material = b.material("interface")});
         p.set("amount", scene::Value::number(0.5f));
         material = b.material("mix", p);
     }

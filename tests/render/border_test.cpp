@@ -98,7 +98,7 @@ TEST_CASE("borders: shadow rays are absorbed, not stopped") {
         SceneBuilder b;
         look_down(b, {6, 0, 0.2}); // under the slabs
         ground(b, 0.5f);
-        b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(20), .light_to_world = placed({0, 0, 4})});
+        b.light({.kind = scene::LightKind::point, .value = glm::vec3(20), .light_to_world = placed({0, 0, 4})});
         slab(b, b.material("interface"), 0.4, {.interior = medium(b, ink_sigma)}, {0, 0, lamp_inside ? 4 : 2});
         slab(b, b.material("interface"), 0.2, {.interior = medium(b, tea_sigma)}, {0, 0, 0.5}); // and another
         renderer->forget_scene();
@@ -111,7 +111,7 @@ TEST_CASE("borders: shadow rays are absorbed, not stopped") {
     SceneBuilder b; // from infinitely far: the slab at 60 degrees
     look_down(b, {0, -10, 1});
     ground(b, 0.5f);
-    b.light({.kind = RESTAGE_LIGHT_DISTANT,
+    b.light({.kind = scene::LightKind::distant,
              .value = glm::vec3(2),
              .light_to_world = glm::rotate(glm::dmat4(1), pi + pi / 3, glm::dvec3(0, 1, 0))});
     slab(b, b.material("interface"), 0.4, {.interior = medium(b, ink_sigma)}, {0, 0, 2}, 20);
@@ -185,8 +185,8 @@ TEST_CASE("borders: a mix with a share of no surface lets that share pass") {
     const auto mix = [](SceneBuilder& b, scene::Id<scene::Material> first, scene::Id<scene::Material> second,
                         float amount) {
         scene::ParamSet p;
-        p.set("first", {.type = RESTAGE_MATERIAL, .material = first});
-        p.set("second", {.type = RESTAGE_MATERIAL, .material = second});
+        p.set("first", {.type = model::ParamType::material, .material = first});
+        p.set("second", {.type = model::ParamType::material, .material = second});
         p.set("amount", scene::Value::number(amount));
         return b.material("mix", p);
     };
@@ -213,7 +213,7 @@ TEST_CASE("borders: a mix with a share of no surface lets that share pass") {
     SceneBuilder b; // a shadow of it
     look_down(b, {8, 0, 10});
     ground(b, 0.5f);
-    b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(20), .light_to_world = placed({0.31, 0.22, 4})});
+    b.light({.kind = scene::LightKind::point, .value = glm::vec3(20), .light_to_world = placed({0.31, 0.22, 4})});
     b.instance(b.quad({-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}),
                mix(b, b.material("interface"), b.diffuse(0.5f, 0.5f, 0.5f), 0.3f));
     renderer->forget_scene();

@@ -223,7 +223,7 @@ TEST_CASE("camera: an orthographic one shows the world at its scale, wherever it
             b.set_film(c.size.x, c.size.y);
             look_ahead(b, 13); // which does not matter
             change_camera(b, [&](auto& camera) {
-                camera.projection = RESTAGE_ORTHOGRAPHIC;
+                camera.projection = scene::Projection::orthographic;
                 if (c.explicit_window) camera.screen_window = glm::vec4(c.window);
             });
             card(b, distance, patch / distance); // the same size at any distance
@@ -241,7 +241,7 @@ TEST_CASE("camera: an orthographic one with a lens is sharp at its focus and spr
         b.set_film(24, 24);
         look_ahead(b, 13);
         change_camera(b, [](auto& camera) {
-            camera.projection = RESTAGE_ORTHOGRAPHIC;
+            camera.projection = scene::Projection::orthographic;
             camera.lens_radius = 1e-4f;
             camera.focal_distance = 4;
         });
@@ -257,7 +257,8 @@ TEST_CASE("camera: an orthographic one with a lens is sharp at its focus and spr
 
 TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     const std::string tracer = GENERATE("embree", "vulkan");
-    const RestageProjection projection = GENERATE(RESTAGE_SPHERICAL, RESTAGE_SPHERICAL_EQUAL_AREA);
+    const scene::Projection projection =
+        GENERATE(scene::Projection::spherical, scene::Projection::spherical_equal_area);
     SceneBuilder b;
     b.set_film(32, 24);
     b.set_camera({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 45);
@@ -291,7 +292,8 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     for (std::uint32_t y = 0; y < 24; ++y)
         for (std::uint32_t x = 0; x < 32; ++x) {
             const float got = image.color[y * 32 + x].y;
-            const double weight = projection == RESTAGE_SPHERICAL ? std::sin((y + 0.5) / 24 * std::numbers::pi) : 1.0;
+            const double weight =
+                projection == scene::Projection::spherical ? std::sin((y + 0.5) / 24 * std::numbers::pi) : 1.0;
             const int side = side_of(x + 0.5, y + 0.5);
             weights += weight;
             up += side == 1 ? weight : 0;
@@ -307,7 +309,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     CHECK(std::abs(up / weights - 1.0 / 6) < 0.02);
     // pbrt-v4's conventions at one place each: the middle of the upper edge looks up, or +x is at the left edge.
     const auto at = [&](double u, double v) { return glm::normalize(query::view_ray(camera, {u, v}, 1).direction); };
-    if (projection == RESTAGE_SPHERICAL) {
+    if (projection == scene::Projection::spherical) {
         CHECK(glm::length(at(0, 0.5) - glm::dvec3(1, 0, 0)) < 1e-9);
         CHECK(glm::length(at(0.25, 0.5) - glm::dvec3(0, 0, 1)) < 1e-9);
         CHECK(glm::length(at(0.3, 0) - glm::dvec3(0, 1, 0)) < 1e-9);
@@ -319,8 +321,8 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
 }
 
 TEST_CASE("camera: what is projected to the film is seen there") {
-    for (const auto projection :
-         {RESTAGE_PERSPECTIVE, RESTAGE_ORTHOGRAPHIC, RESTAGE_SPHERICAL, RESTAGE_SPHERICAL_EQUAL_AREA}) {
+    for (const auto projection : {scene::Projection::perspective, scene::Projection::orthographic,
+                                  scene::Projection::spherical, scene::Projection::spherical_equal_area}) {
         SceneBuilder b;
         b.set_camera({1, 2, 3}, {-2, 5, 1}, {0, 0, 1}, 50);
         scene::Camera camera = b.scene.cameras[b.scene.active_camera.value];
@@ -332,7 +334,7 @@ TEST_CASE("camera: what is projected to the film is seen there") {
             CHECK(glm::length(glm::dvec2(p) - film) < 1e-9);
             CHECK(std::abs(p.z - 7) < 1e-9);
         }
-        if (projection != RESTAGE_ORTHOGRAPHIC) continue;
+        if (projection != scene::Projection::orthographic) continue;
         // The wheel enlarges around the point under the mouse, and framing fits.
         const auto ray = query::view_ray(camera, {0.7, 0.4}, 1.5);
         const glm::dvec3 there = ray.origin + 3.0 * ray.direction;

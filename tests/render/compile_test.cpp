@@ -235,17 +235,12 @@ TEST_CASE("a material whose shader has an error keeps its stand-in in an editor,
     const auto folder = empty_cache("broken_" + tracer);
     REQUIRE(
         write_file_atomic(folder / "broken.glsl", "vec3 broken_eval(broken_Params m, vec3 wo, vec3 wi) { oops; }\n"));
-    const RestageParam params[] = {
-        {"color", "Colour", RESTAGE_COLOR, 0, 0, 1, {0.2f, 0.3f, 0.8f}, "", nullptr, "Of the stand-in."}};
-    const RestageMaterial1 table{.size = sizeof(RestageMaterial1),
-                                 .flags = 0,
-                                 .type = "broken",
-                                 .label = "Broken",
-                                 .prefix = "broken",
-                                 .glsl_file = "broken.glsl",
-                                 .params = params,
-                                 .param_count = 1,
-                                 .tooltip = ""};
+    const model::Material table{
+        .type = "broken",
+        .label = "Broken",
+        .prefix = "broken",
+        .glsl_file = "broken.glsl",
+        .params = {{.id = "color", .label = "Colour", .type = model::ParamType::color, .def = {0.2f, 0.3f, 0.8f}}}};
     const auto lookup = [&](const std::string& type) {
         return type == "broken" ? render::MaterialPlugin{&table, folder} : plugins().lookup()(type);
     };

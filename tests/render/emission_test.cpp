@@ -150,7 +150,7 @@ TEST_CASE("what a material emits can be edited, replaced by the object's own, an
     CHECK(std::abs(mean_luminance(render_image(*renderer, b.scene, 16)).value - one) < 1e-4 * one);
     edit_instance(b, b.lamp, [](scene::Instance& i) { i.emission.reset(); });
     scene::ParamSet mixed = numbers({{"amount", 0.f}});
-    scene::Value first{.type = RESTAGE_MATERIAL};
+    scene::Value first{.type = model::ParamType::material};
     first.material = bright;
     mixed.set("first", first);
     mixed.set("second", first);

@@ -12,12 +12,12 @@ constexpr double pi = std::numbers::pi;
 namespace {
 
 struct Mapping {
-    RestageMapping kind;
+    scene::Mapping kind;
     std::uint32_t width, height;
 
     // pbrt-v3, InfiniteAreaLight (z up); pbrt-v4, EqualAreaSquareToSphere. u, v in [0,1], row 0 is v = 0.
     glm::dvec3 direction(double u, double v) const {
-        if (kind == RESTAGE_EQUIRECT) {
+        if (kind == scene::Mapping::equirect) {
             const double theta = pi * v, phi = 2 * pi * u;
             return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
         }
@@ -35,14 +35,14 @@ struct Mapping {
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
                 const double u = (x + (i + 0.5) / n) / width, v = (y + (j + 0.5) / n) / height;
-                const double area = kind == RESTAGE_EQUIRECT ? 2 * pi * pi * std::sin(pi * v) : 4 * pi;
+                const double area = kind == scene::Mapping::equirect ? 2 * pi * pi * std::sin(pi * v) : 4 * pi;
                 sum += f(direction(u, v)) * area / (double(width) * height * n * n);
             }
         return sum;
     }
     // Where the square's plane leads, up to a texel outside: pbrt 4ed, fig. 3.22 for the octahedral map.
     glm::dvec2 wrap(double u, double v) const {
-        if (kind == RESTAGE_EQUIRECT) return {u - std::floor(u), v < 0 ? -v : v > 1 ? 2 - v : v};
+        if (kind == scene::Mapping::equirect) return {u - std::floor(u), v < 0 ? -v : v > 1 ? 2 - v : v};
         if (u < 0 || u > 1) u = u < 0 ? -u : 2 - u, v = 1 - v;
         if (v < 0 || v > 1) v = v < 0 ? -v : 2 - v, u = 1 - u;
         return {u, v};
@@ -56,7 +56,7 @@ struct Mapping {
             for (int i = 0; i < n; ++i) {
                 const double a = 2 * (i + 0.5) / n - 1, b = 2 * (j + 0.5) / n - 1;
                 const glm::dvec2 p = wrap((x + 0.5 + a) / width, (y + 0.5 + b) / height);
-                const double area = kind == RESTAGE_EQUIRECT ? 2 * pi * pi * std::sin(pi * p.y) : 4 * pi;
+                const double area = kind == scene::Mapping::equirect ? 2 * pi * pi * std::sin(pi * p.y) : 4 * pi;
                 sum += (1 - std::abs(a)) * (1 - std::abs(b)) * f(direction(p.x, p.y)) * area * 4 /
                        (double(width) * height * n * n);
             }
@@ -76,7 +76,7 @@ struct Mapping {
     }
 };
 
-const Mapping equirect{RESTAGE_EQUIRECT, 512, 256}, octahedral{RESTAGE_OCTAHEDRAL, 256, 256};
+const Mapping equirect{scene::Mapping::equirect, 512, 256}, octahedral{scene::Mapping::octahedral, 256, 256};
 
 // The texel that holds a direction.
 glm::uvec2 texel_of(const Mapping& m, glm::dvec3 w) {
@@ -144,11 +144,11 @@ TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
                 renderer->forget_scene();
                 const auto image = render_image(*renderer, b.scene, 64);
                 INFO(tracer << (strategy == render::Strategy::mis ? ", mis, " : ", light sampling, ")
-                            << (m.kind == RESTAGE_EQUIRECT ? "equirect" : "octahedral") << ", sun at texel " << at.x
-                            << ", " << at.y);
+                            << (m.kind == scene::Mapping::equirect ? "equirect" : "octahedral") << ", sun at texel "
+                            << at.x << ", " << at.y);
                 // tight: the sun gives nearly each sample the same value
                 check_mean(image, 0.8 / pi * (pi * dim + (bright - dim) * geometry), 5e-4);
-                const bool pole = m.kind == RESTAGE_EQUIRECT && at.y == 0; // solid angle goes to 0 across it
+                const bool pole = m.kind == scene::Mapping::equirect && at.y == 0; // solid angle goes to 0 across it
                 CHECK(mean_luminance(image).std_error < (pole ? 0.006 : 0.002));
             }
     }
@@ -157,7 +157,7 @@ TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
 TEST_CASE("the sky is interpolated between texels, over seams and folds too") {
     const std::string tracer = "embree"; // the other runs the same shader
     const auto renderer = make_renderer(tracer);
-    for (const Mapping& m : {Mapping{RESTAGE_EQUIRECT, 8, 4}, Mapping{RESTAGE_OCTAHEDRAL, 6, 6}}) {
+    for (const Mapping& m : {Mapping{scene::Mapping::equirect, 8, 4}, Mapping{scene::Mapping::octahedral, 6, 6}}) {
         std::vector<float> sky;
         for (std::uint32_t i = 0; i < m.width * m.height; ++i)
             sky.push_back(float((37 * i + 11) % 29));
@@ -177,7 +177,7 @@ TEST_CASE("the sky is interpolated between texels, over seams and folds too") {
             b.set_camera({0, 0, 0}, w, std::abs(w.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), 1e-3f);
             const auto image = render_image(*renderer, b.scene, 2);
             const double expected = m.interpolate(sky, p.x, p.y);
-            INFO((m.kind == RESTAGE_EQUIRECT ? "equirect" : "octahedral")
+            INFO((m.kind == scene::Mapping::equirect ? "equirect" : "octahedral")
                  << " at " << p.x << ", " << p.y << ": " << mean_luminance(image).value << ", expected " << expected);
             CHECK(std::abs(mean_luminance(image).value - expected) < 2e-3 * (1 + expected));
         }
@@ -200,7 +200,7 @@ TEST_CASE("one sky in both mappings gives one irradiance") {
             const glm::dvec3 w(std::sqrt(s2) * std::cos(phi), std::sqrt(s2) * std::sin(phi), std::sqrt(1 - s2));
             expected += radiance(glm::transpose(glm::dmat3(turn)) * w) * pi / (n * n);
         }
-    for (const Mapping& m : {Mapping{RESTAGE_EQUIRECT, 128, 64}, Mapping{RESTAGE_OCTAHEDRAL, 96, 96}}) {
+    for (const Mapping& m : {Mapping{scene::Mapping::equirect, 128, 64}, Mapping{scene::Mapping::octahedral, 96, 96}}) {
         std::vector<float> sky;
         for (std::uint32_t y = 0; y < m.height; ++y)
             for (std::uint32_t x = 0; x < m.width; ++x)
@@ -211,7 +211,7 @@ TEST_CASE("one sky in both mappings gives one irradiance") {
         ground(b, 0.8f);
         set_sky(b, m, std::move(sky), turn);
         renderer->forget_scene();
-        INFO(tracer << (m.kind == RESTAGE_EQUIRECT ? ", equirect" : ", octahedral"));
+        INFO(tracer << (m.kind == scene::Mapping::equirect ? ", equirect" : ", octahedral"));
         check_mean(render_image(*renderer, b.scene, 256), 0.8 / pi * expected, 1e-3);
     }
 }

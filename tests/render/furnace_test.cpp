@@ -67,15 +67,16 @@ TEST_CASE("furnace: every lossless material vanishes in a white sky") {
     const bool roulette = GENERATE(true, false);
     Furnace f;
     for (const auto& entry : plugins().registry.materials()) {
-        const RestageMaterial1& table = *entry.table;
-        if (!(table.flags & RESTAGE_MATERIAL_LOSSLESS)) continue;
+        const model::Material& table = *entry.table;
+        if (!table.lossless) continue;
         int colors = 0;
-        for (std::uint32_t i = 0; i < table.param_count; ++i)
-            colors += table.params[i].type == RESTAGE_COLOR;
+        for (std::uint32_t i = 0; i < table.params.size(); ++i)
+            colors += table.params[i].type == model::ParamType::color;
         scene::ParamSet p;
-        const float v = table.flags & RESTAGE_MATERIAL_ADDITIVE ? 1.f / float(colors) : 1.f;
-        for (std::uint32_t i = 0; i < table.param_count; ++i)
-            if (table.params[i].type == RESTAGE_COLOR) p.set(table.params[i].id, scene::Value::color(v, v, v));
+        const float v = table.additive ? 1.f / float(colors) : 1.f;
+        for (std::uint32_t i = 0; i < table.params.size(); ++i)
+            if (table.params[i].type == model::ParamType::color)
+                p.set(table.params[i].id, scene::Value::color(v, v, v));
         f.add(table.type, f.b.material(table.type, p));
     }
     REQUIRE(f.names.size() >= 4);

@@ -162,9 +162,8 @@ class Recorder {
 };
 
 bool can_denoise() {
-    const char* reason = "";
     const auto& denoisers = plugins().registry.denoisers();
-    return !denoisers.empty() && denoisers[0].table->available(&reason);
+    return !denoisers.empty() && denoisers[0].table->available();
 }
 
 constexpr ViewOptions view_options{.size = {240, 180}, .samples = 4};

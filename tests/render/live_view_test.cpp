@@ -170,7 +170,7 @@ TEST_CASE("live view: what shows begins again") {
         s.instances.set(ball, i, ++s.clock);
     });
     change("the sky", [&] { b.shine(2); });
-    change("a light", [&] { b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(5)}); });
+    change("a light", [&] { b.light({.kind = scene::LightKind::point, .value = glm::vec3(5)}); });
     change("depth", [&] {
         s.settings.value.max_depth = 2;
         s.settings.version = ++s.clock;

@@ -11,18 +11,12 @@ using namespace restage::tests;
 
 namespace {
 
-const RestageParam bad_params[] = {
-    {"mode", "Mode", RESTAGE_INT, 0, 0, 8, {0}, "", nullptr, "What is not finite."},
-};
-const RestageMaterial1 bad_table{.size = sizeof(RestageMaterial1),
-                                 .flags = 0,
-                                 .type = "bad",
-                                 .label = "Bad",
-                                 .prefix = "bad",
-                                 .glsl_file = "bad.glsl",
-                                 .params = bad_params,
-                                 .param_count = 1,
-                                 .tooltip = ""};
+const model::Material bad_table{
+    .type = "bad",
+    .label = "Bad",
+    .prefix = "bad",
+    .glsl_file = "bad.glsl",
+    .params = {{.id = "mode", .label = "Mode", .type = model::ParamType::integer, .int_max = 8}}};
 // A white diffuse surface but for what the mode spoils.
 const char* const bad_glsl = R"(
 #include "lib/sampling.glsl"
@@ -68,7 +62,7 @@ TEST_CASE("what a material gives that is not finite is counted under its name") 
     b.instance(cube(b), bad, placed({-1.2, 0, 0}));
     b.instance(cube(b), b.diffuse(0.5f, 0.5f, 0.5f), placed({1.2, 0, 0}));
     b.environment(glm::vec3(1));
-    b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(10), .light_to_world = placed({0, -3, 4})});
+    b.light({.kind = scene::LightKind::point, .value = glm::vec3(10), .light_to_world = placed({0, -3, 4})});
     for (int mode = 0; mode < 7; ++mode) {
         auto material = b.scene.materials[bad];
         material.params.set("mode", scene::Value::integer(mode));

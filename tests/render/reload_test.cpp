@@ -25,7 +25,7 @@ std::string glsl(const std::string& color) {
     return text;
 }
 std::string manifest(const std::string& params) {
-    return R"({"id": "org.example.paint", "kind": "material", "version": "1.0.0", "licence": "MIT", "abi": 1,
+    return R"({"id": "org.example.paint", "provides": ["restage.material/1"], "version": "1.0.0", "licence": "MIT", "needs": {"host": ">=0.2"},
 "materials": [{"type": "paint", "glsl": "paint.glsl", "params": )" +
            params + "}]}";
 }

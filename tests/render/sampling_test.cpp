@@ -200,9 +200,9 @@ TEST_CASE("light table: chosen by power, and the densities sum to one") {
     lamp(1, true, 1); // 2 pi
     lamp(1, false, 3); // 9 pi
     lamp(0, false, 1); // none
-    b.light({.kind = RESTAGE_LIGHT_POINT, .value = glm::vec3(1)}); // 4 pi
-    b.light({.kind = RESTAGE_LIGHT_SPOT, .value = glm::vec3(1), .cone_angle = 60, .cone_delta = 0}); // pi
-    b.light({.kind = RESTAGE_LIGHT_DISTANT, .value = glm::vec3(1)}); // pi r^2
+    b.light({.kind = scene::LightKind::point, .value = glm::vec3(1)}); // 4 pi
+    b.light({.kind = scene::LightKind::spot, .value = glm::vec3(1), .cone_angle = 60, .cone_delta = 0}); // pi
+    b.light({.kind = scene::LightKind::distant, .value = glm::vec3(1)}); // pi r^2
     b.environment(glm::vec3(1)); // 4 pi^2 r^2
     const double r = 2;
     const auto table =

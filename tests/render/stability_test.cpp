@@ -122,7 +122,7 @@ TEST_CASE("a closed box is black inside, whatever shines outside") {
                 b.instance(b.mesh(std::move(data), "fan"), white, m);
             }
         b.environment(glm::vec3(1e3f));
-        b.light({.kind = RESTAGE_LIGHT_POINT,
+        b.light({.kind = scene::LightKind::point,
                  .value = glm::vec3(float(1e4 * c.scale * c.scale)),
                  .light_to_world = placed(inside({1.2, 0.2, 0}))});
         b.instance(b.quad({-1, -1, 1.5f}, {-1, 1, 1.5f}, {1, 1, 1.5f}, {1, -1, 1.5f}), white, m,

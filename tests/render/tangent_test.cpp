@@ -36,14 +36,14 @@ scene::Id<scene::Material> mapped(SceneBuilder& b) {
     b.scene.textures.set(id, texture, ++b.scene.clock);
     scene::ParamSet p;
     p.set("reflectance", scene::Value::color(albedo, albedo, albedo));
-    p.set("normalmap", {.type = RESTAGE_TEXTURE, .v = {}, .text = {}, .texture = id, .material = {}});
+    p.set("normalmap", {.type = model::ParamType::texture, .v = {}, .text = {}, .texture = id, .material = {}});
     return b.material("diffuse", p);
 }
 
 void light(SceneBuilder& b, glm::dvec3 towards) {
     const glm::dvec3 z = -towards, x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z)), y = glm::cross(z, x);
     b.light(
-        {.kind = RESTAGE_LIGHT_DISTANT,
+        {.kind = scene::LightKind::distant,
          .value = glm::vec3(irradiance),
          .light_to_world = glm::dmat4(glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(0, 0, 0, 1))});
 }

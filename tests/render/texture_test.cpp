@@ -32,8 +32,7 @@ class Textures {
     std::vector<glm::vec3> shade(const std::vector<Ask>& asks) {
         Jobs jobs(1);
         const auto lookup = [](const std::string&) -> std::optional<render::MaterialPlugin> {
-            static const RestageMaterial1 none{
-                .size = sizeof none, .flags = RESTAGE_MATERIAL_NULL, .type = "diffuse", .label = "", .prefix = "none"};
+            static const model::Material none{.type = "diffuse", .prefix = "none", .null_surface = true};
             return render::MaterialPlugin{&none, {}};
         };
         render::GpuScene scene(lab().device(), jobs, lookup);

@@ -17,7 +17,7 @@ TEST_CASE("spot light: smooth falloff between its two cones") {
     const auto spot = b.scene.lights.next();
     for (const double angle : {0.0, 15.0, 22.0, 27.0, 29.5, 31.0}) {
         b.scene.lights.set(spot,
-                           scene::Light{.kind = RESTAGE_LIGHT_SPOT,
+                           scene::Light{.kind = scene::LightKind::spot,
                                         .value = glm::vec3(20),
                                         .light_to_world = glm::rotate(placed({0, 0, 4}), pi + glm::radians(angle),
                                                                       glm::dvec3(1, 0, 0)),
@@ -173,7 +173,7 @@ TEST_CASE("a low-polygon sphere in the light of one side is as bright as a fine 
         b.set_camera({0, -8, 0}, {0, 0, 0}, {0, 0, 1}, 17);
         b.instance(b.sphere(rows, 2 * rows, shading_normals, true), b.diffuse(0.8f, 0.8f, 0.8f),
                    glm::rotate(glm::dmat4(1), 0.5, glm::dvec3(1, 0.3, 0.7)));
-        b.light({.kind = RESTAGE_LIGHT_DISTANT,
+        b.light({.kind = scene::LightKind::distant,
                  .value = glm::vec3(3),
                  .light_to_world = glm::rotate(glm::dmat4(1), 2.0, glm::dvec3(0.5, 1, 0))});
         renderer->forget_scene();

@@ -41,7 +41,7 @@ def broken(folder, library="sound", fault=None, **manifest):
         text = f"#define broken_{fault} 1\n" + text
     (folder / "broken.glsl").write_text(text)
     (folder / "plugin.json").write_text(json.dumps({
-        "id": "org.example.broken", "kind": "material", "version": "1.0.0", "abi": 1, "licence": "MIT", "library": "broken",
+        "id": "org.example.broken", "provides": ["restage.material/1"], "version": "1.0.0", "needs": {"host": ">=0.2"}, "licence": "MIT", "library": "broken",
         "files": ["broken.glsl"], **manifest}))
     return folder
 
@@ -114,7 +114,7 @@ BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }
 vec3 grey_albedo(grey_Params m, vec3 wo) { return vec3(0.5); }
 """ % ("plugin" if taken else "share"))
     (tmp_path / "plugin.json").write_text(json.dumps({
-        "id": "org.example.grey", "kind": "material", "version": "1.0.0", "abi": 1, "licence": "MIT", "files": ["grey.glsl"],
+        "id": "org.example.grey", "provides": ["restage.material/1"], "version": "1.0.0", "needs": {"host": ">=0.2"}, "licence": "MIT", "files": ["grey.glsl"],
         "materials": [{"type": "grey", "label": "Grey", "prefix": "grey", "glsl": "grey.glsl", "tooltip": "Grey.", "params": [
             {"id": "plugin" if taken else "share", "label": "Share", "type": "float", "default": 0.5, "min": 0, "max": 1,
              "tooltip": "Of light."}]}]}))

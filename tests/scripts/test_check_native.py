@@ -29,7 +29,7 @@ def folder_of(folder, case):
     (folder / "samples/two.tri").write_text("#tri\n0 0 1\n1 2 0.5\n\n-1 0.25 3\n")
     (folder / "broken.glsl").write_text(GLSL)
     (folder / "plugin.json").write_text(json.dumps({
-        "id": "org.example.broken", "kind": kind, "version": "1.0.0", "abi": 1, "licence": "MIT", "library": "broken",
+        "id": "org.example.broken", "provides": ["restage.material/1", "restage.inspector/1", "restage.table/1"] if kind == "material" else [f"restage.{kind}/1"], "version": "1.0.0", "needs": {"host": ">=0.2"}, "licence": "MIT", "library": "broken",
         "files": ["broken.glsl"] if kind == "material" else []}))
     return folder
 
@@ -65,7 +65,7 @@ def test_a_sound_inspector_and_reader_pass(step, tmp_path):
     ("denoiser_nan", "robust", ["nan in some pixels"]),
     ("denoiser_guides", "denoise", ["crashed: SIGSEGV", "no guides", "a bug in run()"]),
     ("denoiser_overruns", "denoise", ["writes behind the end of its output"]),
-    ("inspector_range", "inspector", ["set() of \"share\" to 2, which is out of its range"]),
+    ("inspector_range", "inspector", ["set() of \"share\": 2.000000 is out of its range"]),
     ("inspector_crashes", "inspector", ["crashed: SIGSEGV", "draw() number", "a bug in draw()"]),
     ("inspector_group", "inspector", ["a group that is open"]),
     ("table_crashes", "tables", ["crashed: SIGSEGV", "read() of noise", "a bug in read()"]),

@@ -67,7 +67,7 @@ def material(folder, glsl, flags):
     folder.mkdir(exist_ok=True)
     (folder / "grey.glsl").write_text(glsl)
     (folder / "plugin.json").write_text(json.dumps({
-        "id": "org.example.grey", "kind": "material", "version": "1.0.0", "abi": 1, "licence": "MIT", "files": ["grey.glsl"],
+        "id": "org.example.grey", "provides": ["restage.material/1"], "version": "1.0.0", "needs": {"host": ">=0.2"}, "licence": "MIT", "files": ["grey.glsl"],
         "materials": [{"type": "grey", "label": "Grey", "prefix": "grey", "glsl": "grey.glsl", "tooltip": "Grey.", "flags": flags,
                        "params": [{"id": "share", "label": "Share", "type": "float", "default": 0.8, "min": 0.2, "max": 1,
                                    "tooltip": "Of light."}]}]}))

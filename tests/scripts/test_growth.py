@@ -31,9 +31,10 @@ def test_layers_of_the_film_are_found_here():
 def test_a_layer_of_the_film_is_named_in_four_files(field, name, file, label):
     shaders = naming(rf"\b(g|a|guide|guides\.at\[i\])\.{field}\b", "shaders")
     assert shaders <= {"shaders/path/film.glsl", "shaders/path/step.glsl", "shaders/check_lab.glsl"}  # the lab's is a BSDF's
-    words = "|".join({name, file, label} - {"", "id"})
+    words = "|".join({name, file} - {"", "id"})
     assert naming(rf'"({words})"', "engine/render", "engine/view", "app/commands", "python/src") <= {"engine/render/film_layers.hpp"}
-    assert naming(rf'"{label}"', "app/editor") == set()
+    assert naming(rf'"{label}"', "engine/render", "engine/view", "app/commands") <= {"engine/render/film_layers.hpp"}
+    assert f'"{label}"' not in (ROOT / "app/editor/viewport_notes.cpp").read_text()
 
 
 def test_a_tracer_is_named_in_the_list_and_its_file():

@@ -55,7 +55,7 @@ def test_an_importer_that_misbehaves_ends_itself_alone(tmp_path, case, limits, s
     folder = tmp_path / "plugins" / "test"
     folder.mkdir(parents=True)
     shutil.copy(RESTAGE.parents[1] / "tests" / "plugins_bad" / f"{case}.so", folder / "test.so")
-    manifest = {"id": "org.example.velvet", "kind": "importer", "version": "1.0.0", "licence": "MIT", "abi": 1}
+    manifest = {"id": "org.example.velvet", "provides": ["restage.importer/1"], "version": "1.0.0", "licence": "MIT", "needs": {"host": ">=0.2"}}
     (folder / "plugin.json").write_text(json.dumps({**manifest, "library": "test"}))
     scene = tmp_path / "scene.test"
     scene.write_text("TEST")

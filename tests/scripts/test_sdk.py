@@ -106,8 +106,10 @@ def test_the_tutorial(installed, tmp_path):
     failed = run(restage, "check", plugin, "--quick", ok=False)
     assert failed.returncode == 1 and "furnace" in failed.stdout  # still declared lossless
     table = table.replace(".flags = RESTAGE_MATERIAL_LOSSLESS", ".flags = 0")
-    before, _, _ = table.partition("RESTAGE_MATERIAL_PLUGIN(")
+    before, _, _ = table.partition("RESTAGE_PLUGIN(")
     source.write_text(before + ui)
+    manifest = folder / "plugin.json"
+    manifest.write_text(manifest.read_text().replace('"restage.material/1"', '"restage.material/1", "restage.inspector/1"'))
     cmake = folder / "CMakeLists.txt"
     cmake.write_text(cmake.read_text().replace("MANIFEST plugin.json)", "MANIFEST plugin.json LINK m)"))
     plugin = build(folder, installed)
@@ -116,6 +118,7 @@ def test_the_tutorial(installed, tmp_path):
     # A table from a file.
     (folder / "silk.dat").write_bytes(bytes(4 * 7))
     source.write_text(before.replace(row, row + file_row) + reader)
+    manifest.write_text(manifest.read_text().replace("inspector", "table"))
     cmake.write_text(cmake.read_text().replace(" LINK m)", " FILES silk.dat)"))
     plugin = build(folder, installed)
     assert "parameters 3" in run(restage, "check", plugin, "--quick", "--only", "params").stdout
@@ -137,10 +140,10 @@ def crashing(tmp_path):
         json.dumps(
             {
                 "id": "org.example.velvet",
-                "kind": "material",
+                "provides": ["restage.material/1"],
                 "version": "1.0.0",
                 "licence": "MIT",
-                "abi": 1,
+                "needs": {"host": ">=0.2"},
                 "library": "velvet",
             }
         )

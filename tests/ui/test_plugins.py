@@ -71,7 +71,7 @@ def test_a_plugin_is_checked_from_its_panel(launch, tmp_path):
     glsl = plugin / "paint.glsl"
     glsl.write_text(PAINT.replace("COLOR", "(0.5 * m.tint)"))
     material = {"type": "paint", "glsl": "paint.glsl", "flags": ["lossless"], "params": [{"id": "tint", "type": "color"}]}
-    manifest = {"id": "org.example.paint", "kind": "material", "version": "1", "licence": "MIT", "abi": 1}
+    manifest = {"id": "org.example.paint", "provides": ["restage.material/1"], "version": "1", "licence": "MIT", "needs": {"host": ">=0.2"}}
     (plugin / "plugin.json").write_text(json.dumps({**manifest, "materials": [material]}))
     editor = launch("--plugin-path", plugin, scene(tmp_path, '"diffuse"'))
     editor.settled(samples=1)
@@ -92,10 +92,10 @@ def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
     params = [{"id": "tint", "label": "Tint", "type": "color", "default": [0.9, 0.2, 0.2]}]
     manifest = {
         "id": "org.example.paint",
-        "kind": "material",
+        "provides": ["restage.material/1"],
         "version": "1.0.0",
         "licence": "MIT",
-        "abi": 1,
+        "needs": {"host": ">=0.2"},
         "materials": [{"type": "paint", "glsl": "paint.glsl", "params": params}],
     }
     glsl = plugin / "paint.glsl"
@@ -194,7 +194,7 @@ def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
     plugin.mkdir()
     shutil.copy(binary.resolve().parent.parent / "tests/plugins_broken/denoiser_sound.so", plugin / "copier.so")
     (plugin / "plugin.json").write_text(json.dumps({
-        "id": "org.example.broken", "kind": "denoiser", "version": "1.0.0", "abi": 1, "licence": "MIT", "library": "copier"}))
+        "id": "org.example.broken", "provides": ["restage.denoiser/1"], "version": "1.0.0", "needs": {"host": ">=0.2"}, "licence": "MIT", "library": "copier"}))
     file = scene(tmp_path, '"diffuse"')
     by = lambda name: lambda s: s["view"]["denoiser"] == name
     editor = launch("--plugin-path", plugin, file)

@@ -22,17 +22,18 @@ Id<T> add(Scene& scene, T item) {
     return id;
 }
 
-constexpr std::array<RestageParam, 3> matte{{
-    {"reflectance", "", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", nullptr, ""},
-    {"eta", "", RESTAGE_COLOR, 0, 0, 10, {1, 1, 1}, "", nullptr, ""},
-    {"uroughness", "", RESTAGE_FLOAT, 0, 0, 1, {0.1f}, "", nullptr, ""},
-}};
-constexpr std::array<RestageParam, 4> gloss{{
-    {"kd", "", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", nullptr, ""},
-    {"eta", "", RESTAGE_FLOAT, 0, 1, 3, {1.5f}, "", nullptr, ""},
-    {"roughness", "", RESTAGE_FLOAT, 0, 0, 1, {0.2f}, "", nullptr, ""},
-    {"depth", "", RESTAGE_FLOAT, 0, 0, 2, {1}, "", nullptr, ""},
-}};
+using model::ParamType;
+const std::vector<model::Param> matte{
+    {.id = "reflectance", .type = ParamType::color, .texturable = true, .def = {0.5f, 0.5f, 0.5f}},
+    {.id = "eta", .type = ParamType::color, .max = 10, .def = {1, 1, 1}},
+    {.id = "uroughness", .type = ParamType::number, .def = {0.1f}},
+};
+const std::vector<model::Param> gloss{
+    {.id = "kd", .type = ParamType::color, .texturable = true, .def = {0.25f, 0.25f, 0.25f}},
+    {.id = "eta", .type = ParamType::number, .min = 1, .max = 3, .def = {1.5f}},
+    {.id = "roughness", .type = ParamType::number, .def = {0.2f}},
+    {.id = "depth", .type = ParamType::number, .max = 2, .def = {1}},
+};
 
 Material switched(const Material& material, ParamTable before, ParamTable after) {
     Scene scene;
@@ -72,9 +73,9 @@ TEST_CASE("a default colour goes on to the new type; what was set there stays", 
 
 TEST_CASE("a texture stays only where the new type takes one", "[scene][materials]") {
     Material m{.name = "m", .type = "matte"};
-    m.params.set("roughness", {.type = RESTAGE_FLOAT, .texture = {1}});
+    m.params.set("roughness", {.type = model::ParamType::number, .texture = {1}});
     CHECK_FALSE(switched(m, {}, gloss).params.find("roughness")); // its default holds
-    m.params.set("kd", {.type = RESTAGE_COLOR, .texture = {1}});
+    m.params.set("kd", {.type = model::ParamType::color, .texture = {1}});
     CHECK(switched(m, {}, gloss).params.texture("kd") == Id<Texture>{1});
 }
 
@@ -106,26 +107,27 @@ TEST_CASE("an image for a parameter is shared with whoever shows it already", "[
     const auto oak = add(scene, Material{.name = "oak", .type = "diffuse"});
     const auto walnut = add(scene, Material{.name = "walnut", .type = "diffuse"});
     const auto pixels = std::make_shared<const PixelData>(PixelData{1, 1, 3, {1, 1, 1}});
-    const Image image{.name = "grain", .path = "/somewhere/grain.png", .encoding = RESTAGE_SRGB, .data = pixels};
-    apply(scene, *set_image_texture(scene, oak, "reflectance", RESTAGE_COLOR, false, image));
+    const Image image{
+        .name = "grain", .path = "/somewhere/grain.png", .encoding = scene::Encoding::srgb, .data = pixels};
+    apply(scene, *set_image_texture(scene, oak, "reflectance", model::ParamType::color, false, image));
     const auto texture = scene.materials[oak].params.texture("reflectance");
     REQUIRE(texture);
     CHECK(scene.textures[texture].name == "grain");
     CHECK(scene.textures[texture].type == "imagemap");
     CHECK(scene.images[scene.textures[texture].image].path == image.path);
-    apply(scene, *set_image_texture(scene, walnut, "reflectance", RESTAGE_COLOR, false, image));
+    apply(scene, *set_image_texture(scene, walnut, "reflectance", model::ParamType::color, false, image));
     CHECK(scene.materials[walnut].params.texture("reflectance") == texture);
     CHECK(scene.images.live() == 1);
     // As data it is another image: other numbers.
     Image data = image;
-    data.encoding = RESTAGE_LINEAR;
-    apply(scene, *set_image_texture(scene, oak, "bump", RESTAGE_TEXTURE, true, data));
+    data.encoding = scene::Encoding::linear;
+    apply(scene, *set_image_texture(scene, oak, "bump", model::ParamType::texture, true, data));
     const auto bump = scene.materials[oak].params.texture("bump");
     CHECK(bump != texture);
     CHECK(scene.textures[bump].name == "grain 2");
     CHECK(scene.textures[bump].is_float);
     CHECK(scene.images.live() == 2);
-    CHECK_FALSE(set_image_texture(scene, {99}, "bump", RESTAGE_TEXTURE, true, data));
+    CHECK_FALSE(set_image_texture(scene, {99}, "bump", model::ParamType::texture, true, data));
 }
 
 TEST_CASE("colour temperatures are those of the standard lamps", "[scene][materials]") {

@@ -19,7 +19,7 @@ using test::Folder, test::Plugins, test::version;
 namespace {
 
 std::string json_with(const std::string& emission) {
-    return R"({"id": "org.example.velvet", "kind": "material", "version": "1.0.0", "licence": "MIT", "abi": 1,
+    return R"({"id": "org.example.velvet", "provides": ["restage.material/1"], "version": "1.0.0", "licence": "MIT", "needs": {"host": ">=0.2"},
  "materials": [{"type": "glow", "glsl": "velvet.glsl", "params": [
    {"id": "light", "type": "color", "flags": ["texturable"], "default": [1, 0.5, 0]},
    {"id": "strength", "type": "float", "max": 100, "default": 4},
@@ -41,28 +41,28 @@ TEST_CASE("a manifest says by which parameters a material shines", "[emission]")
     folder.scan(registry);
     const auto entry = registry.find_material("glow");
     REQUIRE(entry);
-    REQUIRE(entry->source->emission());
+    REQUIRE(entry->table->emission);
     ParamSet params;
-    auto e = emission_of(*entry->table, *entry->source->emission(), params);
+    auto e = emission_of(*entry->table, params);
     REQUIRE(e);
     CHECK(e->radiance == glm::vec3(4, 2, 0));
     CHECK_FALSE(e->two_sided);
     params.set("both", Value::boolean(true));
     params.set("light", Value::number(0.5f)); // a grey
-    e = emission_of(*entry->table, *entry->source->emission(), params);
+    e = emission_of(*entry->table, params);
     REQUIRE(e);
     CHECK(e->radiance == glm::vec3(2));
     CHECK(e->two_sided);
     Value texture = Value::color(0, 0, 0);
     texture.texture = {7};
     params.set("light", texture);
-    e = emission_of(*entry->table, *entry->source->emission(), params);
+    e = emission_of(*entry->table, params);
     REQUIRE(e);
     CHECK(e->radiance == glm::vec3(4)); // the texture stands for the colour, not for the scale
     CHECK(e->texture.value == 7);
     for (const float dark : {0.f, -1.f, std::numeric_limits<float>::infinity()}) {
         params.set("strength", Value::number(dark));
-        CHECK_FALSE(emission_of(*entry->table, *entry->source->emission(), params));
+        CHECK_FALSE(emission_of(*entry->table, params));
     }
 }
 

@@ -54,7 +54,7 @@ struct Trip {
         text = read_file(out.path / "out.pbrt").value();
     }
     PixelData picture(const char* name) {
-        auto pixels = io::read_image((out.path / "textures" / name).string(), RESTAGE_LINEAR, 1, nullptr);
+        auto pixels = io::read_image((out.path / "textures" / name).string(), scene::Encoding::linear, 1, nullptr);
         if (!pixels) FAIL(pixels.error().message);
         return std::move(*pixels);
     }
@@ -182,5 +182,5 @@ TEST_CASE("lights with a picture are the same after a round trip, edited too, an
     Trip v3;
     v3.export_as(scene, "v3");
     CHECK_THAT(v3.text, ContainsSubstring("LightSource \"spot\"")); // a stand-in, and it says so
-    CHECK(v3.report.count(RESTAGE_DROPPED) == 1);
+    CHECK(v3.report.count(io::Fate::dropped) == 1);
 }

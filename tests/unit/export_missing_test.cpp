@@ -145,9 +145,9 @@ TEST_CASE("a picture that is not there is told of once, with the place that asks
                                       "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"none.png\"\n"
                                       "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n");
     const auto scene = imported(folder.file("in.pbrt"), plugins);
-    REQUIRE(scene.report.count(RESTAGE_DROPPED) == 1);
+    REQUIRE(scene.report.count(io::Fate::dropped) == 1);
     const auto& entries = scene.report.entries;
-    const auto told = std::ranges::find(entries, RESTAGE_DROPPED, &io::ReportEntry::fate);
+    const auto told = std::ranges::find(entries, io::Fate::dropped, &io::ReportEntry::fate);
     CHECK(told->line > 0);
     CHECK_THAT(told->note, ContainsSubstring("there is no such file"));
 }
@@ -192,7 +192,7 @@ TEST_CASE("a spot that fades as the other version's is reported", "[export]") {
     CHECK(same->entries.empty());
     const auto other = io::export_scene(scene.scene, out.file("b.pbrt"), plugins.registry, version("v4"));
     REQUIRE(other);
-    REQUIRE(other->count(RESTAGE_APPROXIMATED) == 1);
+    REQUIRE(other->count(io::Fate::approximated) == 1);
     CHECK_THAT(other->entries[0].note, ContainsSubstring("fourth power"));
 }
 

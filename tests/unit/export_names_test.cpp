@@ -42,9 +42,9 @@ Everything furnished(bool v4) {
     made.add(Instance{.name = "lone", .mesh = {3}, .material = {2}, .group = made.add(Group{.name = "of one"})});
     apply(s, *set_hidden(s, std::array{Id<Instance>{4}, Id<Instance>{20}}, true));
     made.add(Light{.name = "off",
-                   .kind = RESTAGE_LIGHT_SPOT,
+                   .kind = scene::LightKind::spot,
                    .light_to_world = place(1, 1),
-                   .falloff = v4 ? RESTAGE_FALLOFF_SMOOTH : RESTAGE_FALLOFF_QUARTIC,
+                   .falloff = v4 ? scene::Falloff::smooth : scene::Falloff::quartic,
                    .hidden = true});
     made.add(Camera{.name = "from above", .camera_to_world = place(3, 2), .fov = 50, .lens_radius = 0.1f});
     made.add(Camera{.name = "default"});
@@ -73,7 +73,7 @@ TEST_CASE("names, groups, hidden things and waiting cameras survive pbrt", "[exp
     const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);
     if (!again) FAIL(again.error().message);
     for (const auto& entry : again->report.entries)
-        if (entry.fate != RESTAGE_KEPT) FAIL_CHECK(io::to_string(entry));
+        if (entry.fate != io::Fate::kept) FAIL_CHECK(io::to_string(entry));
     CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry, with_names())) == "");
 
     // To pbrt the hidden ones and the waiting cameras are comments.

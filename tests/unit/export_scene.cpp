@@ -44,17 +44,17 @@ Everything::Everything(bool v4) {
     *pixels = {4, 2, 3, {}};
     for (int i = 0; i < 24; ++i)
         pixels->values.push_back(static_cast<float>(i) / 7);
-    const auto picture = add(Image{.name = "wood", .encoding = RESTAGE_LINEAR, .data = pixels});
+    const auto picture = add(Image{.name = "wood", .encoding = scene::Encoding::linear, .data = pixels});
     auto square = std::make_shared<PixelData>();
     *square = {4, 4, 3, std::vector<float>(48, 0.3f)};
-    const auto sky = add(Image{.name = "sky", .encoding = RESTAGE_LINEAR, .data = square});
+    const auto sky = add(Image{.name = "sky", .encoding = scene::Encoding::linear, .data = square});
 
     Texture wood{.name = "wood", .type = "imagemap", .image = picture};
     wood.params.set("wrap", Value::choice("clamp"));
     wood.params.set("uscale", Value::number(1.7f));
     const auto wood_id = add(wood);
     Texture tiles{.name = "tiles", .type = "checkerboard"};
-    tiles.params.set("tex1", {.type = RESTAGE_COLOR, .texture = wood_id});
+    tiles.params.set("tex1", {.type = model::ParamType::color, .texture = wood_id});
     tiles.params.set("tex2", Value::color(0.1f, 0.2f, 0.7f));
     tiles.params.set("vdelta", Value::number(0.3f));
     const auto tiles_id = add(tiles);
@@ -62,26 +62,26 @@ Everything::Everything(bool v4) {
     half.params.set("value", Value::color(0.3f, 0.3f, 0.3f));
     const auto half_id = add(half);
     Texture dim{.name = "dim", .type = "scale"};
-    dim.params.set("tex", {.type = RESTAGE_COLOR, .texture = tiles_id});
+    dim.params.set("tex", {.type = model::ParamType::color, .texture = tiles_id});
     dim.params.set("scale", Value::color(0.6f, 0.6f, 0.6f));
     const auto dim_id = add(dim);
     Texture blend{.name = "blend", .type = "mix", .is_float = true};
-    blend.params.set("tex1", {.type = RESTAGE_COLOR, .texture = half_id});
+    blend.params.set("tex1", {.type = model::ParamType::color, .texture = half_id});
     blend.params.set("tex2", Value::color(0.9f, 0.9f, 0.9f));
     blend.params.set("amount", Value::number(0.25f));
     const auto blend_id = add(blend);
 
     const auto red = material("red \"oak\"", "diffuse", {{"reflectance", Value::color(0.7f, 0.1f, 1.f / 3)}});
     const auto tiled = material("tiled", "diffuse",
-                                {{"reflectance", {.type = RESTAGE_COLOR, .texture = dim_id}},
-                                 {"bump", {.type = RESTAGE_TEXTURE, .texture = blend_id}}});
+                                {{"reflectance", {.type = model::ParamType::color, .texture = dim_id}},
+                                 {"bump", {.type = model::ParamType::texture, .texture = blend_id}}});
     std::vector<Id<Material>> all{red, tiled};
     if (v4) {
         all.push_back(material("gold", "conductor",
                                {{"eta", Value::color(0.14f, 0.37f, 1.44f)},
                                 {"k", Value::color(3.9f, 2.4f, 1.6f)},
                                 {"uroughness", Value::number(0.1f)},
-                                {"vroughness", {.type = RESTAGE_FLOAT, .texture = half_id}}}));
+                                {"vroughness", {.type = model::ParamType::number, .texture = half_id}}}));
         all.push_back(material("tin", "conductor",
                                {{"use_reflectance", Value::boolean(true)},
                                 {"reflectance", Value::color(0.8f, 0.8f, 0.9f)},
@@ -120,8 +120,8 @@ Everything::Everything(bool v4) {
         all.push_back(material("paper", "translucent", {{"transmit", Value::color(0.2f, 0.2f, 0.1f)}}));
     }
     all.push_back(material("both", "mix",
-                           {{"first", {.type = RESTAGE_MATERIAL, .material = all[2]}},
-                            {"second", {.type = RESTAGE_MATERIAL, .material = red}},
+                           {{"first", {.type = model::ParamType::material, .material = all[2]}},
+                            {"second", {.type = model::ParamType::material, .material = red}},
                             {"amount", Value::number(0.3f)}}));
     all.push_back(material("nothing", "interface", {}));
 
@@ -163,18 +163,20 @@ Everything::Everything(bool v4) {
 
     add(Light{.name = "bulb", .value = {1, 2, 3}, .light_to_world = place(2, 1)});
     add(Light{.name = "spot",
-              .kind = RESTAGE_LIGHT_SPOT,
+              .kind = scene::LightKind::spot,
               .value = {5, 5, 1},
               .light_to_world = place(1, 2),
               .cone_angle = 25,
               .cone_delta = 4,
-              .falloff = v4 ? RESTAGE_FALLOFF_SMOOTH : RESTAGE_FALLOFF_QUARTIC});
-    add(Light{.name = "sun", .kind = RESTAGE_LIGHT_DISTANT, .value = {1, 1, 0.3f}, .light_to_world = place(0, 0.7)});
-    apply(scene, set_environment(scene, Environment{.name = "sky",
-                                                    .image = v4 ? sky : picture,
-                                                    .mapping = v4 ? RESTAGE_OCTAHEDRAL : RESTAGE_EQUIRECT,
-                                                    .scale = glm::vec3(0.7f),
-                                                    .light_to_world = glm::rotate(glm::dmat4(1), 0.3, {1, 0, 0})}));
+              .falloff = v4 ? scene::Falloff::smooth : scene::Falloff::quartic});
+    add(Light{
+        .name = "sun", .kind = scene::LightKind::distant, .value = {1, 1, 0.3f}, .light_to_world = place(0, 0.7)});
+    apply(scene,
+          set_environment(scene, Environment{.name = "sky",
+                                             .image = v4 ? sky : picture,
+                                             .mapping = v4 ? scene::Mapping::octahedral : scene::Mapping::equirect,
+                                             .scale = glm::vec3(0.7f),
+                                             .light_to_world = glm::rotate(glm::dmat4(1), 0.3, {1, 0, 0})}));
     const auto camera = add(Camera{.name = "camera",
                                    .camera_to_world = place(-4, 0.5),
                                    .fov = 36.4f,

@@ -41,7 +41,7 @@ TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
     if (!again) FAIL(again.error().message);
     CHECK(again->scene.format == std::string("pbrt-") + v);
     for (const auto& entry : again->report.entries)
-        if (entry.fate != RESTAGE_KEPT) FAIL_CHECK(io::to_string(entry));
+        if (entry.fate != io::Fate::kept) FAIL_CHECK(io::to_string(entry));
     CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry)) == "");
     // And once more: what was imported is written and read.
     Folder second;
@@ -188,7 +188,7 @@ TEST_CASE("the session holds values to the material's table", "[export]") {
     CHECK_THAT(refused("uroughness", Value::color(0, 0, 0)), ContainsSubstring("has another type"));
     CHECK_THAT(refused("remap", Value::choice("v5")), ContainsSubstring("v4|v3|none are possible"));
     CHECK_THAT(refused("sheen", Value::number(0)), ContainsSubstring("is not one of a conductor"));
-    CHECK_THAT(refused("use_reflectance", {.type = RESTAGE_BOOL, .texture = {1}}),
+    CHECK_THAT(refused("use_reflectance", {.type = model::ParamType::boolean, .texture = {1}}),
                ContainsSubstring("takes no texture"));
     CHECK_FALSE(session.modified());
     CHECK_FALSE(session.add_material("x", "unobtainium"));

@@ -50,7 +50,7 @@ TEST_CASE("exposure: lamps in lux and candela are metered, the same every time",
     const auto in = opened(files, sun);
     const float exposure = in.scene.film.value.exposure;
     CHECK(double(exposure) == Approx(0.6 * 3.14159265 / 2049).epsilon(0.01));
-    CHECK(says(in, RESTAGE_KEPT, "", "exposure: set to "));
+    CHECK(says(in, io::Fate::kept, "", "exposure: set to "));
     CHECK(in.scene.lights[{1}].value == glm::vec3(2049)); // the light stays as the file gives it
     CHECK(opened(files, sun).scene.film.value.exposure == exposure);
     Floor weak; // 1 candela, 4 above a floor: 1/16 lux
@@ -69,7 +69,7 @@ TEST_CASE("exposure: lamps that light nothing are joined by a studio, closed roo
     auto in = opened(files, below);
     CHECK(in.scene.environment.value);
     CHECK(in.scene.lights.live() == 1);
-    CHECK(says(in, RESTAGE_KEPT, "", "light: that of the file does not reach what the camera sees"));
+    CHECK(says(in, io::Fate::kept, "", "light: that of the file does not reach what the camera sees"));
     Builder room; // a box around its camera
     const int p = room.floats({-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1},
                               "VEC3", 3),
@@ -82,7 +82,7 @@ TEST_CASE("exposure: lamps that light nothing are joined by a studio, closed roo
     room.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
     in = opened(files, room);
     REQUIRE(in.scene.lights.live() == 1);
-    CHECK(says(in, RESTAGE_KEPT, "", "a lamp at the camera is added"));
+    CHECK(says(in, io::Fate::kept, "", "a lamp at the camera is added"));
     CHECK(document::read_light(in.scene, files.registry).white == Approx(0.6).epsilon(0.01));
     CHECK(in.scene.film.value.exposure == 1);
 }
@@ -93,7 +93,7 @@ TEST_CASE("exposure: scenes of other files stay as they are; without light they 
     files.write("dark.pbrt", dark);
     auto in = opened(files, "dark.pbrt");
     CHECK_FALSE(document::has_light(in.scene, files.registry));
-    CHECK(says(in, RESTAGE_KEPT, "", "light: nothing shines in this scene, so its picture is black"));
+    CHECK(says(in, io::Fate::kept, "", "light: nothing shines in this scene, so its picture is black"));
     CHECK(in.scene.lights.live() == 0);
     CHECK(in.scene.film.value.exposure == 1);
     files.write("bright.pbrt",

@@ -9,6 +9,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -32,7 +33,7 @@ FilmImage numbered(float first) {
 } // namespace
 
 TEST_CASE("layers of a film come back from a file") {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const std::string path = (folder.path() / "all.exr").string();
     const FilmImage image = numbered(1);
     REQUIRE(view::write_picture(path, {.film = image, .denoised = {}}, {.metadata = {{"restage:ranges", "0:0+2"}}}));
@@ -59,7 +60,7 @@ TEST_CASE("layers of a film are merged: means by samples, ids of the first") {
     REQUIRE(merged);
     render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
         INFO(layer.in_file << " " << layer.channels[0]);
-        const V has = ((*merged).*layer.values)[4], x = (a.*layer.values)[4], y = (b.*layer.values)[4];
+        [[maybe_unused]] const V has = ((*merged).*layer.values)[4], x = (a.*layer.values)[4], y = (b.*layer.values)[4];
         if (layer.source == render::LayerSource::first) CHECK(has == x);
         if constexpr (!std::is_same_v<V, std::uint32_t>)
             if (layer.source == render::LayerSource::mean) CHECK(has == (x + y) / 2.f);

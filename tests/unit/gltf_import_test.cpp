@@ -126,8 +126,8 @@ TEST_CASE("gltf: material extensions reach the principled material", "[gltf]") {
     CHECK(p.number("iridescence", -1) == Approx(0.75));
     CHECK(p.number("iridescence_ior", -1) == Approx(1.8));
     CHECK(p.number("iridescence_thickness", -1) == Approx(550)); // without a texture the maximum holds
-    CHECK(says(in, RESTAGE_DROPPED, "a.gltf", "KHR_materials_dispersion"));
-    CHECK_FALSE(says(in, RESTAGE_DROPPED, "a.gltf", "sheen"));
+    CHECK(says(in, io::Fate::dropped, "a.gltf", "KHR_materials_dispersion"));
+    CHECK_FALSE(says(in, io::Fate::dropped, "a.gltf", "sheen"));
 }
 
 TEST_CASE("gltf: vertex colours interpolate exactly as a texture", "[gltf]") {
@@ -174,7 +174,7 @@ TEST_CASE("gltf: cameras and lights look along -z, and angles are those of the s
     REQUIRE(in.scene.lights.live() == 1);
     const auto& light = in.scene.lights[{1}];
     CHECK(light.name == "lamp");
-    CHECK(light.kind == RESTAGE_LIGHT_SPOT);
+    CHECK(light.kind == scene::LightKind::spot);
     CHECK(light.value == glm::vec3(3, 1.5f, 0));
     CHECK(glm::radians(light.cone_angle) == Approx(0.5));
     CHECK(glm::radians(light.cone_delta) == Approx(0.25));
@@ -196,7 +196,7 @@ TEST_CASE("gltf: a skin stands as its nodes do", "[gltf]") {
     const auto in = b.load(files);
     CHECK(thing(in).object_to_world == glm::dmat4(1));
     CHECK(in.scene.meshes[thing(in).mesh].data->positions[1] == glm::vec3(1, 0, 7));
-    CHECK(says(in, RESTAGE_APPROXIMATED, "", "skins"));
+    CHECK(says(in, io::Fate::approximated, "", "skins"));
 }
 
 TEST_CASE("gltf: what is wrong is named as glTF counts it", "[gltf]") {

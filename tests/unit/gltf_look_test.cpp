@@ -127,7 +127,7 @@ TEST_CASE("gltf: a turned normal map turns its tangents", "[gltf]") {
     CHECK(map.params.number("udelta", 9) == Approx(1));
     CHECK(map.params.number("vshear", 9) == Approx(1));
     CHECK_FALSE(texture_of(in, material_of(in).params, "base_color").params.find("ushear"));
-    CHECK(in.report.count(RESTAGE_APPROXIMATED) == 0);
+    CHECK(in.report.count(io::Fate::approximated) == 0);
 }
 
 TEST_CASE("gltf: textures lie on their own sets of texture coordinates", "[gltf]") {
@@ -144,13 +144,13 @@ TEST_CASE("gltf: textures lie on their own sets of texture coordinates", "[gltf]
     CHECK(mesh_of(in).uvs2[0] == glm::vec2(0.5f, 1));
     CHECK(texture_of(in, material_of(in).params, "base_color").params.number("uvset", 0) == 0);
     CHECK(texture_of(in, material_of(in).params, "roughness").params.number("uvset", 0) == 1);
-    CHECK(in.report.count(RESTAGE_APPROXIMATED) == 0);
+    CHECK(in.report.count(io::Fate::approximated) == 0);
     b.material()["emissiveTexture"] = texture(2);
     b.material()["emissiveFactor"] = {1, 1, 1};
-    CHECK(says(b.load(files), RESTAGE_APPROXIMATED, "a.gltf", "TEXCOORD_2: objects have two sets"));
+    CHECK(says(b.load(files), io::Fate::approximated, "a.gltf", "TEXCOORD_2: objects have two sets"));
     b.material()["emissiveTexture"] = texture(7); // the file has no such set
     b.material()["pbrMetallicRoughness"].erase("metallicRoughnessTexture");
-    CHECK(says(b.load(files), RESTAGE_APPROXIMATED, "a.gltf", "TEXCOORD_7, which it has not"));
+    CHECK(says(b.load(files), io::Fate::approximated, "a.gltf", "TEXCOORD_7, which it has not"));
 }
 
 TEST_CASE("gltf: vertex colours multiply a texture, and their alpha is coverage", "[gltf]") {
@@ -182,7 +182,7 @@ TEST_CASE("gltf: vertex colours multiply a texture, and their alpha is coverage"
     const auto& product = texture_of(in, scaled.params, "tex");
     const auto& alpha = texture_of(in, product.params, "scale");
     CHECK(texel(*in.scene.images[alpha.image].data, mesh.uvs2[1])[0] == 0.5f);
-    CHECK(in.report.count(RESTAGE_APPROXIMATED) == 0);
+    CHECK(in.report.count(io::Fate::approximated) == 0);
     b.material().erase("alphaMode");
     CHECK_FALSE(thing(b.load(files)).alpha_texture);
 }
@@ -215,7 +215,7 @@ TEST_CASE("gltf: an emissive picture shines as a picture, over the material it h
     CHECK(material_of(in).params.color("base_color", {})[2] == Approx(0.3));
     CHECK(material_of(in).params.number("emission_scale", 0) == 4);
     CHECK(texture_of(in, material_of(in).params, "emission_color").type == "scale");
-    CHECK(in.report.count(RESTAGE_APPROXIMATED) == 0);
+    CHECK(in.report.count(io::Fate::approximated) == 0);
     const io::MaterialEmissions emissions(files.registry, in.scene);
     const auto shines = emissions.of(thing(in).material);
     REQUIRE(shines);
@@ -230,13 +230,13 @@ TEST_CASE("gltf: an emissive picture shines as a picture, over the material it h
     text << std::ifstream(files.path("out.pbrt")).rdbuf();
     CHECK_THAT(text.str(), ContainsSubstring("AreaLightSource \"diffuse\" \"rgb L\" [ 2 0"));
     CHECK(std::ranges::any_of(report->entries, [](const io::ReportEntry& e) {
-        return e.fate == RESTAGE_APPROXIMATED && e.note.find("the mean of its emission's texture") != e.note.npos;
+        return e.fate == io::Fate::approximated && e.note.find("the mean of its emission's texture") != e.note.npos;
     }));
     // A picture that cannot be read does not shine.
     b.root["images"][0]["uri"] = "none.png";
     const auto dark = b.load(files);
     CHECK_FALSE(io::MaterialEmissions(files.registry, dark.scene).of(thing(dark).material));
-    CHECK(says(dark, RESTAGE_DROPPED, "", "none.png"));
+    CHECK(says(dark, io::Fate::dropped, "", "none.png"));
 }
 
 TEST_CASE("gltf: unlit pictures show their colours", "[gltf]") {
@@ -250,7 +250,7 @@ TEST_CASE("gltf: unlit pictures show their colours", "[gltf]") {
     CHECK(shines->radiance == glm::vec3(1));
     CHECK(shines->texture);
     CHECK(shines->two_sided);
-    CHECK(says(in, RESTAGE_APPROXIMATED, "a.gltf", "it emits its colour"));
+    CHECK(says(in, io::Fate::approximated, "a.gltf", "it emits its colour"));
 }
 
 TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colour", "[gltf]") {
@@ -276,7 +276,7 @@ TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colo
     b.root["materials"] = {{{"extensions", {{"KHR_materials_specular", {{"specularColorFactor", {4, 1, 0.5}}}}}}}};
     const auto in = b.load(files);
     CHECK(material_of(in).params.color("specular_color", {})[0] == 4);
-    CHECK(in.report.count(RESTAGE_APPROXIMATED) == 0);
+    CHECK(in.report.count(io::Fate::approximated) == 0);
 }
 
 TEST_CASE("gltf: a picture of the thickness of a film mixes its two bounds", "[gltf]") {
@@ -301,9 +301,9 @@ TEST_CASE("gltf: a coat that is not as the normal map below it is reported", "[g
     Square b;
     b.material()["normalTexture"] = texture();
     b.material()["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
-    CHECK(says(b.load(files), RESTAGE_APPROXIMATED, "a.gltf", "the coat is smooth in the file"));
+    CHECK(says(b.load(files), io::Fate::approximated, "a.gltf", "the coat is smooth in the file"));
     b.material()["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = texture();
-    CHECK(b.load(files).report.count(RESTAGE_APPROXIMATED) == 0);
+    CHECK(b.load(files).report.count(io::Fate::approximated) == 0);
 }
 
 TEST_CASE("gltf: nodes that are not visible are hidden objects", "[gltf]") {
@@ -345,7 +345,7 @@ TEST_CASE("gltf: unknown extensions are refused where the file requires them, el
     Builder b;
     b.root["extensionsUsed"] = {"ACME_geometry", "MSFT_lod", "KHR_texture_transform"};
     const auto in = b.load(files);
-    CHECK(says(in, RESTAGE_DROPPED, "a.gltf", "not read: ACME_geometry, MSFT_lod"));
+    CHECK(says(in, io::Fate::dropped, "a.gltf", "not read: ACME_geometry, MSFT_lod"));
     b.root["extensionsRequired"] = {"ACME_geometry"};
     CHECK_THAT(b.error(files), ContainsSubstring("requires what is not known here: ACME_geometry"));
 }

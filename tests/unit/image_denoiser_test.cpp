@@ -57,7 +57,7 @@ class Plugins {
         const plugin::SearchPath path[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
         registry_.scan(path);
     }
-    const RestageDenoiser1& oidn() {
+    const plugin::Denoiser& oidn() {
         const auto entry = registry_.find_denoiser("oidn");
         REQUIRE(entry);
         return *entry->table;
@@ -78,9 +78,8 @@ class Environment { // a variable, until the end of the test
     const char* name_;
 };
 
-RestageDenoiseJob make_job(const Pictures& p, std::vector<float>& output, uint32_t quality) {
-    return {.size = sizeof(RestageDenoiseJob),
-            .width = width,
+plugin::DenoiseJob make_job(const Pictures& p, std::vector<float>& output, plugin::DenoiseQuality quality) {
+    return {.width = width,
             .height = height,
             .color = p.noisy.data(),
             .albedo = p.albedo.data(),
@@ -88,8 +87,7 @@ RestageDenoiseJob make_job(const Pictures& p, std::vector<float>& output, uint32
             .output = output.data(),
             .quality = quality,
             .threads = 2,
-            .progress_ctx = nullptr,
-            .progress = nullptr};
+            .progress = {}};
 }
 
 } // namespace
@@ -101,19 +99,17 @@ TEST_CASE("denoiser: every plugin lowers the error of a noisy picture, with guid
     const double before = mean_square_error(p.noisy, p.truth);
     for (const auto& entry : plugins.registry().denoisers()) {
         CAPTURE(entry.table->type);
-        const char* reason = "";
-        const bool available = entry.table->available(&reason);
-        CAPTURE(reason);
-        REQUIRE(available);
-        for (const uint32_t quality : {RESTAGE_DENOISE_FAST, RESTAGE_DENOISE_BALANCED, RESTAGE_DENOISE_HIGH}) {
+        REQUIRE(entry.table->available());
+        for (const auto quality :
+             {plugin::DenoiseQuality::fast, plugin::DenoiseQuality::balanced, plugin::DenoiseQuality::high}) {
             std::vector<float> guided(p.noisy.size()), blind(p.noisy.size());
             auto job = make_job(p, guided, quality);
-            REQUIRE(entry.table->run(&job, &reason));
+            REQUIRE(entry.table->run(job));
             job = make_job(p, blind, quality);
             job.albedo = job.normal = nullptr;
-            REQUIRE(entry.table->run(&job, &reason));
+            REQUIRE(entry.table->run(job));
             const double with = mean_square_error(guided, p.truth), without = mean_square_error(blind, p.truth);
-            CAPTURE(quality, before, with, without);
+            CAPTURE(int(quality), before, with, without);
             CHECK(without < before / 8);
             CHECK(with < without);
             double sum = 0, truth = 0; // brightness is kept
@@ -130,12 +126,11 @@ TEST_CASE("denoiser: output may be the input, normals may come alone") {
     Plugins plugins;
     const Pictures p = make_pictures();
     std::vector<float> apart(p.noisy.size()), in_place = p.noisy;
-    const char* reason = "";
-    auto job = make_job(p, apart, RESTAGE_DENOISE_FAST);
+    auto job = make_job(p, apart, plugin::DenoiseQuality::fast);
     job.albedo = nullptr;
-    REQUIRE(plugins.oidn().run(&job, &reason));
+    REQUIRE(plugins.oidn().run(job));
     job.color = job.output = in_place.data();
-    REQUIRE(plugins.oidn().run(&job, &reason));
+    REQUIRE(plugins.oidn().run(job));
     CHECK(mean_square_error(in_place, apart) < 1e-9);
 }
 
@@ -147,36 +142,34 @@ TEST_CASE("denoiser: progress runs from 0 to 1 and can stop the job") {
         std::vector<double> done;
         bool stop = false;
     } seen;
-    auto job = make_job(p, output, RESTAGE_DENOISE_HIGH);
-    job.progress_ctx = &seen;
-    job.progress = [](void* ctx, double done) {
-        auto& s = *static_cast<Seen*>(ctx);
-        s.done.push_back(done);
-        return s.stop ? 0 : 1;
+    auto job = make_job(p, output, plugin::DenoiseQuality::high);
+    job.progress = [&seen](double done) {
+        seen.done.push_back(done);
+        return !seen.stop;
     };
-    const char* reason = "";
-    REQUIRE(plugins.oidn().run(&job, &reason));
+    REQUIRE(plugins.oidn().run(job));
     REQUIRE(seen.done.size() >= 3);
     CHECK(std::is_sorted(seen.done.begin(), seen.done.end()));
     CHECK(seen.done.front() < 0.3);
     CHECK(seen.done.back() > 0.9);
     CHECK(seen.done.back() <= 1);
     seen.stop = true;
-    CHECK_FALSE(plugins.oidn().run(&job, &reason));
-    CHECK(std::string(reason) == "stopped");
+    const auto stopped = plugins.oidn().run(job);
+    REQUIRE_FALSE(stopped);
+    CHECK(stopped.error().message == "stopped");
     seen.stop = false;
-    CHECK(plugins.oidn().run(&job, &reason)); // and it works again
+    CHECK(plugins.oidn().run(job)); // and it works again
 }
 
 TEST_CASE("denoiser: a job without a picture is refused") {
     Plugins plugins;
     const Pictures p = make_pictures();
     std::vector<float> output(p.noisy.size());
-    const char* reason = "";
-    auto job = make_job(p, output, RESTAGE_DENOISE_FAST);
+    auto job = make_job(p, output, plugin::DenoiseQuality::fast);
     job.color = nullptr;
-    CHECK_FALSE(plugins.oidn().run(&job, &reason));
-    CHECK(std::string(reason).find("no picture") != std::string::npos);
+    const auto refused = plugins.oidn().run(job);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.find("no picture") != std::string::npos);
 }
 
 TEST_CASE("denoiser: oidn without its library is not available and says why") {
@@ -184,19 +177,17 @@ TEST_CASE("denoiser: oidn without its library is not available and says why") {
     {
         const Environment path("RESTAGE_OIDN_PATH", folder / "nowhere");
         Plugins plugins;
-        const char* reason = nullptr;
-        CHECK_FALSE(plugins.oidn().available(&reason));
-        REQUIRE(reason);
-        CHECK(std::string(reason).find("nowhere") != std::string::npos);
-        CHECK(std::string(reason).find("not found") != std::string::npos);
+        const auto usable = plugins.oidn().available();
+        REQUIRE_FALSE(usable);
+        CHECK(usable.error().message.find("nowhere") != std::string::npos);
+        CHECK(usable.error().message.find("not found") != std::string::npos);
         const Pictures p = make_pictures();
         std::vector<float> output(p.noisy.size());
-        const auto job = make_job(p, output, RESTAGE_DENOISE_FAST);
-        CHECK_FALSE(plugins.oidn().run(&job, &reason));
-        CHECK(std::string(reason).find("not found") != std::string::npos);
+        const auto job = make_job(p, output, plugin::DenoiseQuality::fast);
+        const auto done = plugins.oidn().run(job);
+        REQUIRE_FALSE(done);
+        CHECK(done.error().message.find("not found") != std::string::npos);
     }
     Plugins again; // the answer is not remembered beyond the plugin's life
-    const char* reason = "";
-    CHECK(again.oidn().available(&reason));
-    CHECK(std::string(reason).empty());
+    CHECK(again.oidn().available());
 }

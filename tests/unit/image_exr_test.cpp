@@ -85,7 +85,7 @@ TEST_CASE("exr: a half layer rounds to half and never becomes infinite") {
 TEST_CASE("exr: as a texture, the plain colour layer is taken") {
     const TemporaryFolder folder;
     REQUIRE(io::write_exr(folder / "a.exr", render()));
-    const auto image = io::read_image(folder / "a.exr", RESTAGE_SRGB); // float: the encoding does not matter
+    const auto image = io::read_image(folder / "a.exr", scene::Encoding::srgb); // float: the encoding does not matter
     REQUIRE(image);
     CHECK(image->channels == 3);
     CHECK(image->values == render().layers[0].values);
@@ -93,14 +93,14 @@ TEST_CASE("exr: as a texture, the plain colour layer is taken") {
     auto only_guides = render();
     only_guides.layers.erase(only_guides.layers.begin());
     REQUIRE(io::write_exr(folder / "b.exr", only_guides));
-    const auto albedo = io::read_image(folder / "b.exr", RESTAGE_LINEAR);
+    const auto albedo = io::read_image(folder / "b.exr", scene::Encoding::linear);
     REQUIRE(albedo);
     CHECK(albedo->values == render().layers[1].values); // the first that has colour
 
     io::ExrImage vectors{
         .width = 1, .height = 1, .layers = {{.name = "motion", .channels = {"X", "Z"}, .values = {1, 2}}}};
     REQUIRE(io::write_exr(folder / "c.exr", vectors));
-    const auto none = io::read_image(folder / "c.exr", RESTAGE_LINEAR);
+    const auto none = io::read_image(folder / "c.exr", scene::Encoding::linear);
     REQUIRE_FALSE(none);
     CHECK(none.error().message.find("motion.X, motion.Z") != std::string::npos);
 }
@@ -111,7 +111,7 @@ TEST_CASE("exr: grey, grey with alpha, and RGBA") {
         io::ExrImage image{
             .width = 1, .height = 1, .layers = {{.channels = std::move(channels), .values = std::move(values)}}};
         REQUIRE(io::write_exr(folder / "a.exr", image));
-        auto back = io::read_image(folder / "a.exr", RESTAGE_LINEAR);
+        auto back = io::read_image(folder / "a.exr", scene::Encoding::linear);
         REQUIRE(back);
         return back->values;
     };
@@ -163,7 +163,7 @@ TEST_CASE("exr: tiles, a data window off the origin, several parts") {
         for (std::size_t i = 0; i < y.size(); ++i)
             y[i] = float(i);
     }
-    const auto image = io::read_image(path, RESTAGE_LINEAR);
+    const auto image = io::read_image(path, scene::Encoding::linear);
     REQUIRE(image);
     CHECK(image->width == 8);
     CHECK(image->height == 4);
@@ -179,7 +179,7 @@ TEST_CASE("exr: luminance with subsampled chroma becomes RGB") {
         file.setFrameBuffer(pixels.data(), 1, 32);
         file.writePixels(16);
     }
-    const auto image = io::read_image(path, RESTAGE_LINEAR);
+    const auto image = io::read_image(path, scene::Encoding::linear);
     REQUIRE(image);
     REQUIRE(image->channels == 3);
     for (std::size_t i = 0; i < 32 * 16; ++i) {

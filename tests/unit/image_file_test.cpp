@@ -52,7 +52,7 @@ TEST_CASE("image_file: every lossless 8-bit format holds its texels, row 0 on to
         GENERATE("rgb8.png", "rgba8.png", "palette.png", "rgb16.png", "rgb24.bmp", "rgb24.tga", "rgb24_rle.tga",
                  "rgba32_rle.tga", "rgb16.tga", "interlaced.png", "gamma.png", "rgb8.webp", "rgba8.webp");
     CAPTURE(name);
-    const auto image = io::read_image(data_image(name), RESTAGE_LINEAR);
+    const auto image = io::read_image(data_image(name), scene::Encoding::linear);
     REQUIRE(image);
     CHECK(image->width == 16);
     CHECK(image->height == 8);
@@ -73,12 +73,12 @@ TEST_CASE("image_file: every lossless 8-bit format holds its texels, row 0 on to
 TEST_CASE("image_file: JPG within its loss") {
     for (const char* name : {"baseline.jpg", "progressive.jpg"}) {
         CAPTURE(name);
-        const auto image = io::read_image(data_image(name), RESTAGE_LINEAR);
+        const auto image = io::read_image(data_image(name), scene::Encoding::linear);
         REQUIRE(image);
         CHECK(image->channels == 3);
         CHECK(distance(texel(*image, 3, 3), {200, 100, 50}) <= 3);
     }
-    const auto grey = io::read_image(data_image("grey.jpg"), RESTAGE_LINEAR);
+    const auto grey = io::read_image(data_image("grey.jpg"), scene::Encoding::linear);
     REQUIRE(grey);
     CHECK(grey->channels == 1);
     const float luma = 0.299f * 200 + 0.587f * 100 + 0.114f * 50;
@@ -86,13 +86,13 @@ TEST_CASE("image_file: JPG within its loss") {
 }
 
 TEST_CASE("image_file: all bits of a number are kept, and few bits are spread over the range") {
-    const auto wide = io::read_image(data_image("grey16.png"), RESTAGE_LINEAR);
+    const auto wide = io::read_image(data_image("grey16.png"), scene::Encoding::linear);
     REQUIRE(wide);
     REQUIRE(wide->channels == 1);
     for (int i = 0; i < 128; ++i)
         CHECK(wide->values[i] * 65535 == Approx(256 * i + 77).margin(0.01));
 
-    const auto few = io::read_image(data_image("grey2.png"), RESTAGE_LINEAR); // tRNS: level 2 is clear
+    const auto few = io::read_image(data_image("grey2.png"), scene::Encoding::linear); // tRNS: level 2 is clear
     REQUIRE(few);
     REQUIRE(few->channels == 4);
     for (int i = 0; i < 4; ++i) {
@@ -100,7 +100,8 @@ TEST_CASE("image_file: all bits of a number are kept, and few bits are spread ov
         CHECK(few->values[4 * i + 3] == (i == 2 ? 0 : 1));
     }
 
-    const auto palette = io::read_image(data_image("palette1.png"), RESTAGE_LINEAR); // tRNS: the first colour's alpha
+    const auto palette =
+        io::read_image(data_image("palette1.png"), scene::Encoding::linear); // tRNS: the first colour's alpha
     REQUIRE(palette);
     REQUIRE(palette->channels == 4);
     CHECK(distance(texel(*palette, 0, 0), {200, 100, 50}) < 1e-3);
@@ -110,17 +111,17 @@ TEST_CASE("image_file: all bits of a number are kept, and few bits are spread ov
 }
 
 TEST_CASE("image_file: inks become the light that passes them, Adobe's inverted ones as well") {
-    const auto adobe = io::read_image(data_image("cmyk.jpg"), RESTAGE_LINEAR);
+    const auto adobe = io::read_image(data_image("cmyk.jpg"), scene::Encoding::linear);
     REQUIRE(adobe);
     REQUIRE(adobe->channels == 3);
     CHECK(distance(texel(*adobe, 3, 3), {200, 100, 50}) <= 6);
-    const auto plain = io::read_image(data_image("cmyk_plain.jpg"), RESTAGE_LINEAR); // K is 255
+    const auto plain = io::read_image(data_image("cmyk_plain.jpg"), scene::Encoding::linear); // K is 255
     REQUIRE(plain);
     CHECK(distance(texel(*plain, 3, 3), {0, 0, 0}) <= 3);
 }
 
 TEST_CASE("image_file: a large picture of one colour takes few bytes, and is whole") {
-    const auto solid = io::read_image(data_image("solid1.png"), RESTAGE_LINEAR);
+    const auto solid = io::read_image(data_image("solid1.png"), scene::Encoding::linear);
     REQUIRE(solid);
     CHECK(solid->width == 2048);
     CHECK(solid->height == 2048);
@@ -135,19 +136,19 @@ TEST_CASE("image_file: damage that leaves a picture is a warning") {
                   std::string(64, '\x12')); // between the last scan and the end, more than libjpeg looks ahead
     REQUIRE(write_file_atomic(folder / "a.jpg", *bytes));
     std::string warning;
-    REQUIRE(io::read_image(folder / "a.jpg", RESTAGE_LINEAR, 2.2f, &warning));
+    REQUIRE(io::read_image(folder / "a.jpg", scene::Encoding::linear, 2.2f, &warning));
     CHECK(warning.find("a.jpg: JPEG: ") != std::string::npos);
 }
 
 TEST_CASE("image_file: encoding applies to colour, never to alpha") {
-    const auto srgb = io::read_image(data_image("rgba8.png"), RESTAGE_SRGB);
+    const auto srgb = io::read_image(data_image("rgba8.png"), scene::Encoding::srgb);
     REQUIRE(srgb);
     CHECK(srgb->values[4] == Approx(io::srgb_to_linear(200 / 255.f)));
     CHECK(srgb->values[7] == Approx(128 / 255.f));
-    const auto gamma = io::read_image(data_image("rgb16.png"), RESTAGE_GAMMA, 1.8f);
+    const auto gamma = io::read_image(data_image("rgb16.png"), scene::Encoding::gamma, 1.8f);
     REQUIRE(gamma);
     CHECK(gamma->values[3] == Approx(std::pow(200 / 255., 1.8)));
-    const auto grey = io::read_image(data_image("grey_alpha8.png"), RESTAGE_SRGB);
+    const auto grey = io::read_image(data_image("grey_alpha8.png"), scene::Encoding::srgb);
     REQUIRE(grey);
     REQUIRE(grey->channels == 4); // 2 channels become 4
     for (int c = 0; c < 3; ++c)
@@ -170,14 +171,14 @@ TEST_CASE("image_file: PNG holds all 256 levels, and exposure is a power of two"
     for (int i = 0; i < 256; ++i)
         ramp.values.push_back(io::srgb_to_linear(float(i) / 255));
     REQUIRE(io::write_png(folder / "ramp.png", ramp));
-    const auto back = io::read_image(folder / "ramp.png", RESTAGE_LINEAR);
+    const auto back = io::read_image(folder / "ramp.png", scene::Encoding::linear);
     REQUIRE(back);
     for (int i = 0; i < 256; ++i)
         CHECK(back->values[i] * 255 == Approx(i));
 
     const scene::PixelData pixel{.width = 1, .height = 1, .channels = 4, .values = {0.125f, 0.25f, 9, 0.5f}};
     REQUIRE(io::write_png(folder / "exposed.png", pixel, 2));
-    const auto exposed = io::read_image(folder / "exposed.png", RESTAGE_SRGB);
+    const auto exposed = io::read_image(folder / "exposed.png", scene::Encoding::srgb);
     REQUIRE(exposed);
     CHECK(exposed->values[0] == Approx(0.5f).epsilon(0.01));
     CHECK(exposed->values[1] == 1);
@@ -191,7 +192,7 @@ TEST_CASE("image_file: a JPG that is written comes back within its loss, colour 
     for (std::size_t i = 0; i < 33 * 17; ++i)
         image.values.insert(image.values.end(), {i % 33 % 2 ? 0.5f : 0.05f, i % 33 % 2 ? 0.05f : 0.5f, 0.2f, 0.5f});
     REQUIRE(io::write_jpg(folder / "a.jpg", image));
-    const auto back = io::read_image(folder / "a.jpg", RESTAGE_SRGB);
+    const auto back = io::read_image(folder / "a.jpg", scene::Encoding::srgb);
     REQUIRE(back);
     REQUIRE(back->channels == 3);
     for (std::size_t i = 0; i < 33 * 17; ++i)
@@ -215,13 +216,13 @@ TEST_CASE("image_file: PFM, both byte orders, both channel counts, bottom row fi
     float first = 0;
     std::memcpy(&first, bytes->data() + 12, 4);
     CHECK(first == -7);                                               // the bottom row comes first
-    const auto back = io::read_image(folder / "a.pfm", RESTAGE_SRGB); // float: the encoding does not matter
+    const auto back = io::read_image(folder / "a.pfm", scene::Encoding::srgb); // float: the encoding does not matter
     REQUIRE(back);
     CHECK(back->values == image.values);
 
     const std::string big_endian("Pf\n1 2\n1.0\n\x3f\x80\0\0\x40\0\0\0", 19); // 1 below, 2 on top
     REQUIRE(write_file_atomic(folder / "b.pfm", big_endian));
-    const auto grey = io::read_image(folder / "b.pfm", RESTAGE_LINEAR);
+    const auto grey = io::read_image(folder / "b.pfm", scene::Encoding::linear);
     REQUIRE(grey);
     CHECK(grey->channels == 1);
     CHECK(grey->values == std::vector<float>{2, 1});
@@ -234,7 +235,7 @@ TEST_CASE("image_file: HDR keeps 1 % over 12 orders of magnitude") {
         for (int c = 0; c < 3; ++c)
             image.values.push_back(std::pow(10.f, float(i % 13) - 6) * (1 + 0.2f * float(c)));
     REQUIRE(io::write_hdr(folder / "a.hdr", image));
-    const auto back = io::read_image(folder / "a.hdr", RESTAGE_SRGB);
+    const auto back = io::read_image(folder / "a.hdr", scene::Encoding::srgb);
     REQUIRE(back);
     REQUIRE(back->channels == 3);
     for (std::size_t i = 0; i < image.values.size(); ++i)
@@ -246,7 +247,7 @@ TEST_CASE("image_file: HDR with plain texels, old runs and other orders of rows"
     const auto read = [&](const std::string& resolution, const std::string& texels) {
         REQUIRE(write_file_atomic(folder / "a.hdr",
                                   "#?RGBE\n# note\nFORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n" + texels));
-        return io::read_image(folder / "a.hdr", RESTAGE_LINEAR);
+        return io::read_image(folder / "a.hdr", scene::Encoding::linear);
     };
     const std::string one("\x80\x40\x20\x81", 4), zero(4, '\0'), repeat("\1\1\1\2", 4); // one = (1, 0.5, 0.25)
     auto image = read("-Y 1 +X 3", one + repeat);
@@ -271,18 +272,18 @@ TEST_CASE("image_file: NaN and infinity are replaced and counted") {
     const scene::PixelData image{.width = 5, .height = 1, .channels = 1, .values = {1, std::nanf(""), inf, -inf, 2}};
     REQUIRE(io::write_pfm(folder / "a.pfm", image));
     std::string warning;
-    const auto back = io::read_image(folder / "a.pfm", RESTAGE_LINEAR, 1, &warning);
+    const auto back = io::read_image(folder / "a.pfm", scene::Encoding::linear, 1, &warning);
     REQUIRE(back);
     CHECK(back->values == std::vector<float>{1, 0, 65504, -65504, 2});
     const std::string file = std::string(folder / "a.pfm") + ": ";
     CHECK(warning == file + "1 values are NaN and became 0, 2 values are infinite and became 65504");
     REQUIRE(io::write_pfm(folder / "a.pfm", {.width = 2, .height = 1, .channels = 1, .values = {std::nanf(""), 2}}));
-    REQUIRE(io::read_image(folder / "a.pfm", RESTAGE_LINEAR, 1, &warning));
+    REQUIRE(io::read_image(folder / "a.pfm", scene::Encoding::linear, 1, &warning));
     CHECK(warning == file + "1 values are NaN and became 0");
     REQUIRE(io::write_pfm(folder / "a.pfm", {.width = 2, .height = 1, .channels = 1, .values = {inf, 2}}));
-    REQUIRE(io::read_image(folder / "a.pfm", RESTAGE_LINEAR, 1, &warning));
+    REQUIRE(io::read_image(folder / "a.pfm", scene::Encoding::linear, 1, &warning));
     CHECK(warning == file + "1 values are infinite and became 65504");
-    REQUIRE(io::read_image(data_image("rgb8.png"), RESTAGE_LINEAR, 1, &warning));
+    REQUIRE(io::read_image(data_image("rgb8.png"), scene::Encoding::linear, 1, &warning));
     CHECK(warning.empty());
 }
 
@@ -301,14 +302,14 @@ TEST_CASE("image_file: a file cut anywhere is an error that names it") {
     CAPTURE(path);
     const auto whole = read_file(path);
     REQUIRE(whole);
-    REQUIRE(io::read_image(path, RESTAGE_LINEAR));
+    REQUIRE(io::read_image(path, scene::Encoding::linear));
     const std::string cut = folder / "cut";
     for (std::size_t size = 0; size < whole->size(); ++size) {
         // TGA files of Pillow end in a 26-byte footer, PNG in a checksum: nothing of the picture is lost there.
         if (path.ends_with(".tga") && size >= whole->size() - 26) break;
         if (path.ends_with(".png") && size >= whole->size() - 4) break;
         std::ofstream(cut, std::ios::binary).write(whole->data(), static_cast<std::streamsize>(size));
-        const auto read = io::read_image(cut, RESTAGE_LINEAR);
+        const auto read = io::read_image(cut, scene::Encoding::linear);
         CAPTURE(size, whole->size());
         REQUIRE_FALSE(read);
         REQUIRE(read.error().message.find("cut: ") != std::string::npos);
@@ -319,7 +320,7 @@ TEST_CASE("image_file: sizes that cannot be meant are refused before memory is t
     const TemporaryFolder folder;
     const auto refused = [&](std::string_view bytes) {
         REQUIRE(write_file_atomic(folder / "lie", bytes));
-        const auto read = io::read_image(folder / "lie", RESTAGE_LINEAR);
+        const auto read = io::read_image(folder / "lie", scene::Encoding::linear);
         REQUIRE_FALSE(read);
         return read.error().message;
     };
@@ -339,7 +340,7 @@ TEST_CASE("image_file: sizes that cannot be meant are refused before memory is t
     refused(*tga);
     CHECK(refused("just text, no picture at all").find("not a picture") != std::string::npos);
     CHECK(refused("").find("empty") != std::string::npos);
-    CHECK_FALSE(io::read_image(folder / "absent.png", RESTAGE_LINEAR));
+    CHECK_FALSE(io::read_image(folder / "absent.png", scene::Encoding::linear));
 }
 
 TEST_CASE("image_file: write_image goes by the extension") {
@@ -347,7 +348,7 @@ TEST_CASE("image_file: write_image goes by the extension") {
     const scene::PixelData image{.width = 2, .height = 1, .channels = 3, .values = {0, 0.25f, 1, 0.5f, 0.5f, 0.5f}};
     for (const char* name : {"a.PNG", "a.pfm", "a.hdr", "a.exr"}) {
         REQUIRE(io::write_image(folder / name, image));
-        const auto back = io::read_image(folder / name, RESTAGE_SRGB);
+        const auto back = io::read_image(folder / name, scene::Encoding::srgb);
         REQUIRE(back);
         for (std::size_t i = 0; i < 6; ++i)
             CHECK(back->values[i] == Approx(image.values[i]).margin(0.01));

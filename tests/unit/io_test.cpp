@@ -35,10 +35,11 @@ struct TestImporter { // a registry with the importer and the material of tests/
         fs::create_directories(folder);
         const std::string file = std::string(library) + plugin::Library::extension();
         fs::copy_file(restage::test::build_dir() / "tests" / "plugins_bad" / file, folder / file);
-        REQUIRE(write_file_atomic(folder / "plugin.json",
-                                  std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
-                                      R"(", "version": "1.0.0", "licence": "MIT", "abi": 1, "library": ")" + library +
-                                      "\"}"));
+        REQUIRE(write_file_atomic(
+            folder / "plugin.json",
+            std::string(R"({"id": ")") + id + R"(", "provides": ["restage.)" + kind +
+                R"(/1"], "version": "1.0.0", "licence": "MIT", "needs": {"host": ">=0.2"}, "library": ")" + library +
+                "\"}"));
         registry.scan(std::vector<plugin::SearchPath>{{path / "plugins", true}});
         REQUIRE(registry.entries().back()->state == plugin::State::loaded);
     }
@@ -89,7 +90,7 @@ TEST_CASE("an import ends in a scene with a report", "[io]") {
     REQUIRE(imported->report.entries.size() == 1);
     CHECK_THAT(to_string(imported->report.entries[0]),
                ContainsSubstring("a.test:12: dropped: light \"sun\": not known"));
-    CHECK(imported->report.count(RESTAGE_DROPPED) == 1);
+    CHECK(imported->report.count(Fate::dropped) == 1);
 }
 
 TEST_CASE("the host decodes pictures for importers, and errors name them", "[io]") {
@@ -151,8 +152,8 @@ TEST_CASE("what an importer pushes arrives as it is", "[io]") {
     p.mesh.uvs = uvs;
     p.mesh.source_file = "/a/b.ply";
     const RestageHandle mesh = p.out.mesh(p.out.ctx, &p.mesh);
-    const RestageValue values[] = {{.id = "reflectance", .type = RESTAGE_COLOR, .v = {1, 0.5f, 0, 1}},
-                                   {.id = "remap", .type = RESTAGE_ENUM, .text = "v3"}};
+    const RestageValue values[] = {{.type = RESTAGE_COLOR, .id = "reflectance", .v = {1, 0.5f, 0, 1}},
+                                   {.type = RESTAGE_ENUM, .id = "remap", .text = "v3"}};
     p.material.values = values;
     p.material.value_count = 2;
     p.material.text.verbatim = "\"float x\" 1";
@@ -261,11 +262,11 @@ TEST_CASE("what cannot be is refused with a line in the report", "[io]") {
     instance.object_to_world[3] = 1;
     CHECK(p.out.instance(p.out.ctx, &instance) == 0);
 
-    const RestageValue values[] = {{.id = "a", .type = RESTAGE_FLOAT, .v = {not_a_number}},
-                                   {.id = "b", .type = RESTAGE_COLOR, .ref = 9},
-                                   {.id = "c", .type = 77},
-                                   {.id = nullptr, .type = RESTAGE_FLOAT},
-                                   {.id = "fine", .type = RESTAGE_FLOAT, .v = {2}}};
+    const RestageValue values[] = {{.type = RESTAGE_FLOAT, .id = "a", .v = {not_a_number}},
+                                   {.type = RESTAGE_COLOR, .id = "b", .ref = 9},
+                                   {.type = 77, .id = "c"},
+                                   {.type = RESTAGE_FLOAT, .id = nullptr},
+                                   {.type = RESTAGE_FLOAT, .id = "fine", .v = {2}}};
     p.material.values = values;
     p.material.value_count = 5;
     const RestageHandle odd = p.out.material(p.out.ctx, &p.material);
@@ -330,17 +331,13 @@ TEST_CASE("a missing image is reported and the rest goes on; one file is one ima
 }
 
 TEST_CASE("export options are held to the exporter's table", "[io]") {
-    const RestageParam options[] = {
-        {.id = "version", .label = "Version", .type = RESTAGE_ENUM, .choices = "v4|v3"},
-        {.id = "meshes", .label = "Meshes", .type = RESTAGE_INT, .min = 0, .max = 10},
-        {.id = "flat", .label = "Flat", .type = RESTAGE_BOOL},
-    };
-    const RestageExporter1 exporter{.size = sizeof exporter,
-                                    .format = "x",
-                                    .label = "X",
-                                    .extensions = "x|xx",
-                                    .options = options,
-                                    .option_count = 3};
+    const model::Exporter exporter{
+        .format = "x",
+        .label = "X",
+        .extensions = {"x", "xx"},
+        .options = {{.id = "version", .type = model::ParamType::choice, .choices = {"v4", "v3"}},
+                    {.id = "meshes", .type = model::ParamType::integer, .int_max = 10},
+                    {.id = "flat", .type = model::ParamType::boolean}}};
     scene::ParamSet values;
     REQUIRE(set_option(exporter, "version=v3", values));
     REQUIRE(set_option(exporter, "meshes=7", values));

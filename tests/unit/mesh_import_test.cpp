@@ -73,7 +73,7 @@ TEST_CASE("ply: as one grey object, with its normals, y up", "[mesh]") {
     CHECK_THAT(mesh.source_file, ContainsSubstring("a.ply"));
     CHECK(in.scene.materials[in.scene.instances[{1}].material].type == "diffuse");
     CHECK(in.scene.cameras[{1}].camera_to_world[1].y > 0.5);
-    CHECK(says(in, RESTAGE_KEPT, "a.ply", "2 triangles"));
+    CHECK(says(in, io::Fate::kept, "a.ply", "2 triangles"));
 }
 
 TEST_CASE("stl: what other programs write is read", "[mesh]") {
@@ -92,17 +92,17 @@ TEST_CASE("stl: what other programs write is read", "[mesh]") {
     CHECK(triangles(with(' ')) == 4);                         // one line
     CHECK(triangles("\xef\xbb\xbf" + text) == 4);            // a byte order mark
     CHECK(triangles(text.substr(0, text.find("endsolid"))) == 4);
-    CHECK(says(files.load("a.stl"), RESTAGE_APPROXIMATED, "", "without \"endsolid\""));
+    CHECK(says(files.load("a.stl"), io::Fate::approximated, "", "without \"endsolid\""));
     CHECK(triangles(binary({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, 0)) == 1); // the count was never written
     CHECK(triangles(binary({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, 1) + "tail") == 1);
-    CHECK(says(files.load("a.stl"), RESTAGE_APPROXIMATED, "", "4 bytes behind the last facet"));
+    CHECK(says(files.load("a.stl"), io::Fate::approximated, "", "4 bytes behind the last facet"));
 
     std::string colored = binary({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, 1);
     colored.replace(colored.size() - 2, 2, std::string("\x00\xfc", 2)); // VisCAM: 31 red, valid
     files.write("c.stl", colored);
     const auto in = files.load("c.stl");
     REQUIRE(in.scene.images.live() == 2); // and the studio's
-    CHECK(says(in, RESTAGE_KEPT, "", "colours of its faces are a texture"));
+    CHECK(says(in, io::Fate::kept, "", "colours of its faces are a texture"));
 }
 
 namespace {
@@ -138,8 +138,8 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
                              "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 0 0 255 1\n3 0 2 3 255 0 0 1\n"));
     const auto faces = files.load("f.ply");
     CHECK(first_texel(faces) == std::array<float, 3>{0, 0, 1});
-    CHECK(says(faces, RESTAGE_DROPPED, "f.ply", "face property \"quality\": 2 values"));
-    CHECK(says(faces, RESTAGE_DROPPED, "f.ply", "1 are named, but nothing says"));
+    CHECK(says(faces, io::Fate::dropped, "f.ply", "face property \"quality\": 2 values"));
+    CHECK(says(faces, io::Fate::dropped, "f.ply", "1 are named, but nothing says"));
     // An opacity beside the colours is worth a word only where something can be seen through.
     const std::string rgba = rgb + "property uchar alpha\n";
     const auto with_opacity = [&](const char* vertex, const char* face) {
@@ -150,9 +150,9 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
         return files.load("a.ply");
     };
     const auto opaque = with_opacity("255", "255"), thin = with_opacity("128", "0");
-    CHECK_FALSE(says(opaque, RESTAGE_DROPPED, "a.ply", "alpha"));
-    CHECK(says(thin, RESTAGE_DROPPED, "a.ply", "vertex property \"alpha\": 4 values"));
-    CHECK(says(thin, RESTAGE_DROPPED, "a.ply", "face property \"alpha\": 1 values"));
+    CHECK_FALSE(says(opaque, io::Fate::dropped, "a.ply", "alpha"));
+    CHECK(says(thin, io::Fate::dropped, "a.ply", "vertex property \"alpha\": 4 values"));
+    CHECK(says(thin, io::Fate::dropped, "a.ply", "face property \"alpha\": 1 values"));
 }
 
 TEST_CASE("ply: MeshLab's textures, by the corners of faces", "[mesh]") {
@@ -165,8 +165,8 @@ TEST_CASE("ply: MeshLab's textures, by the corners of faces", "[mesh]") {
     REQUIRE(mesh.uvs.size() == 6);
     CHECK(mesh.uvs[2] == glm::vec2(1, 1));
     CHECK(mesh.uvs[5] == glm::vec2(0, 0.5f));
-    CHECK(says(in, RESTAGE_DROPPED, "a b.png", ""));
-    CHECK(says(in, RESTAGE_KEPT, "", "textured"));
+    CHECK(says(in, io::Fate::dropped, "a b.png", ""));
+    CHECK(says(in, io::Fate::kept, "", "textured"));
 }
 
 TEST_CASE("ply: strips, concave polygons, points, map coordinates", "[mesh]") {
@@ -195,7 +195,7 @@ TEST_CASE("ply: strips, concave polygons, points, map coordinates", "[mesh]") {
     const auto points = files.load("p.ply");
     CHECK(points.scene.meshes[{1}].data->triangles.size() == 32);
     CHECK(first_texel(points) == std::array<float, 3>{0, 1, 0});
-    CHECK(says(points, RESTAGE_APPROXIMATED, "", "its 4 points get a radius"));
+    CHECK(says(points, io::Fate::approximated, "", "its 4 points get a radius"));
 
     files.write("u.ply",
                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"

@@ -51,7 +51,7 @@ class ModelFiles {
 };
 
 // Is there such a line in the report, at that place ("file:line", or a part of it), that says that?
-inline bool says(const io::ImportedScene& in, RestageFate fate, const std::string& place, const std::string& words) {
+inline bool says(const io::ImportedScene& in, io::Fate fate, const std::string& place, const std::string& words) {
     for (const auto& e : in.report.entries)
         if (const std::string line = io::to_string(e);
             e.fate == fate && line.find(place) != line.npos && line.find(words) != line.npos)

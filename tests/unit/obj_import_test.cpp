@@ -122,8 +122,8 @@ TEST_CASE("obj: MTL statements choose the nearest material", "[obj]") {
     CHECK(instance("veil").alpha == Approx(0.25));
     REQUIRE(instance("lamp").emission);
     CHECK(instance("lamp").emission->radiance == glm::vec3(3, 2, 1));
-    CHECK(says(in, RESTAGE_DROPPED, "m.mtl:29", "Ps"));
-    CHECK(says(in, RESTAGE_DROPPED, "", "1 of 9 are used by no face"));
+    CHECK(says(in, io::Fate::dropped, "m.mtl:29", "Ps"));
+    CHECK(says(in, io::Fate::dropped, "", "1 of 9 are used by no face"));
 }
 
 TEST_CASE("obj: what is missing is reported with its place, and the rest opens", "[obj]") {
@@ -133,12 +133,12 @@ TEST_CASE("obj: what is missing is reported with its place, and the rest opens",
                              "usemtl wood\nf 1 2 3\nusemtl stone\nf 1 3 4\nl 1 2\nfoo bar\nf 1//9 2//9 3//9\n");
     const auto in = files.load("a.obj");
     CHECK(in.scene.instances.live() == 2);
-    CHECK(says(in, RESTAGE_DROPPED, "a.obj:2", "other.mtl"));
-    CHECK(says(in, RESTAGE_DROPPED, "such.png", ""));
-    CHECK(says(in, RESTAGE_APPROXIMATED, "a.obj:13", "stone"));
-    CHECK(says(in, RESTAGE_DROPPED, "a.obj:15", "lines have no surface"));
-    CHECK(says(in, RESTAGE_DROPPED, "a.obj:16", "foo"));
-    CHECK(says(in, RESTAGE_APPROXIMATED, "a.obj:17", "normal 9 of 0"));
+    CHECK(says(in, io::Fate::dropped, "a.obj:2", "other.mtl"));
+    CHECK(says(in, io::Fate::dropped, "such.png", ""));
+    CHECK(says(in, io::Fate::approximated, "a.obj:13", "stone"));
+    CHECK(says(in, io::Fate::dropped, "a.obj:15", "lines have no surface"));
+    CHECK(says(in, io::Fate::dropped, "a.obj:16", "foo"));
+    CHECK(says(in, io::Fate::approximated, "a.obj:17", "normal 9 of 0"));
 }
 
 TEST_CASE("obj: what other programs write is read", "[obj]") {
@@ -204,8 +204,8 @@ TEST_CASE("obj: comments and options may stand behind what they belong to", "[ob
     };
     CHECK(texture("tex map_Kd").params.number("uscale", 1) == 3);
     CHECK(texture("tex map_Kd").params.number("vscale", 1) == 2);
-    CHECK(says(in, RESTAGE_DROPPED, "wood #2.png", "No such file"));
-    CHECK(says(in, RESTAGE_DROPPED, "oak.png", "No such file"));
+    CHECK(says(in, io::Fate::dropped, "wood #2.png", "No such file"));
+    CHECK(says(in, io::Fate::dropped, "oak.png", "No such file"));
     for (const io::ReportEntry& entry : in.report.entries)
         CHECK(entry.what.find("mtllib") == std::string::npos);
 }
@@ -224,7 +224,7 @@ TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
     CHECK(world(0).x == Approx(500000.125).epsilon(1e-12));
     CHECK(world(1).x - world(0).x == Approx(1).epsilon(1e-6));
     CHECK(world(2).y - world(0).y == Approx(0.125).epsilon(1e-6));
-    CHECK(says(in, RESTAGE_KEPT, "", "large for their differences"));
+    CHECK(says(in, io::Fate::kept, "", "large for their differences"));
 }
 
 TEST_CASE("obj: options of textures may leave out numbers, and names may have blanks", "[obj]") {
@@ -244,9 +244,9 @@ TEST_CASE("obj: options of textures may leave out numbers, and names may have bl
     CHECK(texture("a map_Kd").params.number("vdelta", 0) == 0.5);
     CHECK(texture("b map_Kd").params.number("uscale", 1) == 3);
     CHECK(texture("b map_Kd").params.number("vscale", 1) == 1);
-    CHECK(says(in, RESTAGE_DROPPED, "my wood.png", "No such file"));
-    CHECK(says(in, RESTAGE_DROPPED, "7.png", "No such file"));
-    CHECK(says(in, RESTAGE_DROPPED, "m.mtl:9", "Kd spectral a.rfl"));
+    CHECK(says(in, io::Fate::dropped, "my wood.png", "No such file"));
+    CHECK(says(in, io::Fate::dropped, "7.png", "No such file"));
+    CHECK(says(in, io::Fate::dropped, "m.mtl:9", "Kd spectral a.rfl"));
 }
 
 TEST_CASE("obj: colours of vertices are shown, and lines alone get a thickness", "[obj]") {
@@ -265,7 +265,7 @@ TEST_CASE("obj: colours of vertices are shown, and lines alone get a thickness",
     files.write("l.obj", "v 0 0 0\nv 3 0 0\nv 3 4 0\nl 1 2 3\n");
     const auto lines = files.load("l.obj");
     CHECK(lines.scene.meshes[{1}].data->triangles.size() == 24);
-    CHECK(says(lines, RESTAGE_APPROXIMATED, "", "its 2 lines get a radius"));
+    CHECK(says(lines, io::Fate::approximated, "", "its 2 lines get a radius"));
 }
 
 TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
@@ -274,8 +274,8 @@ TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
     const auto in = files.load("a.obj");
     REQUIRE(in.scene.environment.value);
     REQUIRE(in.scene.active_camera.value);
-    CHECK(says(in, RESTAGE_KEPT, "", "the file has none; one that shows everything is added"));
-    CHECK(says(in, RESTAGE_KEPT, "", "a neutral studio is added"));
+    CHECK(says(in, io::Fate::kept, "", "the file has none; one that shows everything is added"));
+    CHECK(says(in, io::Fate::kept, "", "a neutral studio is added"));
     const auto& camera = in.scene.cameras[in.scene.active_camera.value];
     CHECK(glm::determinant(glm::dmat3(camera.camera_to_world)) == Approx(-1)); // a right-handed world
     for (const double aspect : {16.0 / 9, 1.0, 9.0 / 16, 4.0}) { // whatever the picture is made

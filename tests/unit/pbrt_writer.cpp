@@ -19,6 +19,7 @@ ValueMap copy(const RestageValue* values, std::uint32_t count) {
         to.ref = value.ref;
         for (std::size_t k = 0; k < 4; ++k)
             to.v[k] = value.v[k];
+        if (value.type == RESTAGE_INT || value.type == RESTAGE_BOOL) to.v[0] = static_cast<float>(value.i);
         if (value.text) to.text = value.text;
     }
     return out;

@@ -18,10 +18,11 @@ namespace restage::test {
 
 inline const std::filesystem::path built_plugins = restage::test::build_dir() / "tests" / "plugins_bad";
 
-inline std::string manifest(const char* kind = "material", const char* abi = "1",
-                            const char* id = "org.example.velvet") {
-    return std::string(R"({"id": ")") + id + R"(", "kind": ")" + kind +
-           R"(", "version": "1.0.0", "licence": "MIT", "abi": )" + abi + R"(, "library": "velvet"})";
+// `provides`: what stands in the list; `needs`: what stands in the braces.
+inline std::string manifest(const char* provides = R"("restage.material/1", "restage.table/1")",
+                            const char* needs = R"("host": ">=0.2")", const char* id = "org.example.velvet") {
+    return std::string(R"({"id": ")") + id + R"(", "provides": [)" + provides +
+           R"(], "version": "1.0.0", "licence": "MIT", "needs": {)" + needs + R"(}, "library": "velvet"})";
 }
 
 struct PluginFolder {

@@ -3,6 +3,7 @@
 #include "plugin/quarantine.hpp"
 #include "plugin_folder.hpp"
 
+#include <restage/scene_io.h>
 #include <atomic>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cstdlib>
@@ -19,7 +20,7 @@ using restage::test::manifest;
 namespace {
 
 std::string json_manifest(const std::string& materials) {
-    return R"({"id": "org.example.velvet", "kind": "material", "version": "1.0.0", "licence": "MIT", "abi": 1,
+    return R"({"id": "org.example.velvet", "provides": ["restage.material/1"], "version": "1.0.0", "licence": "MIT", "needs": {"host": ">=0.2"},
  "materials": )" +
            materials + "}";
 }
@@ -52,21 +53,21 @@ TEST_CASE("a material without native code: its table stands in the manifest", "[
     folder.scan(registry);
     const auto found = registry.find_material("velvet");
     REQUIRE(found);
-    const RestageMaterial1& t = *found->table;
+    const model::Material& t = *found->table;
     CHECK(std::string(t.label) == "Velvet");
     CHECK(std::string(t.prefix) == "velvet"); // where none is given, the type
-    CHECK(t.flags == (RESTAGE_MATERIAL_LOSSLESS | RESTAGE_MATERIAL_TANGENT));
-    REQUIRE(t.param_count == 5);
-    CHECK(t.params[0].type == RESTAGE_COLOR);
+    CHECK((t.lossless && t.tangent && !t.stochastic && !t.transmissive));
+    REQUIRE(t.params.size() == 5);
+    CHECK(t.params[0].type == model::ParamType::color);
     CHECK(t.params[0].def[2] == 0.3f);
     CHECK(std::string(t.params[1].label) == "fuzz"); // where none is given, the id
-    CHECK(t.params[1].flags == (RESTAGE_PARAM_TEXTURABLE | RESTAGE_PARAM_ADVANCED));
+    CHECK((t.params[1].texturable && t.params[1].advanced));
     CHECK((t.params[1].min == 0.5f && t.params[1].max == 2 && t.params[1].def[0] == 1.5f));
     CHECK(std::string(t.params[1].unit) == "m");
-    CHECK(t.params[2].def[0] == 3);
-    CHECK(t.params[3].def[0] == 1);
-    CHECK(std::string(t.params[4].choices) == "plain|twill");
-    CHECK(t.params[4].def[0] == 1);
+    CHECK(t.params[2].int_def == 3);
+    CHECK(t.params[3].int_def == 1);
+    CHECK(choices_text(t.params[4]) == "plain|twill");
+    CHECK(t.params[4].int_def == 1);
     CHECK(found->source->glsl()->size() == 1);
 }
 
@@ -100,7 +101,7 @@ TEST_CASE("what is wrong in a table written as JSON is named with its place", "[
     CHECK_THAT(refused(velvet("[") + "]"), ContainsSubstring("not JSON"));
     const std::string both = json_manifest(velvet("[]"));
     CHECK_THAT(folder.refusal_of(both.substr(0, both.size() - 1) + R"(, "library": "velvet"})", "good"),
-               ContainsSubstring("has both \"library\" and \"materials\""));
+               ContainsSubstring("provides \"velvet\" twice"));
 }
 
 TEST_CASE("an edited material is taken anew; who uses the one before keeps it", "[plugin]") {
@@ -127,9 +128,9 @@ TEST_CASE("an edited material is taken anew; who uses the one before keeps it", 
     // A parameter less; the old table is still whole.
     REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(R"([{"id": "fuzz", "type": "float"}])"))));
     REQUIRE(registry.reload_changed().size() == 1);
-    CHECK(registry.find_material("velvet")->table->param_count == 1);
-    CHECK(before->table->param_count == 5);
-    CHECK(std::string(before->table->params[4].choices) == "plain|twill");
+    CHECK(registry.find_material("velvet")->table->params.size() == 1);
+    CHECK(before->table->params.size() == 5);
+    CHECK(choices_text(before->table->params[4]) == "plain|twill");
 
     // Undone: the same revision as at first.
     REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(params))));
@@ -151,7 +152,7 @@ TEST_CASE("a version that does not fit is not taken: the one before goes on", "[
         const auto news = registry.reload_changed();
         REQUIRE(news.size() == 1);
         CHECK_THAT(news[0].error, ContainsSubstring(why));
-        CHECK(registry.find_material("velvet")->table->param_count == 5);
+        CHECK(registry.find_material("velvet")->table->params.size() == 5);
         CHECK(registry.find_material("velvet")->source->glsl()->begin()->second == "// empty");
         CHECK(news[0].plugin->trouble == news[0].error);
         CHECK(news[0].plugin->state == State::loaded);
@@ -225,7 +226,8 @@ TEST_CASE("who reads the lists while plugins are loaded anew sees whole ones", "
             torn += registry.importers().size() != 1 || registry.exporters().size() != 1;
             const auto importer = registry.find_importer("pbrt");
             // The library is there as long as its entry, whatever is loaded meanwhile.
-            torn += !importer || importer->table->probe("x.pbrt", "LookAt", 6) <= 0 || importer->plugin->name().empty();
+            torn +=
+                !importer || importer->native->probe("x.pbrt", "LookAt", 6) <= 0 || importer->plugin->name().empty();
             torn +=
                 !registry.find_exporter("pbrt") || !registry.find_material("diffuse") || registry.find_denoiser("x");
             ++looks;
@@ -253,7 +255,7 @@ TEST_CASE("an importer that somebody holds stays open when it is loaded anew", "
     fs::remove(library); // another file, as a build writes it
     REQUIRE(write_file_atomic(library, bytes));
     REQUIRE(registry.reload(*registry.entries()[0]));
-    CHECK(held->table->probe("x.pbrt", "LookAt", 6) > 0);
+    CHECK(held->native->probe("x.pbrt", "LookAt", 6) > 0);
 }
 
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // plugin: what is sound loads; what is foreign, too new, broken or missing is one sentence, and nothing crashes.
+#include "plugin/abi.hpp"
+#include "plugin/adapters.hpp"
 #include "plugin/tables.hpp"
 #include "plugin_folder.hpp"
 
@@ -30,7 +32,7 @@ TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plug
         const auto velvet = registry.find_material("velvet");
         REQUIRE(velvet);
         CHECK(velvet->plugin->folder == where);
-        CHECK(velvet->table->param_count == 2);
+        CHECK(velvet->table->params.size() == 2);
         CHECK(std::string(velvet->table->params[0].id) == "fuzz");
         CHECK_FALSE(registry.find_material("silk"));
         CHECK(registry.importers().empty());
@@ -48,14 +50,32 @@ TEST_CASE("the manifest is judged before the library is opened", "[plugin]") {
     CHECK_THAT(refused("[1, 2]"), ContainsSubstring("must be one JSON object"));
     CHECK_THAT(refused(R"({"id": "org.example.velvet"})"), ContainsSubstring("\"version\" is missing"));
     CHECK_THAT(refused(R"({"id": 7})"), ContainsSubstring("\"id\" must be a text"));
-    CHECK_THAT(refused(manifest("material", "1", "velvet")), ContainsSubstring("not in reverse-DNS form"));
-    CHECK_THAT(refused(manifest("toaster")), ContainsSubstring("\"kind\": \"toaster\" is unknown"));
-    CHECK_THAT(refused(manifest("material", "\"one\"")), ContainsSubstring("\"abi\" must be a whole number"));
-    CHECK_THAT(refused(manifest("material", "{\"min\": 2}")), ContainsSubstring("\"abi\" has no \"max\""));
-    CHECK_THAT(refused(manifest("material", "{\"min\": 3, \"max\": 2}")), ContainsSubstring("min is greater than max"));
-    CHECK_THAT(refused(manifest("material", "{\"min\": 2, \"max\": 9}")), ContainsSubstring("the plugin is too new"));
-    const std::string body =
-        R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)";
+    CHECK_THAT(refused(manifest("\"restage.material/1\"", "", "velvet")), ContainsSubstring("not in reverse-DNS form"));
+    const auto provides = [&](const char* list) { return refused(manifest(list)); };
+    CHECK_THAT(provides(""), ContainsSubstring("\"provides\" is empty"));
+    CHECK_THAT(provides("1"), ContainsSubstring("\"provides\" must be a list of texts"));
+    CHECK_THAT(provides(R"("material")"), ContainsSubstring("\"material\" names no interface"));
+    CHECK_THAT(provides(R"("restage.material/0")"), ContainsSubstring("names no interface"));
+    CHECK_THAT(provides(R"("restage.toaster/1")"),
+               ContainsSubstring("provides restage.toaster/1, which this program cannot use"));
+    CHECK_THAT(provides(R"("restage.material/2")"), ContainsSubstring("the plugin is too new"));
+    const auto needs = [&](const char* members) { return refused(manifest("\"restage.material/1\"", members)); };
+    CHECK_THAT(needs(R"("host": 2)"), ContainsSubstring("\"host\" must be a text"));
+    CHECK_THAT(needs(R"("host": "new")"), ContainsSubstring("\"new\" is no range of versions"));
+    CHECK_THAT(needs(R"("host": ">=0.2 0.4")"), ContainsSubstring("is no range of versions"));
+    CHECK_THAT(needs(R"("host": ">=9.1")"), ContainsSubstring("needs Restage >=9.1, this is "));
+    CHECK_THAT(needs(R"("host": ">=9.1")"), ContainsSubstring("the plugin is too new; update the program"));
+    CHECK_THAT(needs(R"("host": ">=0.1 <0.2")"), ContainsSubstring("the plugin is too old; update the plugin"));
+    CHECK_THAT(needs(R"("interfaces": ["restage.toaster/1"])"),
+               ContainsSubstring("needs restage.toaster/1, which this program does not have"));
+    CHECK_THAT(needs(R"("hots": ">=0.2")"),
+               ContainsSubstring("\"needs\": the key \"hots\" is unknown; known are host, interfaces"));
+    // What was written before bundles.
+    CHECK_THAT(refused(R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)"
+                       R"("library":"velvet"})"),
+               ContainsSubstring("are of plugins for Restage 0.1: write, for example, \"provides\""));
+    const std::string body = R"({"id":"org.example.velvet","provides":["restage.material/1"],"version":"1.0.0",)"
+                             R"("licence":"MIT",)";
     CHECK_THAT(refused(body + R"("library":"../velvet"})"), ContainsSubstring("not a path inside the plugin's folder"));
     CHECK_THAT(refused(body + R"("library":"/lib/libc.so.6"})"), ContainsSubstring("not a path inside"));
     CHECK_THAT(refused(body + R"("library":"velvet","files":["gone.glsl"]})"),
@@ -85,9 +105,10 @@ TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") 
     CHECK_THAT(refused("twice"), ContainsSubstring("provides \"velvet\" twice"));
     CHECK_THAT(refused("endless"), ContainsSubstring("without end"));
     CHECK_THAT(refused("unresolved"), ContainsSubstring("a_function_nobody_has"));
-    CHECK_THAT(folder.refusal_of(manifest("material", "1", "org.example.silk"), "good"),
+    CHECK_THAT(folder.refusal_of(manifest("\"restage.material/1\"", "", "org.example.silk"), "good"),
                ContainsSubstring("says its id is \"org.example.velvet\""));
-    CHECK_THAT(folder.refusal_of(manifest("importer"), "good"), ContainsSubstring("provides no restage.importer/1"));
+    CHECK_THAT(folder.refusal_of(manifest("\"restage.importer/1\""), "good"),
+               ContainsSubstring("provides no restage.importer/1"));
 }
 
 TEST_CASE("a file that is no library for this machine is refused, not opened", "[plugin]") {
@@ -115,8 +136,8 @@ TEST_CASE("a file that is no library for this machine is refused, not opened", "
 TEST_CASE("a misspelt key of a manifest is named with its place and the nearest known one", "[plugin]") {
     Folder folder;
     const auto with = [&](const std::string& keys) {
-        return R"({"id": "org.example.velvet", "kind": "material",
-  "version": "1.0.0", "licence": "MIT", "abi": 1, "library": "velvet")" +
+        return R"({"id": "org.example.velvet", "provides": ["restage.material/1"],
+  "version": "1.0.0", "licence": "MIT", "needs": {"host": ">=0.2"}, "library": "velvet")" +
                keys + "}";
     };
     CHECK_THAT(folder.refusal_of(with(R"(,
@@ -125,17 +146,11 @@ TEST_CASE("a misspelt key of a manifest is named with its place and the nearest 
                ContainsSubstring("plugin.json:3:3: the key \"file\" is unknown; is \"files\" meant?"));
     CHECK_THAT(
         folder.refusal_of(with(R"(, "x-files": {"exceptoins": [1, "\"exceptoins\""]}, "exceptoins": [])"), "good"),
-        ContainsSubstring("plugin.json:2:122: the key \"exceptoins\" is unknown; is \"exceptions\" meant?"));
+        ContainsSubstring("plugin.json:2:140: the key \"exceptoins\" is unknown; is \"exceptions\" meant?"));
     CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
                ContainsSubstring("the key \"homepage\" is unknown; known are id, version"));
     CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
                ContainsSubstring("keys of your own begin with \"x-\""));
-    const auto abi = [&](const std::string& value) {
-        std::string text = with("");
-        return text.replace(text.find("\"abi\": 1"), 8, "\"abi\": " + value);
-    };
-    CHECK_THAT(folder.refusal_of(abi(R"({"min": 1, "mex": 1})"), "good"),
-               ContainsSubstring("\"abi\": the key \"mex\" is unknown; is \"max\" meant?"));
     const auto exceptions = [&](const std::string& list) {
         return folder.refusal_of(with(", \"exceptions\": " + list), "good");
     };
@@ -205,17 +220,8 @@ TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
                              "RESTAGE_LIB_RNG"}) {
         INFO(word);
         CHECK_FALSE(is_glsl_identifier(word));
-        const RestageParam param{.id = word,
-                                 .label = "x",
-                                 .type = RESTAGE_BOOL,
-                                 .flags = 0,
-                                 .min = 0,
-                                 .max = 1,
-                                 .def = {},
-                                 .unit = "",
-                                 .choices = nullptr,
-                                 .tooltip = ""};
-        CHECK_THAT(check_params(&param, 1), ContainsSubstring(std::string("\"") + word + "\" is a word of GLSL"));
+        const model::Param param{.id = word, .label = "x", .type = model::ParamType::boolean};
+        CHECK_THAT(check_params({&param, 1}), ContainsSubstring(std::string("\"") + word + "\" is a word of GLSL"));
     }
     for (const char* name :
          {"tint", "textures", "texture_scale", "vector", "matte", "int_size", "imagery", "samples", "vec", "mat5",
@@ -275,12 +281,57 @@ TEST_CASE("identifiers and tables are held to GLSL's rules", "[plugin]") {
     CHECK(is_glsl_identifier("_x9"));
     for (const char* bad : {"", "9x", "a-b", "gl_x", "a__b", "sample", "vec3", "a b", "ä"})
         CHECK_FALSE(is_glsl_identifier(bad));
-    const RestageParam twice[] = {{.id = "a", .label = "A", .type = RESTAGE_BOOL},
-                                  {.id = "a", .label = "A", .type = RESTAGE_BOOL}};
-    CHECK(check_params(twice, 2) == "parameter \"a\" is there twice");
-    CHECK(check_params(nullptr, 1) == "its parameter table is missing");
-    const RestageParam texturable{.id = "a", .label = "A", .type = RESTAGE_INT, .flags = RESTAGE_PARAM_TEXTURABLE};
-    CHECK(check_params(&texturable, 1) == "parameter \"a\": only FLOAT and COLOR can be texturable");
-    const RestageParam unknown{.id = "a", .label = "A", .type = 99};
-    CHECK(check_params(&unknown, 1) == "parameter \"a\": its type 99 is unknown");
+    const model::Param twice[] = {{.id = "a", .label = "A", .type = model::ParamType::boolean},
+                                  {.id = "a", .label = "A", .type = model::ParamType::boolean}};
+    CHECK(check_params(twice) == "parameter \"a\" is there twice");
+    const model::Param texturable[] = {
+        {.id = "a", .label = "A", .type = model::ParamType::integer, .texturable = true}};
+    CHECK(check_params(texturable) == "parameter \"a\": only FLOAT and COLOR can be texturable");
+    const model::Param beyond[] = {
+        {.id = "a", .label = "A", .type = model::ParamType::integer, .int_min = 1, .int_max = 3, .int_def = 4}};
+    CHECK(check_params(beyond) == "parameter \"a\": its default is out of its range");
+    CHECK(read_params(nullptr, 1).error().message == "its parameter table is missing");
+    const RestageParam unknown{.type = 99, .id = "a", .label = "A"};
+    CHECK(read_params(&unknown, 1).error().message == "parameter \"a\": its type 99 is unknown");
+}
+
+TEST_CASE("structs that grow at their end are read as far as both sides know them", "[plugin]") {
+    // Built with an SDK to come: two lines, each longer than ours.
+    struct Longer {
+        RestageParam known;
+        double more[2];
+    };
+    Longer longer[2] = {{RESTAGE_FLOAT_PARAM("a", "A", 0, 1, 0.25f, RESTAGE_PARAM_TEXTURABLE, "m", "One."), {7, 7}},
+                        {RESTAGE_INT_PARAM("b", "B", -(1 << 30), 1 << 30, 16777217, 0, "", "Two."), {7, 7}}};
+    for (Longer& line : longer)
+        line.known.size = sizeof(Longer);
+    const auto lines = read_params(&longer[0].known, 2);
+    REQUIRE(lines);
+    REQUIRE(lines->size() == 2);
+    CHECK(((*lines)[0].id == "a" && (*lines)[0].def[0] == 0.25f && (*lines)[0].texturable));
+    CHECK(((*lines)[1].id == "b" && (*lines)[1].int_def == 16777217 && (*lines)[1].tooltip == "Two."));
+    // And with one before: without unit, choices and tooltip, of which nothing is read.
+    struct Shorter {
+        char bytes[offsetof(RestageParam, unit)];
+    };
+    Shorter shorter[2];
+    for (int i = 0; i < 2; ++i) {
+        longer[i].known.size = sizeof(Shorter);
+        std::memcpy(&shorter[i], &longer[i].known, sizeof(Shorter));
+    }
+    const auto old = read_params(reinterpret_cast<const RestageParam*>(shorter), 2);
+    REQUIRE(old);
+    REQUIRE(old->size() == 2);
+    CHECK(((*old)[0].def[0] == 0.25f && (*old)[0].unit.empty() && (*old)[0].tooltip.empty()));
+    CHECK((*old)[1].int_max == 1 << 30);
+    // What one who knows less asked for is not written past its end.
+    struct {
+        RestageValue value{};
+        std::uint32_t behind = 0xabcd;
+    } asked;
+    asked.value.size = offsetof(RestageValue, text);
+    asked.value.text = "mine";
+    give(&asked.value, RestageValue{.type = RESTAGE_INT, .id = "b", .i = 5, .text = "theirs"});
+    CHECK((asked.value.i == 5 && std::string(asked.value.text) == "mine" && asked.behind == 0xabcd));
+    CHECK(asked.value.size == offsetof(RestageValue, text));
 }

@@ -49,10 +49,11 @@ class Monkey {
                     if (!environment) environment.emplace();
                     environment->name = name();
                     environment->image = pick(2) ? any<Image>(s) : Id<Image>{};
-                    environment->mapping = pick(2) ? RESTAGE_EQUIRECT : RESTAGE_OCTAHEDRAL;
+                    environment->mapping = pick(2) ? scene::Mapping::equirect : scene::Mapping::octahedral;
                     environment->scale = vec();
                     environment->light_to_world = matrix();
-                    environment->hidden_from_camera = environment->mapping == RESTAGE_OCTAHEDRAL; // draws no number
+                    environment->hidden_from_camera =
+                        environment->mapping == scene::Mapping::octahedral; // draws no number
                     environment->origin = origin();
                 }
                 e = set_environment(s, environment);
@@ -131,15 +132,15 @@ class Monkey {
             case 4:
                 return Value::choice(name());
             case 5:
-                return {.type = RESTAGE_TEXT, .text = name()};
+                return {.type = model::ParamType::text, .text = name()};
             case 6:
-                return {.type = RESTAGE_MATERIAL, .material = {}};
+                return {.type = model::ParamType::material, .material = {}};
             case 7:
-                return {.type = RESTAGE_TEXTURE, .texture = any<Texture>(s)};
+                return {.type = model::ParamType::texture, .texture = any<Texture>(s)};
             case 8:
                 return Value::table(std::filesystem::absolute("tables/" + name()).lexically_normal().string());
             default:
-                return {.type = RESTAGE_COLOR, .v = {x(), x(), x(), 0}, .texture = any<Texture>(s)};
+                return {.type = model::ParamType::color, .v = {x(), x(), x(), 0}, .texture = any<Texture>(s)};
         }
     }
     void params(const Scene& s, ParamSet& set) {
@@ -204,7 +205,7 @@ class Monkey {
             i.data = s.images[other].data;
         else if (pick(2)) {
             i.path = files_.at("scenes/wood.png");
-            i.encoding = pick(2) ? RESTAGE_SRGB : RESTAGE_LINEAR;
+            i.encoding = pick(2) ? scene::Encoding::srgb : scene::Encoding::linear;
             i.gamma = 2.2f;
             i.data = std::make_shared<const PixelData>(io::read_image(i.path, i.encoding).value());
         } else
@@ -267,7 +268,7 @@ class Monkey {
     }
     void change(const Scene&, Light& l) {
         l.name = name();
-        l.kind = static_cast<RestageLightKind>(1 + pick(3));
+        l.kind = static_cast<scene::LightKind>(pick(3));
         l.value = vec();
         l.light_to_world = matrix();
         l.cone_angle = 20 + x();
@@ -283,7 +284,7 @@ class Monkey {
         c.lens_radius = x();
         c.focal_distance = x();
         c.frame_aspect = x();
-        c.projection = static_cast<RestageProjection>(pick(4));
+        c.projection = static_cast<scene::Projection>(pick(4));
         c.fit_aspect = pick(2) ? x() : 0;
         c.origin = origin();
     }

@@ -127,11 +127,11 @@ bool same_data(const std::shared_ptr<const D>& a, const std::shared_ptr<const D>
 }
 
 inline void check_same(const Scene& a, const Scene& b) {
-    document::each_kind([&]<class T>(const char* kind) {
+    scene::each_kind([&]<class T>(const scene::Kind<T>& kind) {
         std::vector<T> left, right;
         table<T>(a).each([&](auto, const T& item) { left.push_back(item); });
         table<T>(b).each([&](auto, const T& item) { right.push_back(item); });
-        INFO(kind);
+        INFO(kind.name);
         REQUIRE(left.size() == right.size());
         for (std::size_t i = 0; i < left.size(); ++i) {
             INFO(i << ": " << left[i].name << " / " << right[i].name);

@@ -118,7 +118,7 @@ TEST_CASE("What is inserted from a file is named, not held, and stands in when i
     fs::rename(files.at("scenes/lamp.pbrt"), files.at("scenes/elsewhere.pbrt"));
     document::Session without(files.registry);
     REQUIRE(without.open(files.at("lamp.restage")));
-    CHECK(without.report().count(RESTAGE_DROPPED) == 3); // the file, and two meshes of it
+    CHECK(without.report().count(io::Fate::dropped) == 3); // the file, and two meshes of it
     CHECK(without.scene().instances.live() == session.scene().instances.live());
     REQUIRE(without.save_project(files.at("lamp2.restage")));
     CHECK(read_file(files.at("lamp2.restage")).value() == text); // and nothing is lost
@@ -166,7 +166,7 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
         auto found = open({});
         INFO((found ? "" : found.error().message));
         REQUIRE(found);
-        CHECK(found->report.count(RESTAGE_APPROXIMATED) >= 1);
+        CHECK(found->report.count(io::Fate::approximated) >= 1);
         document::Session other(files.registry);
         other.adopt(std::move(*found));
         CHECK(other.scene().materials[other.find<Material>("steel")].params.number("uroughness", 0) == 0.1f);
@@ -183,7 +183,7 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
         CHECK_THAT(lost.error().message, ContainsSubstring("material \"steel\"") && ContainsSubstring("room.pbrt"));
         auto part = open({.drop_lost = true});
         REQUIRE(part);
-        CHECK(part->report.count(RESTAGE_DROPPED) == 1);
+        CHECK(part->report.count(io::Fate::dropped) == 1);
         document::Session other(files.registry);
         other.adopt(std::move(*part));
         CHECK_FALSE(other.find<Instance>(lamp_name)); // that change still fits

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies of tables and scenes share what has not changed: a frame of a drag among many objects copies none of the
 // others.
+#include "document/session.hpp"
 #include "scene/edit.hpp"
-#include "session/session.hpp"
 
 #include <catch2/catch_test_macros.hpp>
 
@@ -121,12 +121,14 @@ TEST_CASE("a table that was moved from is empty") {
 TEST_CASE("a frame of a drag among many objects copies no other object") {
     Log log;
     const plugin::Registry registry(log);
-    session::Session session(registry);
+    document::Session session(registry);
     session.adopt(crowd(20'000));
     Scene shown = session.scene(); // what the live picture has
+    glm::dmat4 by(1);
+    by[3].x = 1;
     for (int frame = 1; frame <= 3; ++frame) {
         const Id<Instance> dragged[] = {{777}};
-        REQUIRE(session.move(dragged, glm::dmat4(2), "drag"));
+        REQUIRE(session.move(dragged, by, "drag"));
         const Scene before = std::exchange(shown, session.scene());
         std::uint32_t copied = 0;
         shown.instances.each(

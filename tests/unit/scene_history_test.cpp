@@ -59,7 +59,7 @@ TEST_CASE("undo restores the scene, redo does it again, for every kind of edit",
         REQUIRE(history.push(r.scene, std::move(*edit)));
         CHECK(r.scene.clock > before);
     };
-    push(insert(r.scene, Light{.name = "sun", .kind = RESTAGE_LIGHT_DISTANT}, "Add sun"));
+    push(insert(r.scene, Light{.name = "sun", .kind = scene::LightKind::distant}, "Add sun"));
     push(duplicate_instances(r.scene, both, glm::translate(glm::dmat4(1), {1, 0, 0}))->edit);
     push(remove_instances(r.scene, std::array{r.chair, r.chair2}));
     push(set_material(r.scene, std::array{r.lamp, Id<Instance>{5}}, r.oak)); // 5: the copy of the lamp
@@ -155,7 +155,7 @@ TEST_CASE("a cancelled drag leaves everything as it was, also what could be redo
 
 TEST_CASE("a light is duplicated", "[scene]") {
     Scene scene;
-    apply(scene, insert(scene, Light{.name = "Spot", .kind = RESTAGE_LIGHT_SPOT}, "Add"));
+    apply(scene, insert(scene, Light{.name = "Spot", .kind = scene::LightKind::spot}, "Add"));
     const Id<Light> spot{1};
     const auto made = duplicate_light(scene, spot, glm::translate(glm::dmat4(1), {0, 3, 0}));
     REQUIRE(made);

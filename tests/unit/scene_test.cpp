@@ -46,21 +46,23 @@ TEST_CASE("ParamSet keeps the order of first setting and finds by id", "[scene]"
 }
 
 TEST_CASE("choices and defaults come from the table line", "[scene]") {
-    CHECK(choice_index("v4|v3|none", "v4") == 0);
-    CHECK(choice_index("v4|v3|none", "none") == 2);
-    CHECK_FALSE(choice_index("v4|v3|none", "v"));
-    const RestageParam line{.id = "remap",
-                            .label = "",
-                            .type = RESTAGE_ENUM,
-                            .def = {2},
-                            .unit = "",
-                            .choices = "v4|v3|none",
-                            .tooltip = ""};
+    const model::Param line{
+        .id = "remap", .type = model::ParamType::choice, .int_def = 2, .choices = {"v4", "v3", "none"}};
+    CHECK(line.choice_index("v4") == 0);
+    CHECK(line.choice_index("none") == 2);
+    CHECK_FALSE(line.choice_index("v"));
     CHECK(default_value(line).text == "none");
-    RestageParam beyond = line;
-    beyond.def[0] = 9;
+    CHECK(misfit(line, Value::choice("v3")).empty());
+    CHECK(misfit(line, Value::choice("v2")) == " cannot be \"v2\"; v4|v3|none are possible");
+    CHECK(misfit(line, Value::number(1)) == " has another type");
+    model::Param beyond = line;
+    beyond.int_def = 9;
     CHECK(default_value(beyond).text.empty()); // a broken table, but no crash
-    const RestageParam color{.id = "c", .label = "", .type = RESTAGE_COLOR, .def = {1, 2, 3, 4}};
+    const model::Param count{.id = "n", .type = model::ParamType::integer, .int_max = 3};
+    CHECK(misfit(count, Value::integer(3)).empty());
+    CHECK(misfit(count, Value::integer(4)) == ": 4 is out of its range, 0 to 3");
+    CHECK(Value::integer(16777217).i == 16777217); // which no float is
+    const model::Param color{.id = "c", .type = model::ParamType::color, .def = {1, 2, 3, 4}};
     CHECK(default_value(color) == Value::color(1, 2, 3));
 }
 
@@ -74,7 +76,7 @@ TEST_CASE("what is in use is not removed", "[scene]") {
     CHECK_FALSE(remove(r.scene, r.chairs));
     CHECK_FALSE(remove(r.scene, Id<Material>{77}));
     r.add(Material{.name = "blend", .type = "mix"});
-    Value steel{.type = RESTAGE_MATERIAL, .material = r.steel};
+    Value steel{.type = model::ParamType::material, .material = r.steel};
     apply(r.scene, *set_param(r.scene, Id<Material>{3}, "first", steel));
     apply(r.scene, *set_material(r.scene, std::array{r.lamp}, r.oak));
     CHECK_FALSE(remove(r.scene, r.steel));
@@ -127,7 +129,7 @@ TEST_CASE("builders refuse what cannot be", "[scene]") {
     CHECK_FALSE(set_transform(r.scene, Id<Instance>{99}, glm::dmat4(1)));
     CHECK_FALSE(set_material(r.scene, std::array{r.chair}, Id<Material>{99}));
     CHECK_FALSE(set_param(r.scene, r.oak, "reflectance", Value::number(not_a_number)));
-    CHECK_FALSE(set_param(r.scene, r.oak, "reflectance", Value{.type = RESTAGE_COLOR, .texture = {5}}));
+    CHECK_FALSE(set_param(r.scene, r.oak, "reflectance", Value{.type = model::ParamType::color, .texture = {5}}));
     CHECK_FALSE(set_active_camera(r.scene, {4}));
 }
 

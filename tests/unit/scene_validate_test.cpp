@@ -48,17 +48,18 @@ TEST_CASE("validate is silent about a sound scene and names what is wrong with a
                    "group \"chairs\" contains itself through group \"room\""));
     CHECK(mentions(with([&](Room& b) {
                        change(b, b.oak, [&](Material& m) {
-                           m.params.set("first", Value{.type = RESTAGE_MATERIAL, .material = b.oak});
+                           m.params.set("first", Value{.type = model::ParamType::material, .material = b.oak});
                        });
                    }),
                    error, "material \"oak\" contains itself"));
-    CHECK(mentions(with([&](Room& b) {
-                       const auto t = b.add(Texture{.name = "t", .type = "scale"});
-                       const auto u = b.add(Texture{.name = "u", .type = "scale"});
-                       change(b, t, [&](Texture& x) { x.params.set("tex", {.type = RESTAGE_COLOR, .texture = u}); });
-                       change(b, u, [&](Texture& x) { x.params.set("tex", {.type = RESTAGE_COLOR, .texture = t}); });
-                   }),
-                   error, "texture \"u\" contains itself through texture \"t\""));
+    CHECK(mentions(
+        with([&](Room& b) {
+            const auto t = b.add(Texture{.name = "t", .type = "scale"});
+            const auto u = b.add(Texture{.name = "u", .type = "scale"});
+            change(b, t, [&](Texture& x) { x.params.set("tex", {.type = model::ParamType::color, .texture = u}); });
+            change(b, u, [&](Texture& x) { x.params.set("tex", {.type = model::ParamType::color, .texture = t}); });
+        }),
+        error, "texture \"u\" contains itself through texture \"t\""));
     CHECK(
         mentions(with([&](Room& b) { change(b, b.camera, [](Camera& c) { c.fov = 180; }); }), error, "field of view"));
     CHECK(mentions(with([&](Room& b) { apply(b.scene, set_film(b.scene, Film{.width = 1000000, .height = 1000000})); }),
@@ -100,7 +101,7 @@ TEST_CASE("check_mesh finds the first thing that is wrong", "[scene]") {
 
 TEST_CASE("an edit that brings in what no picture can hold is refused with a sentence", "[scene]") {
     Room r;
-    r.add(Light{.name = "spot", .kind = RESTAGE_LIGHT_SPOT});
+    r.add(Light{.name = "spot", .kind = scene::LightKind::spot});
     apply(r.scene, set_environment(r.scene, Environment{.name = "sky"}));
     const float inf = std::numeric_limits<float>::infinity();
     const auto refused = [&](Result<Edit> edit, std::string_view part) {

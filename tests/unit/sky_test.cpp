@@ -34,8 +34,8 @@ TEST_CASE("an image as sky keeps the turn and strength of an image, not the colo
     history.push(s, scene::image_sky(s, "/skies/noon.png", pixels(4, 2), {0, 1, 0}));
     REQUIRE(s.environment.value);
     CHECK(s.environment.value->scale == glm::vec3(1));
-    CHECK(s.environment.value->mapping == RESTAGE_EQUIRECT);
-    CHECK(s.images[s.environment.value->image].encoding == RESTAGE_SRGB); // 8-bit panoramas are encoded
+    CHECK(s.environment.value->mapping == scene::Mapping::equirect);
+    CHECK(s.images[s.environment.value->image].encoding == scene::Encoding::srgb); // 8-bit panoramas are encoded
 
     Environment turned = *s.environment.value;
     turned.scale = glm::vec3(3);
@@ -49,7 +49,7 @@ TEST_CASE("an image as sky keeps the turn and strength of an image, not the colo
     history.push(s, scene::image_sky(s, "/skies/noon.png", pixels(4, 2), {0, 1, 0})); // again
     CHECK(s.images.live() == 2);
     history.push(s, scene::image_sky(s, "/skies/square.exr", pixels(4, 4), {0, 1, 0}));
-    CHECK(s.environment.value->mapping == RESTAGE_OCTAHEDRAL);
+    CHECK(s.environment.value->mapping == scene::Mapping::octahedral);
     CHECK(s.environment.value->light_to_world == scene::upright_sky({0, 1, 0})); // another mapping: not that turn
 }
 

@@ -204,11 +204,11 @@ TEST_CASE("a plugin without native code has no tables, and says so", "[table][pl
     const fs::path where = folder.path / "p";
     fs::create_directories(where);
     REQUIRE(write_file_atomic(where / "velvet.glsl", "// empty"));
-    REQUIRE(
-        write_file_atomic(where / "plugin.json",
-                          R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)"
-                          R"("materials":[{"type":"velvet","glsl":"velvet.glsl",)"
-                          R"("params":[{"id":"filename","type":"table"}]}]})"));
+    REQUIRE(write_file_atomic(
+        where / "plugin.json",
+        R"({"id":"org.example.velvet","provides":["restage.material/1","restage.table/1"],"version":"1.0.0","licence":"MIT",)"
+        R"("materials":[{"type":"velvet","glsl":"velvet.glsl",)"
+        R"("params":[{"id":"filename","type":"table"}]}]})"));
     CHECK_THAT(folder.refusal(), ContainsSubstring("\"params\"[0]: a table is read by native code"));
 }
 
@@ -283,6 +283,6 @@ TEST_CASE("a project keeps a table's path relative to itself", "[table][project]
     fs::remove(moved / "a.binary");
     document::Session lost(r.plugins.registry);
     REQUIRE(lost.open((moved / "p.restage").string()));
-    REQUIRE(lost.report().count(RESTAGE_DROPPED) == 1);
+    REQUIRE(lost.report().count(io::Fate::dropped) == 1);
     CHECK_THAT(io::to_string(lost.report().entries[0]), ContainsSubstring("a.binary: cannot be opened"));
 }

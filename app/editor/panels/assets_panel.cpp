@@ -58,7 +58,7 @@ void ask_thumbnail(PanelContext& e, AssetsState::Thumbnail& thumbnail, const std
     thumbnail.asked = true;
     e.panel_state->loads.start(
         {.path = file,
-         .encoding = RESTAGE_SRGB, // of what has eight bits
+         .encoding = scene::Encoding::srgb, // of what has eight bits
          .thumbnail = thumbnail_pixels,
          .done = [&e, path = file](Result<std::shared_ptr<const scene::PixelData>> pixels) {
              AssetsState::Thumbnail& to = e.panel_state->assets.thumbnails[path];

@@ -243,21 +243,21 @@ void draw_import_report(PanelContext& e) {
         empty_note(e.session().path().empty() ? "Nothing was imported." : "Everything in the file was kept.");
         return;
     }
-    const auto filter = [&](const char* name, RestageFate fate, bool& on, const ImVec4& color, const char* tooltip,
+    const auto filter = [&](const char* name, io::Fate fate, bool& on, const ImVec4& color, const char* tooltip,
                             const char* mark) {
         const std::string label = fmt::format("{} {}###{}", report.count(fate), name, name);
-        if (fate != RESTAGE_DROPPED) flow(check_width(label.c_str())); // the first
+        if (fate != io::Fate::dropped) flow(check_width(label.c_str())); // the first
         ImGui::PushStyleColor(ImGuiCol_Text, color);
         ImGui::Checkbox(label.c_str(), &on);
         ImGui::PopStyleColor();
         tip(tooltip);
         e.mark(mark);
     };
-    filter("dropped", RESTAGE_DROPPED, state.dropped, colors::error,
+    filter("dropped", io::Fate::dropped, state.dropped, colors::error,
            "Not in the scene; kept in the file when it is written where that is possible", "report.dropped");
-    filter("approximated", RESTAGE_APPROXIMATED, state.approximated, colors::warning,
+    filter("approximated", io::Fate::approximated, state.approximated, colors::warning,
            "Rendered in a simpler way than the file says", "report.approximated");
-    filter("kept", RESTAGE_KEPT, state.kept, colors::good, "As the file says", "report.kept");
+    filter("kept", io::Fate::kept, state.kept, colors::good, "As the file says", "report.kept");
     const float width = 110 * ImGui::GetStyle().FontScaleMain;
     flow(width);
     ImGui::SetNextItemWidth(width);
@@ -265,9 +265,9 @@ void draw_import_report(PanelContext& e) {
     e.mark("report.search");
     std::vector<const io::ReportEntry*> shown;
     for (const io::ReportEntry& entry : report.entries) {
-        const bool wanted = entry.fate == RESTAGE_DROPPED        ? state.dropped
-                            : entry.fate == RESTAGE_APPROXIMATED ? state.approximated
-                                                                 : state.kept;
+        const bool wanted = entry.fate == io::Fate::dropped        ? state.dropped
+                            : entry.fate == io::Fate::approximated ? state.approximated
+                                                                   : state.kept;
         if (wanted && (contains_word(entry.what, state.search) || contains_word(entry.note, state.search)))
             shown.push_back(&entry);
     }
@@ -301,9 +301,9 @@ void draw_import_report(PanelContext& e) {
             ImGui::PushID(i);
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            ImGui::PushStyleColor(ImGuiCol_Text, entry.fate == RESTAGE_DROPPED        ? colors::error
-                                                 : entry.fate == RESTAGE_APPROXIMATED ? colors::warning
-                                                                                      : colors::good);
+            ImGui::PushStyleColor(ImGuiCol_Text, entry.fate == io::Fate::dropped        ? colors::error
+                                                 : entry.fate == io::Fate::approximated ? colors::warning
+                                                                                        : colors::good);
             if (ImGui::Selectable(entry.what.c_str(), false, ImGuiSelectableFlags_SpanAllColumns) &&
                 !select_named(e, entry.what))
                 e.notices.add(LogLevel::info, entry.what + " is no object, nor on one");

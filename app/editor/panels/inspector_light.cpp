@@ -155,17 +155,17 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
     tip("The light's name");
     e.mark("light.name");
     static constexpr const char* kinds[] = {"Point", "Spot", "Sun"};
-    int kind = int(light.kind) - 1;
+    int kind = int(light.kind);
     bool changed = false;
     form_row("Type", "Point: shines all around. Spot: a cone. Sun: parallel rays from far away (a distant light)");
     if (ImGui::Combo("##kind", &kind, kinds, IM_ARRAYSIZE(kinds))) {
-        light.kind = RestageLightKind(kind + 1);
+        light.kind = scene::LightKind(kind);
         changed = true;
     }
     e.mark("light.kind");
-    changed |=
-        light_value_rows(e, light.value, "Brightness", light.kind == RESTAGE_LIGHT_DISTANT ? "W/m²" : "W/sr", "light");
-    if (light.kind != RESTAGE_LIGHT_DISTANT) {
+    changed |= light_value_rows(e, light.value, "Brightness", light.kind == scene::LightKind::distant ? "W/m²" : "W/sr",
+                                "light");
+    if (light.kind != scene::LightKind::distant) {
         glm::dvec3 position(light.light_to_world[3]);
         form_row("Position", "x, y, z in scene units");
         const double size = scene::world_bounds(e.scene()).radius();
@@ -176,7 +176,7 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
         }
         e.mark("light.position");
     }
-    if (light.kind != RESTAGE_LIGHT_POINT) {
+    if (light.kind != scene::LightKind::point) {
         Angles angles = angles_of(light.light_to_world, e.up());
         form_row("Height", "How high above the horizon the light comes from");
         const double lowest = -90, highest = 90;
@@ -189,7 +189,7 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
         if (turn) light.light_to_world = turned(light.light_to_world, angles, e.up());
         changed |= turn;
     }
-    if (light.kind == RESTAGE_LIGHT_SPOT) {
+    if (light.kind == scene::LightKind::spot) {
         form_row("Cone", "From its middle to its edge: half of the opening");
         changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.cone");
@@ -202,7 +202,7 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
         int falloff = int(light.falloff);
         form_row("Fading", "How the edge fades. Smooth: as pbrt-v4. Quartic: as pbrt-v3, darker");
         if (ImGui::Combo("##falloff", &falloff, falloffs, IM_ARRAYSIZE(falloffs))) {
-            light.falloff = RestageFalloff(falloff);
+            light.falloff = scene::Falloff(falloff);
             changed = true;
         }
         e.mark("light.falloff");

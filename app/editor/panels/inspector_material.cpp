@@ -25,23 +25,8 @@ using MaterialId = scene::Id<scene::Material>;
 
 namespace {
 
-// What any material can have besides its plugin's table: see restage/scene_io.h.
-constexpr RestageParam surface_lines[] = {
-    {"bump",
-     "Bump map",
-     RESTAGE_TEXTURE,
-     0,
-     0,
-     1,
-     {0},
-     "",
-     nullptr,
-     "Heights in scene units that tilt the shading normal"},
-    {"normalmap", "Normal map", RESTAGE_TEXTURE, 0, 0, 1, {0}, "", nullptr, "Tangent-space normals, as games use them"},
-};
-
 scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
-    return plugin ? scene::ParamTable(plugin->table->params, plugin->table->param_count) : scene::ParamTable();
+    return plugin ? scene::ParamTable(plugin->table->params) : scene::ParamTable();
 }
 
 // A ball of it; its main colour until that is rendered.
@@ -169,16 +154,17 @@ void sharing(PanelContext& e, MaterialId id) {
     e.mark("material.unique");
 }
 
-void ask_image(PanelContext& e, MaterialId id, const RestageParam& line, const std::string& file) {
+void ask_image(PanelContext& e, MaterialId id, const model::Param& line, const std::string& file) {
     // Colours are painted for the eye; heights, normals and roughness are data.
-    const RestageEncoding encoding = line.type == RESTAGE_COLOR ? RESTAGE_SRGB : RESTAGE_LINEAR;
-    const bool scalar = line.type == RESTAGE_FLOAT || std::string_view(line.id) == "bump";
+    const scene::Encoding encoding =
+        line.type == model::ParamType::color ? scene::Encoding::srgb : scene::Encoding::linear;
+    const bool scalar = line.type == model::ParamType::number || std::string_view(line.id) == "bump";
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
     e.panel_state->loads.start(
         {.path = path,
          .encoding = encoding,
          .done = [&e, id, path, encoding, scalar, param = std::string(line.id),
-                  type = RestageType(line.type)](Result<std::shared_ptr<const scene::PixelData>> pixels) {
+                  type = model::ParamType(line.type)](Result<std::shared_ptr<const scene::PixelData>> pixels) {
              if (!pixels) {
                  e.notices.add(LogLevel::error, pixels.error().message);
                  return;
@@ -197,7 +183,7 @@ void ask_image(PanelContext& e, MaterialId id, const RestageParam& line, const s
 void give_image(PanelContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
     e.panel_state->loads.start(
         {.path = path,
-         .encoding = RESTAGE_SRGB,
+         .encoding = scene::Encoding::srgb,
          .done = [&e, scope, param, path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
              if (!pixels) {
                  e.notices.add(LogLevel::error, pixels.error().message);
@@ -205,25 +191,25 @@ void give_image(PanelContext& e, const MaterialScope& scope, const std::string& 
              }
              scene::Image image{.name = std::filesystem::path(path).stem().string(),
                                 .path = path,
-                                .encoding = RESTAGE_SRGB,
+                                .encoding = scene::Encoding::srgb,
                                 .data = *pixels};
              e.edit([scope, param, image](const scene::Scene& s) {
                  return edit_in_scope(s, scope, [&](const scene::Scene& now, MaterialId id) {
-                     return scene::set_image_texture(now, id, param, RESTAGE_COLOR, false, image);
+                     return scene::set_image_texture(now, id, param, model::ParamType::color, false, image);
                  });
              });
          }});
 }
 
-void param_row(PanelContext& e, MaterialId id, const scene::Material& material, const RestageParam& line) {
+void param_row(PanelContext& e, MaterialId id, const scene::Material& material, const model::Param& line) {
     const scene::Value* set = material.params.find(line.id);
-    const bool fits = set && set->type == static_cast<RestageType>(line.type);
-    const auto plugin = line.type == RESTAGE_TABLE ? e.registry().find_material(material.type) : std::nullopt;
+    const bool fits = set && set->type == line.type;
+    const auto plugin = line.type == model::ParamType::table ? e.registry().find_material(material.type) : std::nullopt;
     const ParamAsk ask =
         param_widget(e, line, fits ? *set : scene::default_value(line), set != nullptr,
                      std::string("material.") + line.id, plugin ? plugin->source->table_reader().get() : nullptr);
     if (!ask.image_file.empty()) ask_image(e, id, line, ask.image_file);
-    if (ask.reset || (ask.value && line.type == RESTAGE_TEXTURE && !ask.value->texture))
+    if (ask.reset || (ask.value && line.type == model::ParamType::texture && !ask.value->texture))
         e.edit([id, param = std::string(line.id)](const scene::Scene& s) { return scene::reset_param(s, id, param); });
     else if (ask.value)
         e.edit([id, param = std::string(line.id),
@@ -238,8 +224,8 @@ void texture_for_selected(PanelContext& e, const std::string& file) {
     const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
     if (!material) return;
     const auto plugin = e.registry().find_material(material->type);
-    for (const RestageParam& line : table_of(plugin))
-        if (line.type == RESTAGE_COLOR && (line.flags & RESTAGE_PARAM_TEXTURABLE)) {
+    for (const model::Param& line : table_of(plugin))
+        if (line.type == model::ParamType::color && line.texturable) {
             const std::string path = std::filesystem::absolute(file).lexically_normal().string();
             ask_scope(e, e.selection.instances(), std::filesystem::path(path).filename().string(),
                       [path, param = std::string(line.id)](PanelContext& editor, const MaterialScope& scope) {
@@ -253,8 +239,8 @@ void texture_for_selected(PanelContext& e, const std::string& file) {
 glm::vec3 swatch_color(const PanelContext& e, const scene::Material& material) {
     glm::vec3 seen(0.5f);
     const auto plugin = e.registry().find_material(material.type);
-    for (const RestageParam& line : table_of(plugin)) {
-        if (line.type != RESTAGE_COLOR || line.max != 1) continue;
+    for (const model::Param& line : table_of(plugin)) {
+        if (line.type != model::ParamType::color || line.max != 1) continue;
         const scene::Value* set = material.params.find(line.id);
         const scene::Value v = set && !set->texture ? *set : scene::default_value(line);
         for (int i = 0; i < 3; ++i)
@@ -283,17 +269,17 @@ void material_section(PanelContext& e, MaterialId id) {
     e.mark("material.name");
 
     const auto plugin = e.registry().find_material(material->type);
-    form_row("Type", plugin ? plugin->table->tooltip : "What kind of surface it is");
-    if (ImGui::BeginCombo("##type", plugin ? plugin->table->label : material->type.c_str(),
+    form_row("Type", plugin ? plugin->table->tooltip.c_str() : "What kind of surface it is");
+    if (ImGui::BeginCombo("##type", (plugin ? plugin->table->label : material->type).c_str(),
                           ImGuiComboFlags_HeightLargest)) {
         for (const auto& choice : e.registry().materials()) {
-            if (ImGui::Selectable(choice.table->label, material->type == choice.table->type) &&
+            if (ImGui::Selectable(choice.table->label.c_str(), material->type == choice.table->type) &&
                 material->type != choice.table->type)
                 e.edit([id, type = std::string(choice.table->type), before = table_of(plugin),
                         after = table_of(choice)](const scene::Scene& s) {
                     return scene::switch_material_type(s, id, type, before, after);
                 });
-            tip(choice.table->tooltip);
+            tip(choice.table->tooltip.c_str());
             e.mark(std::string("material.type.") + choice.table->type);
         }
         ImGui::EndCombo();
@@ -307,27 +293,26 @@ void material_section(PanelContext& e, MaterialId id) {
 
     std::set<std::string> shown; // by the plugin itself
     if (const auto* inspector = plugin ? e.registry().find_inspector(material->type) : nullptr)
-        shown = draw_plugin_inspector(*inspector, {e, id, *material, *plugin, [&](const RestageParam& line) {
+        shown = draw_plugin_inspector(*inspector, {e, id, *material, *plugin, [&](const model::Param& line) {
                                                        param_row(e, id, *material, line);
                                                    }});
     bool advanced = false;
-    for (const RestageParam& line : table_of(plugin)) {
+    for (const model::Param& line : table_of(plugin)) {
         if (shown.contains(line.id)) continue;
-        if (line.flags & RESTAGE_PARAM_ADVANCED)
+        if (line.advanced)
             advanced = true;
         else
             param_row(e, id, *material, line);
     }
-    if (plugin && plugin->table->glsl_file)
-        for (const RestageParam& line : surface_lines)
+    if (plugin && plugin->table->has_code())
+        for (const model::Param& line : model::surface_params())
             param_row(e, id, *material, line);
     if (advanced) {
         const bool unfolded = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_SpanAvailWidth);
         e.mark("material.advanced");
         if (unfolded) {
-            for (const RestageParam& line : table_of(plugin))
-                if ((line.flags & RESTAGE_PARAM_ADVANCED) && !shown.contains(line.id))
-                    param_row(e, id, *material, line);
+            for (const model::Param& line : table_of(plugin))
+                if (line.advanced && !shown.contains(line.id)) param_row(e, id, *material, line);
             ImGui::TreePop();
         }
     }

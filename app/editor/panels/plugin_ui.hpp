@@ -17,10 +17,10 @@ struct PluginUi {
     scene::Id<scene::Material> id;
     const scene::Material& material;
     const plugin::MaterialEntry& plugin;
-    std::function<void(const RestageParam&)> row; // the host's own row of a parameter
+    std::function<void(const model::Param&)> row; // the host's own row of a parameter
 };
 
 // Draws what the plugin has to show. Returns the ids of the parameters it showed.
-std::set<std::string> draw_plugin_inspector(const RestageInspector1& inspector, const PluginUi& ui);
+std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, const PluginUi& ui);
 
 } // namespace restage::editor

@@ -113,8 +113,7 @@ void draw_plugins(PanelContext& e) {
             else
                 ImGui::TextUnformatted(entry->name().c_str());
             ImGui::TableNextColumn();
-            if (!entry->manifest.id.empty())
-                ImGui::TextDisabled("%s", choice_label(plugin::to_string(entry->manifest.kind)).c_str());
+            if (!entry->manifest.id.empty()) ImGui::TextDisabled("%s", choice_label(entry->manifest.kind()).c_str());
             ImGui::TableNextColumn();
             ImGui::TextDisabled("%s", entry->manifest.version.c_str());
             ImGui::TableNextColumn();

@@ -55,7 +55,8 @@ void ask_film(PanelContext& e, const scene::Film& film, const char* label, const
                 scene::Camera fitted = *camera;
                 fitted.frame_aspect = 0;
                 fitted.screen_window.reset();
-                if (camera->projection == RESTAGE_ORTHOGRAPHIC && camera->screen_window) { // it is the scale, too
+                if (camera->projection == scene::Projection::orthographic &&
+                    camera->screen_window) { // it is the scale, too
                     const glm::vec4 w = *camera->screen_window;
                     const float middle = (w.x + w.y) / 2,
                                 half = (w.w - w.z) / 2 * float(film.width) / float(film.height);
@@ -117,23 +118,23 @@ bool projection_rows(PanelContext& e, scene::Camera& camera) {
     int kind = int(camera.projection);
     bool changed = ImGui::Combo("##projection", &kind, kinds, IM_ARRAYSIZE(kinds));
     if (changed) {
-        const bool was_parallel = camera.projection == RESTAGE_ORTHOGRAPHIC;
+        const bool was_parallel = camera.projection == scene::Projection::orthographic;
         // What is in the middle of the picture keeps its size.
         const query::ViewRay ray = query::view_ray(camera, {0.5, 0.5}, e.film_aspect());
         const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
         const double distance = hits.empty() ? 1 : hits[0].t;
-        camera.projection = RestageProjection(kind);
+        camera.projection = scene::Projection(kind);
         if (was_parallel) camera.screen_window.reset();
-        if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
+        if (camera.projection == scene::Projection::orthographic) {
             scene::Camera perspective = camera;
-            perspective.projection = RESTAGE_PERSPECTIVE;
+            perspective.projection = scene::Projection::perspective;
             camera.screen_window = glm::vec4(scene::film_window(perspective, e.film_aspect()) * distance);
         }
     }
     e.mark("camera.projection");
     if (scene::is_spherical(camera)) {
         empty_note("Sees all around. Handles for moving things are off: they would be bent.");
-    } else if (camera.projection == RESTAGE_ORTHOGRAPHIC) {
+    } else if (camera.projection == scene::Projection::orthographic) {
         glm::vec4 window(scene::film_window(camera, e.film_aspect()));
         form_row("Height", "How much of the world is seen, from the picture's lower to its upper edge");
         float height = window.w - window.z;

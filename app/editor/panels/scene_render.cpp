@@ -89,7 +89,7 @@ void denoiser_row(PanelContext& e) {
     };
     choice("Built-in", "");
     for (const plugin::DenoiserEntry& entry : denoisers)
-        choice(entry.table->label, entry.table->type);
+        choice(entry.table->label.c_str(), entry.table->type.c_str());
     ImGui::EndCombo();
 }
 

@@ -138,7 +138,7 @@ void light_with_studio(PanelContext& e) {
 void use_as_sky(PanelContext& e, const std::string& file) {
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
     e.panel_state->loads.start({.path = path,
-                                .encoding = RESTAGE_SRGB,
+                                .encoding = scene::Encoding::srgb,
                                 .done = [&e, path](Result<std::shared_ptr<const scene::PixelData>> pixels) {
                                     if (!pixels) {
                                         e.notices.add(LogLevel::error, pixels.error().message);

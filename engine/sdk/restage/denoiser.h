@@ -18,7 +18,7 @@ typedef enum RestageDenoiseQuality {
 } RestageDenoiseQuality;
 
 typedef struct RestageDenoiseJob {
-    uint32_t size;
+    RESTAGE_SIZE(RestageDenoiseJob);
     uint32_t width, height;
     const float* color;  /* RGB, linear, 3 a pixel, row 0 on top */
     const float* albedo; /* RGB in [0,1], or NULL */
@@ -31,7 +31,7 @@ typedef struct RestageDenoiseJob {
 } RestageDenoiseJob;
 
 typedef struct RestageDenoiser1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageDenoiser1);
     const char* type;  /* "oidn" */
     const char* label; /* "Open Image Denoise 2.5" */
     /* [any] 1 = usable; 0 = not, and *reason is a sentence that lives as long as the plugin. */

@@ -19,8 +19,8 @@ extern "C" {
 #define RESTAGE_EMISSION1 "restage.emission/1"
 
 typedef struct RestageEmission1 {
-    uint32_t size;
-    uint32_t reserved;
+    RESTAGE_SIZE(RestageEmission1);
+    uint32_t reserved; /* 0 */
     const char* type; /* of a material of the same plugin */
     const char* radiance;  /* id of a COLOR parameter of it */
     const char* scale;     /* id of a FLOAT parameter without texture; NULL = 1 */

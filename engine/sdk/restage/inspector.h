@@ -20,7 +20,7 @@ extern "C" {
 /* The widgets. Every function [main], only during draw, with the ctx that draw was given. Text is UTF-8 and copied.
  * An id that is not in the material's table shows nothing, and the host's log says so once. */
 typedef struct RestageUi1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageUi1);
     /* The row the host would make of the parameter: slider, colour, switch, combo, with texture and reset. */
     void (*param)(void* ctx, const char* id);
     /* The parameter is not shown below though no widget shows it now: what stands in a group that is closed. */
@@ -44,8 +44,8 @@ typedef struct RestageUi1 {
     void (*curve)(void* ctx, const char* label, const char* const* ids, uint32_t count);
     /* A small picture, RGB, 3 floats a pixel, linear, row 0 on top. */
     void (*image)(void* ctx, const char* label, const float* rgb, uint32_t width, uint32_t height);
-    /* What a parameter is now (its default where nothing is set). 1 = there is such a one. `out->text` is valid until
-     * the next call. */
+    /* What a parameter is now (its default where nothing is set). 1 = there is such a one. `out->size` is the caller's
+     * to set; `out->text` is valid until the next call. */
     int (*get)(void* ctx, const char* id, RestageValue* out);
     /* Sets parameters together, as one step of undo called `label`: what a choice or a button does. Values are held to
      * the table's types and ranges; those that do not fit are left out and logged. */
@@ -53,7 +53,7 @@ typedef struct RestageUi1 {
 } RestageUi1;
 
 typedef struct RestageInspector1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageInspector1);
     const char* type; /* of a material of the same plugin */
     /* [main] */
     void (*draw)(const RestageUi1* ui, void* ctx);

@@ -42,7 +42,7 @@ enum {
 };
 
 typedef struct RestageMaterial1 {
-    uint32_t size; /* sizeof(RestageMaterial1) as the plugin was built */
+    RESTAGE_SIZE(RestageMaterial1);
     uint32_t flags; /* RESTAGE_MATERIAL_* */
     const char* type; /* "conductor": what scene files and ParamSets call it; unique over all plugins */
     const char* label;

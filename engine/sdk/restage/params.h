@@ -6,7 +6,7 @@
 #ifndef RESTAGE_PARAMS_H
 #define RESTAGE_PARAMS_H
 
-#include <stdint.h>
+#include <restage/plugin.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,8 +15,8 @@ extern "C" {
 typedef enum RestageType {
     RESTAGE_FLOAT = 1,    /* v[0]                                       GLSL float */
     RESTAGE_COLOR = 2,    /* v[0..2], linear sRGB primaries             GLSL vec3  */
-    RESTAGE_INT = 3,      /* v[0], integral                             GLSL int   */
-    RESTAGE_BOOL = 4,     /* v[0], 0 or 1                               GLSL bool  */
+    RESTAGE_INT = 3,      /* i                                          GLSL int   */
+    RESTAGE_BOOL = 4,     /* i, 0 or 1                                  GLSL bool  */
     RESTAGE_ENUM = 5,     /* text = one of the table line's choices     GLSL int, the index of the choice */
     RESTAGE_TEXT = 6,     /* text; not seen by shaders */
     RESTAGE_MATERIAL = 7, /* ref = material handle; not seen by shaders (only the engine's `mix` uses it) */
@@ -29,25 +29,53 @@ enum {
     RESTAGE_PARAM_ADVANCED = 2u    /* folded away in the inspector at first */
 };
 
-/* One line of a parameter table. Strings live as long as the plugin. */
+/* One line of a parameter table; the macros below write it. Strings live as long as the plugin. */
 typedef struct RestageParam {
-    const char* id;      /* lower_snake, unique in the table, a valid GLSL identifier */
-    const char* label;   /* "Roughness" */
-    uint32_t type;       /* RestageType */
-    uint32_t flags;      /* RESTAGE_PARAM_* */
-    float min, max;      /* of each component; also the fuzz range; INT and FLOAT and COLOR */
-    float def[4];        /* default; ENUM: def[0] = index of the choice */
-    const char* unit;    /* "", "deg", "m", "1/m" */
+    RESTAGE_SIZE(RestageParam);
+    uint32_t type;            /* RestageType */
+    uint32_t flags;           /* RESTAGE_PARAM_* */
+    int32_t int_min, int_max; /* INT; also the fuzz range */
+    int32_t int_def;          /* default: INT; BOOL: 0 or 1; ENUM: index of the choice */
+    float min, max;           /* FLOAT, COLOR: of each component; also the fuzz range */
+    float def[4];             /* default: FLOAT, COLOR */
+    const char* id;           /* lower_snake, unique in the table, a valid GLSL identifier */
+    const char* label;        /* "Roughness" */
+    const char* unit;         /* "", "deg", "m", "1/m" */
     const char* choices; /* ENUM: "ggx|beckmann". TABLE: the default, a file of the plugin's folder; NULL = none */
     const char* tooltip; /* one sentence */
 } RestageParam;
 
-/* A value on its way through the ABI. `texture`, when not 0, stands for v. */
+/* clang-format off */
+#define RESTAGE_FLOAT_PARAM(id, label, min, max, value, flags, unit, tooltip) \
+    {sizeof(RestageParam), RESTAGE_FLOAT, flags, 0, 0, 0, min, max, {value}, id, label, unit, NULL, tooltip}
+#define RESTAGE_COLOR_PARAM(id, label, min, max, red, green, blue, flags, unit, tooltip) \
+    {sizeof(RestageParam), RESTAGE_COLOR, flags, 0, 0, 0, min, max, {red, green, blue}, id, label, unit, NULL, tooltip}
+#define RESTAGE_INT_PARAM(id, label, min, max, value, flags, unit, tooltip) \
+    {sizeof(RestageParam), RESTAGE_INT, flags, min, max, value, 0, 0, {0}, id, label, unit, NULL, tooltip}
+#define RESTAGE_BOOL_PARAM(id, label, value, flags, tooltip) \
+    {sizeof(RestageParam), RESTAGE_BOOL, flags, 0, 1, value, 0, 0, {0}, id, label, "", NULL, tooltip}
+/* value: the index of the default among the choices "ggx|beckmann" */
+#define RESTAGE_ENUM_PARAM(id, label, choices, value, flags, tooltip) \
+    {sizeof(RestageParam), RESTAGE_ENUM, flags, 0, 0, value, 0, 0, {0}, id, label, "", choices, tooltip}
+#define RESTAGE_TEXT_PARAM(id, label, flags, tooltip) \
+    {sizeof(RestageParam), RESTAGE_TEXT, flags, 0, 0, 0, 0, 0, {0}, id, label, "", NULL, tooltip}
+#define RESTAGE_MATERIAL_PARAM(id, label, flags, tooltip) \
+    {sizeof(RestageParam), RESTAGE_MATERIAL, flags, 0, 0, 0, 0, 0, {0}, id, label, "", NULL, tooltip}
+#define RESTAGE_TEXTURE_PARAM(id, label, flags, tooltip) \
+    {sizeof(RestageParam), RESTAGE_TEXTURE, flags, 0, 0, 0, 0, 0, {0}, id, label, "", NULL, tooltip}
+/* file: the default, in the plugin's folder; NULL = none */
+#define RESTAGE_TABLE_PARAM(id, label, file, flags, tooltip) \
+    {sizeof(RestageParam), RESTAGE_TABLE, flags, 0, 0, 0, 0, 0, {0}, id, label, "", file, tooltip}
+/* clang-format on */
+
+/* A value on its way through the ABI. `ref`, when it is a texture, stands for v. */
 typedef struct RestageValue {
-    const char* id;
+    RESTAGE_SIZE(RestageValue);
     uint32_t type; /* RestageType */
-    uint32_t ref;  /* handle of a texture (any texturable type, TEXTURE) or of a material (MATERIAL); 0 = none */
-    float v[4];
+    const char* id;
+    uint32_t ref; /* handle of a texture (any texturable type, TEXTURE) or of a material (MATERIAL); 0 = none */
+    int32_t i; /* INT, BOOL */
+    float v[4]; /* FLOAT, COLOR */
     const char* text; /* ENUM, TEXT, TABLE; else NULL */
 } RestageValue;
 

@@ -3,7 +3,7 @@
 // crosses the ABI; a plugin in C does without.
 #pragma once
 
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <array>
 
 namespace restage::sdk {
@@ -16,14 +16,12 @@ struct ParamText {
 };
 
 namespace detail {
-consteval RestageParam line(const char* id, const char* label, RestageType type, float min, float max, ParamText text) {
+consteval RestageParam line(const char* id, const char* label, RestageType type, ParamText text) {
     RestageParam p{};
     p.id = id;
     p.label = label;
     p.type = type;
     p.flags = (text.texturable ? RESTAGE_PARAM_TEXTURABLE : 0u) | (text.advanced ? RESTAGE_PARAM_ADVANCED : 0u);
-    p.min = min;
-    p.max = max;
     p.unit = text.unit;
     p.tooltip = text.tooltip;
     return p;
@@ -33,26 +31,30 @@ consteval RestageParam line(const char* id, const char* label, RestageType type,
 // A default out of range does not compile.
 consteval RestageParam number(const char* id, const char* label, float min, float max, float value,
                               ParamText text = {}) {
-    RestageParam p = detail::line(id, label, RESTAGE_FLOAT, min, max, text);
+    RestageParam p = detail::line(id, label, RESTAGE_FLOAT, text);
+    p.min = min, p.max = max;
     p.def[0] = value >= min && value <= max ? value : throw "the default is out of its range";
     return p;
 }
 consteval RestageParam integer(const char* id, const char* label, int min, int max, int value, ParamText text = {}) {
-    RestageParam p = detail::line(id, label, RESTAGE_INT, static_cast<float>(min), static_cast<float>(max), text);
-    p.def[0] = value >= min && value <= max ? static_cast<float>(value) : throw "the default is out of its range";
+    RestageParam p = detail::line(id, label, RESTAGE_INT, text);
+    p.int_min = min, p.int_max = max;
+    p.int_def = value >= min && value <= max ? value : throw "the default is out of its range";
     return p;
 }
 // Linear sRGB primaries, each in [0, max].
 consteval RestageParam color(const char* id, const char* label, std::array<float, 3> value, ParamText text = {},
                              float max = 1) {
-    RestageParam p = detail::line(id, label, RESTAGE_COLOR, 0, max, text);
+    RestageParam p = detail::line(id, label, RESTAGE_COLOR, text);
+    p.max = max;
     for (int i = 0; i < 3; ++i)
         p.def[i] = value[i] >= 0 && value[i] <= max ? value[i] : throw "the default is out of its range";
     return p;
 }
 consteval RestageParam toggle(const char* id, const char* label, bool value, ParamText text = {}) {
-    RestageParam p = detail::line(id, label, RESTAGE_BOOL, 0, 1, text);
-    p.def[0] = value ? 1 : 0;
+    RestageParam p = detail::line(id, label, RESTAGE_BOOL, text);
+    p.int_max = 1;
+    p.int_def = value ? 1 : 0;
     return p;
 }
 // `choices`: "ggx|beckmann"; `value`: the index of the default.
@@ -60,15 +62,15 @@ consteval RestageParam choice(const char* id, const char* label, const char* cho
     int count = 1;
     for (const char* c = choices; *c; ++c)
         count += *c == '|';
-    RestageParam p = detail::line(id, label, RESTAGE_ENUM, 0, static_cast<float>(count - 1), text);
+    RestageParam p = detail::line(id, label, RESTAGE_ENUM, text);
     p.choices = choices;
-    p.def[0] = value >= 0 && value < count ? static_cast<float>(value) : throw "the default is no choice";
+    p.int_def = value >= 0 && value < count ? value : throw "the default is no choice";
     return p;
 }
 
 // `file`: the default, in the plugin's folder; nullptr = none.
 consteval RestageParam table_file(const char* id, const char* label, const char* file, ParamText text = {}) {
-    RestageParam p = detail::line(id, label, RESTAGE_TABLE, 0, 0, text);
+    RestageParam p = detail::line(id, label, RESTAGE_TABLE, text);
     p.choices = file;
     return p;
 }

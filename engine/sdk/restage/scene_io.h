@@ -210,7 +210,7 @@ typedef struct RestageDecodedImage {
 /* Where an importer writes. Every function [worker], one thread at a time; data is copied before it returns.
  * A returned handle of 0 means the host refused (out of memory, invalid data) and has noted why: go on or give up. */
 typedef struct RestageSceneWriter1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageSceneWriter1);
     void* ctx;
     RestageHandle (*mesh)(void* ctx, const RestageMesh*);
     RestageHandle (*image)(void* ctx, const RestageImage*);
@@ -245,7 +245,7 @@ typedef struct RestageSceneWriter1 {
 } RestageSceneWriter1;
 
 typedef struct RestageImporter1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageImporter1);
     const char* format; /* "pbrt" */
     const char* label; /* "pbrt scene (v3, v4)" */
     const char* extensions; /* "pbrt|gz" without dots, '|' between */
@@ -269,7 +269,7 @@ typedef enum RestageKind {
     RESTAGE_KIND_CAMERA
 } RestageKind;
 typedef struct RestageSceneReader1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageSceneReader1);
     void* ctx;
     uint32_t (*count)(void* ctx, uint32_t kind);
     int (*mesh)(void* ctx, RestageHandle, RestageMesh*);
@@ -292,7 +292,7 @@ typedef struct RestageSceneReader1 {
 } RestageSceneReader1;
 
 typedef struct RestageExporter1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageExporter1);
     const char* format;
     const char* label;
     const char* extensions;

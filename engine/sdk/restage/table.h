@@ -25,7 +25,7 @@ extern "C" {
 
 /* The file, and where its words go: the host's. [worker] Every function, only during read, on its thread. */
 typedef struct RestageTableFile1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageTableFile1);
     uint32_t reserved;
     void* ctx;
     const char* path; /* for nobody but messages */
@@ -44,7 +44,7 @@ typedef struct RestageTableFile1 {
 } RestageTableFile1;
 
 typedef struct RestageTable1 {
-    uint32_t size;
+    RESTAGE_SIZE(RestageTable1);
     const char* type; /* of a material of the same plugin, which has a RESTAGE_TABLE */
     const char* extensions; /* "binary|dat", without dots: what the file browser offers at first */
     /* [worker] Of any file, however broken. One call at a time. 1 = the words are complete; 0 = refused: error() has

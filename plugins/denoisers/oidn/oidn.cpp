@@ -14,8 +14,6 @@
 #include <string>
 #include <vector>
 
-extern "C" RESTAGE_EXPORT const RestagePlugin restage_plugin;
-
 namespace {
 
 using namespace oidn;
@@ -235,16 +233,6 @@ constexpr RestageDenoiser1 denoiser{.size = sizeof(RestageDenoiser1),
                                     .available = available,
                                     .run = run};
 
-const void* query(const char* id, uint32_t index) {
-    return index == 0 && std::strcmp(id, RESTAGE_DENOISER1) == 0 ? &denoiser : nullptr;
-}
-
 } // namespace
 
-extern "C" const RestagePlugin restage_plugin{.abi = RESTAGE_ABI,
-                                              .size = sizeof(RestagePlugin),
-                                              .id = "org.restage.denoiser.oidn",
-                                              .version = "0.1.0",
-                                              .init = nullptr,
-                                              .shutdown = shutdown,
-                                              .query = query};
+RESTAGE_PLUGIN_INIT("org.restage.denoiser.oidn", "0.1.0", nullptr, shutdown, {RESTAGE_DENOISER1, &denoiser})

@@ -9,13 +9,19 @@ namespace restage::pbrt_out {
 
 const RestageValue* Values::find(std::string_view id) const {
     for (std::uint32_t i = 0; i < count_; ++i)
-        if (values_[i].id == id) return &values_[i];
+        if (const RestageValue& v = RESTAGE_AT(RestageValue, values_, i); v.id == id) return &v;
     return nullptr;
+}
+
+int Values::integer(std::string_view id, int otherwise) const {
+    const RestageValue* v = find(id);
+    return v ? v->i : otherwise;
 }
 
 float Values::number(std::string_view id, float otherwise) const {
     const RestageValue* v = find(id);
-    return v ? v->v[0] : otherwise;
+    if (!v) return otherwise;
+    return v->type == RESTAGE_INT || v->type == RESTAGE_BOOL ? static_cast<float>(v->i) : v->v[0];
 }
 
 std::string Values::choice(std::string_view id, const char* otherwise) const {

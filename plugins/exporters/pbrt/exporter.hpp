@@ -29,7 +29,8 @@ class Values {
     Values(const RestageValue* values, std::uint32_t count) : values_(values), count_(count) {}
     const RestageValue* find(std::string_view id) const;
     float number(std::string_view id, float otherwise) const;
-    bool boolean(std::string_view id, bool otherwise) const { return number(id, otherwise ? 1.f : 0.f) != 0; }
+    int integer(std::string_view id, int otherwise) const; // a boolean, too
+    bool boolean(std::string_view id, bool otherwise) const { return integer(id, otherwise) != 0; }
     std::string choice(std::string_view id, const char* otherwise) const;
     std::array<float, 3> color(std::string_view id, std::array<float, 3> otherwise) const;
     RestageHandle ref(std::string_view id) const;

@@ -2,34 +2,16 @@
 // The exporter's table, its options, and the border that no exception crosses.
 #include "exporter.hpp"
 
-#include <cstring>
-
 namespace restage::pbrt_out {
 
 namespace {
 
 const RestageParam options[] = {
-    {"version", "pbrt version", RESTAGE_ENUM, 0, 0, 0, {0}, "", "v4|v3", "Which pbrt the file is for."},
-    {"textures",
-     "Textures",
-     RESTAGE_ENUM,
-     0,
-     0,
-     0,
-     {0},
-     "",
-     "copy|relative|absolute",
-     "Copy image files beside the scene, or name them where they are."},
-    {"meshes",
-     "Meshes",
-     RESTAGE_ENUM,
-     0,
-     0,
-     0,
-     {0},
-     "",
-     "write|reference",
-     "Write heavy meshes beside the scene, or name the PLY files they came from."},
+    RESTAGE_ENUM_PARAM("version", "pbrt version", "v4|v3", 0, 0, "Which pbrt the file is for."),
+    RESTAGE_ENUM_PARAM("textures", "Textures", "copy|relative|absolute", 0, 0,
+                       "Copy image files beside the scene, or name them where they are."),
+    RESTAGE_ENUM_PARAM("meshes", "Meshes", "write|reference", 0, 0,
+                       "Write heavy meshes beside the scene, or name the PLY files they came from."),
 };
 
 Options read_options(const RestageValue* values, std::uint32_t count) {
@@ -58,20 +40,15 @@ int save(const char* path, const RestageSceneReader1* in, const RestageValue* va
     return 0;
 }
 
-const RestageExporter1 table = {sizeof(RestageExporter1),           "pbrt", "pbrt scene (v4, v3)", "pbrt", options,
-                                sizeof options / sizeof options[0], save};
-
-const void* query(const char* id, std::uint32_t index) {
-    return index == 0 && std::strcmp(id, RESTAGE_EXPORTER1) == 0 ? &table : nullptr;
-}
+const RestageExporter1 table = {.format = "pbrt",
+                                .label = "pbrt scene (v4, v3)",
+                                .extensions = "pbrt",
+                                .options = options,
+                                .option_count = RESTAGE_COUNT(options),
+                                .save = save};
 
 } // namespace
 
 } // namespace restage::pbrt_out
 
-extern "C" {
-RESTAGE_EXPORT extern const RestagePlugin restage_plugin;
-const RestagePlugin restage_plugin = {
-    RESTAGE_ABI, sizeof(RestagePlugin),   "org.restage.exporter.pbrt", "0.1.0", nullptr,
-    nullptr,     restage::pbrt_out::query};
-}
+RESTAGE_PLUGIN("org.restage.exporter.pbrt", "0.1.0", {RESTAGE_EXPORTER1, &restage::pbrt_out::table})

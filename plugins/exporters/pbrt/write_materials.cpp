@@ -92,15 +92,15 @@ void Exporter::put_for_plugin(const std::string& name, const RestageMaterialDesc
     Params params;
     params.add_string("plugin", m.type);
     std::vector<const RestageValue*> sorted;
-    for (const RestageValue* v = m.values; v != m.values + m.value_count; ++v)
-        sorted.push_back(v);
+    for (std::uint32_t i = 0; i < m.value_count; ++i)
+        sorted.push_back(&RESTAGE_AT(RestageValue, m.values, i));
     std::sort(sorted.begin(), sorted.end(),
               [](const auto* a, const auto* b) { return std::string_view(a->id) < b->id; });
     for (const RestageValue* v : sorted) {
         if (v->type == RESTAGE_FLOAT) put_float(params, values, v->id, v->id, 0);
         if (v->type == RESTAGE_COLOR) put_color(params, values, v->id, v->id, {0, 0, 0}, false);
-        if (v->type == RESTAGE_INT) params.add_int(v->id, static_cast<long long>(v->v[0]));
-        if (v->type == RESTAGE_BOOL) flag(params, v->id, v->v[0] != 0);
+        if (v->type == RESTAGE_INT) params.add_int(v->id, v->i);
+        if (v->type == RESTAGE_BOOL) flag(params, v->id, v->i != 0);
         if ((v->type == RESTAGE_ENUM || v->type == RESTAGE_TABLE) && v->text && *v->text)
             params.add_string(v->id, v->text);
     }

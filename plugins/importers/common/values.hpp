@@ -14,25 +14,21 @@ using Rgb = std::array<double, 3>; // linear sRGB primaries
 class Values {
   public:
     void number(const char* id, double value) {
-        values_.push_back({id, RESTAGE_FLOAT, 0, {static_cast<float>(value), 0, 0, 0}, nullptr});
+        values_.push_back({.type = RESTAGE_FLOAT, .id = id, .v = {static_cast<float>(value)}});
     }
-    void integer(const char* id, int value) {
-        values_.push_back({id, RESTAGE_INT, 0, {static_cast<float>(value), 0, 0, 0}, nullptr});
-    }
-    void boolean(const char* id, bool value) {
-        values_.push_back({id, RESTAGE_BOOL, 0, {value ? 1.f : 0.f, 0, 0, 0}, nullptr});
-    }
+    void integer(const char* id, int value) { values_.push_back({.type = RESTAGE_INT, .id = id, .i = value}); }
+    void boolean(const char* id, bool value) { values_.push_back({.type = RESTAGE_BOOL, .id = id, .i = value}); }
     void color(const char* id, const Rgb& c) {
-        values_.push_back({id,
-                           RESTAGE_COLOR,
-                           0,
-                           {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]), 0},
-                           nullptr});
+        values_.push_back({.type = RESTAGE_COLOR,
+                           .id = id,
+                           .v = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])}});
     }
-    void choice(const char* id, const char* value) { values_.push_back({id, RESTAGE_ENUM, 0, {}, value}); }
+    void choice(const char* id, const char* value) {
+        values_.push_back({.type = RESTAGE_ENUM, .id = id, .text = value});
+    }
     // A texture stands for a value of that type; RESTAGE_TEXTURE: a slot without a constant.
     void texture(const char* id, RestageType type, std::uint32_t handle) {
-        values_.push_back({id, static_cast<std::uint32_t>(type), handle, {}, nullptr});
+        values_.push_back({.type = static_cast<std::uint32_t>(type), .id = id, .ref = handle});
     }
     const RestageValue* data() const { return values_.data(); }
     std::uint32_t size() const { return static_cast<std::uint32_t>(values_.size()); }

@@ -2,7 +2,7 @@
 // Entry point of the importer of PLY and STL files.
 #include "load.hpp"
 
-#include <restage/importer_plugin.h>
+#include <restage/scene_io.h>
 
 static const RestageImporter1 importer = {
     .size = sizeof(RestageImporter1),
@@ -13,4 +13,4 @@ static const RestageImporter1 importer = {
     .load = restage::mesh::load,
 };
 
-RESTAGE_IMPORTER_PLUGIN("org.restage.importer.mesh", "0.1.0", importer)
+RESTAGE_PLUGIN("org.restage.importer.mesh", "0.1.0", {RESTAGE_IMPORTER1, &importer})

@@ -27,10 +27,8 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
     const RestageParam* lines = import_.out.material_table(import_.out.ctx, type.c_str(), &count);
     if (!lines || (type == "measured" && is_rgl(d))) return false;
     plugin = type;
-    const auto least = [](const RestageParam& line, double v) {
-        return std::clamp(v, static_cast<double>(line.min), static_cast<double>(line.max));
-    };
-    for (const RestageParam* line = lines; line != lines + count; ++line) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const RestageParam* line = &RESTAGE_AT(RestageParam, lines, i);
         if (!d.params.has(line->id)) continue;
         switch (line->type) {
             case RESTAGE_FLOAT:
@@ -41,7 +39,7 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
                           {line->def[0], line->def[1], line->def[2]});
                 break;
             case RESTAGE_INT:
-                values.integer(line->id, static_cast<int>(least(*line, d.params.integer(line->id, 0))));
+                values.integer(line->id, std::clamp(d.params.integer(line->id, 0), line->int_min, line->int_max));
                 break;
             case RESTAGE_BOOL:
                 values.boolean(line->id, d.params.boolean(line->id, false));

@@ -8,30 +8,26 @@
 namespace restage::pbrt {
 
 void Values::number(const char* id, double value) {
-    values_.push_back({.id = id, .type = RESTAGE_FLOAT, .v = {static_cast<float>(value)}});
+    values_.push_back({.type = RESTAGE_FLOAT, .id = id, .v = {static_cast<float>(value)}});
 }
-void Values::integer(const char* id, int value) {
-    values_.push_back({.id = id, .type = RESTAGE_INT, .v = {static_cast<float>(value)}});
-}
-void Values::boolean(const char* id, bool value) {
-    values_.push_back({.id = id, .type = RESTAGE_BOOL, .v = {value ? 1.f : 0.f}});
-}
+void Values::integer(const char* id, int value) { values_.push_back({.type = RESTAGE_INT, .id = id, .i = value}); }
+void Values::boolean(const char* id, bool value) { values_.push_back({.type = RESTAGE_BOOL, .id = id, .i = value}); }
 void Values::color(const char* id, Rgb c) {
-    values_.push_back({.id = id,
-                       .type = RESTAGE_COLOR,
+    values_.push_back({.type = RESTAGE_COLOR,
+                       .id = id,
                        .v = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1.f}});
 }
 void Values::choice(const char* id, const char* value) {
-    values_.push_back({.id = id, .type = RESTAGE_ENUM, .text = value});
+    values_.push_back({.type = RESTAGE_ENUM, .id = id, .text = value});
 }
 void Values::table(const char* id, std::string path) {
-    values_.push_back({.id = id, .type = RESTAGE_TABLE, .text = paths_.emplace_back(std::move(path)).c_str()});
+    values_.push_back({.type = RESTAGE_TABLE, .id = id, .text = paths_.emplace_back(std::move(path)).c_str()});
 }
 void Values::texture(const char* id, RestageType type, RestageHandle handle) {
-    values_.push_back({.id = id, .type = static_cast<std::uint32_t>(type), .ref = handle});
+    values_.push_back({.type = static_cast<std::uint32_t>(type), .id = id, .ref = handle});
 }
 void Values::material(const char* id, RestageHandle handle) {
-    values_.push_back({.id = id, .type = RESTAGE_MATERIAL, .ref = handle});
+    values_.push_back({.type = RESTAGE_MATERIAL, .id = id, .ref = handle});
 }
 
 void Import::report(RestageFate fate, Location at, std::string what, std::string note) {

@@ -2,7 +2,7 @@
 // Entry point of the importer of pbrt scenes.
 #include "load.hpp"
 
-#include <restage/importer_plugin.h>
+#include <restage/scene_io.h>
 
 static const RestageImporter1 importer = {
     .size = sizeof(RestageImporter1),
@@ -13,4 +13,4 @@ static const RestageImporter1 importer = {
     .load = restage::pbrt::load,
 };
 
-RESTAGE_IMPORTER_PLUGIN("org.restage.importer.pbrt", "0.1.0", importer)
+RESTAGE_PLUGIN("org.restage.importer.pbrt", "0.1.0", {RESTAGE_IMPORTER1, &importer})

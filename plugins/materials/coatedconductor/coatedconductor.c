@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Coated metal: the parameter table; the physics is in coatedconductor.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
@@ -27,4 +27,4 @@ static const RestageMaterial1 material = {
     .tooltip = "Metal under a clear coat: lacquered brass, car paint.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.coatedconductor", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.coatedconductor", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Coated diffuse: the parameter table; the physics is in coateddiffuse.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"reflectance", "Reflectance", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Of the base under the coat."},
+    RESTAGE_COLOR_PARAM("reflectance", "Reflectance", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Of the base under the coat."),
     RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0),
     RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0),
     RESTAGE_ROW_REMAP(0),
@@ -25,4 +25,4 @@ static const RestageMaterial1 material = {
     .tooltip = "Matte colour under a clear coat: varnished wood, ceramics, plastic.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.coateddiffuse", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.coateddiffuse", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -2,7 +2,8 @@
 /* Metal: the parameter table; the physics is in conductor.glsl, formulas and sources in README.md. */
 #include "inspector.h"
 
-#include <restage/material_plugin.h>
+#include <restage/inspector.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
@@ -28,4 +29,5 @@ static const RestageMaterial1 material = {
     .tooltip = "A metal, given by its optical constants or by a colour.",
 };
 
-RESTAGE_MATERIAL_PLUGIN_UI("org.restage.material.conductor", "0.1.0", material, conductor_inspector)
+RESTAGE_PLUGIN("org.restage.material.conductor", "0.1.0", {RESTAGE_MATERIAL1, &material},
+               {RESTAGE_INSPECTOR1, &conductor_inspector})

@@ -43,7 +43,8 @@ static float reflectance(float cos_i, float eta, float k) {
 static void draw(const RestageUi1* ui, void* ctx) {
     const char* names[metal_count + 1];
     float curves[3 * angles];
-    RestageValue eta, k, tint, use;
+    RestageValue eta = {.size = sizeof eta}, k = {.size = sizeof k};
+    RestageValue tint = {.size = sizeof tint}, use = {.size = sizeof use};
     int i, c, current = -1, chosen;
     if (!ui->get(ctx, "eta", &eta) || !ui->get(ctx, "k", &k) || !ui->get(ctx, "reflectance", &tint) ||
         !ui->get(ctx, "use_reflectance", &use))
@@ -53,10 +54,10 @@ static void draw(const RestageUi1* ui, void* ctx) {
         if (same(eta.v, metals[i].eta) && same(k.v, metals[i].k)) current = i;
     }
     names[a_color] = "By its colour";
-    if (use.v[0] != 0) current = a_color;
+    if (use.i != 0) current = a_color;
     chosen = ui->combo(ctx, "Metal", names, metal_count + 1, current);
     if (chosen == a_color) {
-        use.v[0] = 1;
+        use.i = 1;
         ui->set(ctx, "Metal by its colour", &use, 1);
     } else if (chosen >= 0) {
         RestageValue values[3];
@@ -66,7 +67,7 @@ static void draw(const RestageUi1* ui, void* ctx) {
             values[0].v[c] = metals[chosen].eta[c];
             values[1].v[c] = metals[chosen].k[c];
         }
-        values[2].v[0] = 0;
+        values[2].i = 0;
         ui->set(ctx, metals[chosen].name, values, 3);
     }
     for (i = 0; i < angles; ++i) {
@@ -74,11 +75,11 @@ static void draw(const RestageUi1* ui, void* ctx) {
         for (c = 0; c < 3; ++c) {
             const float r = fminf(fmaxf(tint.v[c], 0), 0.9999f);
             curves[c * angles + i] =
-                use.v[0] != 0 ? reflectance(cos_i, 1, 2 * sqrtf(r / (1 - r))) : reflectance(cos_i, eta.v[c], k.v[c]);
+                use.i != 0 ? reflectance(cos_i, 1, 2 * sqrtf(r / (1 - r))) : reflectance(cos_i, eta.v[c], k.v[c]);
         }
     }
     ui->plot(ctx, "Reflectance from head on to grazing [deg]", curves, angles, 3, 0, 90, 0, 1);
-    if (use.v[0] != 0) ui->param(ctx, "reflectance");
+    if (use.i != 0) ui->param(ctx, "reflectance");
     ui->hide(ctx, "eta");
     ui->hide(ctx, "k");
     ui->hide(ctx, "reflectance");
@@ -86,7 +87,7 @@ static void draw(const RestageUi1* ui, void* ctx) {
     if (ui->begin_group(ctx, "Optical constants")) {
         ui->param(ctx, "eta");
         ui->param(ctx, "k");
-        if (use.v[0] == 0) ui->param(ctx, "reflectance");
+        if (use.i == 0) ui->param(ctx, "reflectance");
         ui->param(ctx, "use_reflectance");
         ui->end_group(ctx);
     }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Glass: the parameter table; the physics is in dielectric.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"eta", "Index of refraction", RESTAGE_FLOAT, 0, 1, 3, {1.5f}, "", NULL, "Inside relative to outside: water 1.33, glass 1.5, diamond 2.4."},
+    RESTAGE_FLOAT_PARAM("eta", "Index of refraction", 1, 3, 1.5f, 0, "", "Inside relative to outside: water 1.33, glass 1.5, diamond 2.4."),
     RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0),
     RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0),
     RESTAGE_ROW_REMAP(0),
     RESTAGE_ROW_DISTRIBUTION,
-    {"reflectance", "Reflection tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what is reflected; white is physical."},
-    {"transmittance", "Transmission tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what is transmitted; white is physical."},
-    {"thin", "Thin", RESTAGE_BOOL, 0, 0, 1, {0}, "", NULL, "A pane without thickness: light passes straight on; roughness does not apply."},
+    RESTAGE_COLOR_PARAM("reflectance", "Reflection tint", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Multiplies what is reflected; white is physical."),
+    RESTAGE_COLOR_PARAM("transmittance", "Transmission tint", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Multiplies what is transmitted; white is physical."),
+    RESTAGE_BOOL_PARAM("thin", "Thin", 0, 0, "A pane without thickness: light passes straight on; roughness does not apply."),
     RESTAGE_ROW_MULTISCATTER,
 };
 /* clang-format on */
@@ -29,4 +29,4 @@ static const RestageMaterial1 material = {
     .tooltip = "Glass, water, clear plastic; smooth, rough or thin.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.dielectric", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.dielectric", "0.1.0", {RESTAGE_MATERIAL1, &material})

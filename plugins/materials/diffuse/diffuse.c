@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Diffuse: the parameter table; the physics is in diffuse.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"reflectance", "Reflectance", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Share of the light that is reflected."},
-    {"sigma", "Roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 90, {0}, "deg", NULL, "Spread of the facets of a rough matte surface such as clay (Oren-Nayar); 0 is Lambert."},
+    RESTAGE_COLOR_PARAM("reflectance", "Reflectance", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Share of the light that is reflected."),
+    RESTAGE_FLOAT_PARAM("sigma", "Roughness", 0, 90, 0, RESTAGE_PARAM_TEXTURABLE, "deg", "Spread of the facets of a rough matte surface such as clay (Oren-Nayar); 0 is Lambert."),
 };
 /* clang-format on */
 
@@ -21,4 +21,4 @@ static const RestageMaterial1 material = {
     .tooltip = "A matte surface: paint, paper, plaster.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.diffuse", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.diffuse", "0.1.0", {RESTAGE_MATERIAL1, &material})

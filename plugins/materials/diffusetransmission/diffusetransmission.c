@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Diffuse sheet: the parameter table; the physics is in diffusetransmission.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"reflectance", "Reflectance", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Share of the light that is scattered back."},
-    {"transmittance", "Transmittance", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Share of the light that is scattered through."},
+    RESTAGE_COLOR_PARAM("reflectance", "Reflectance", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Share of the light that is scattered back."),
+    RESTAGE_COLOR_PARAM("transmittance", "Transmittance", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Share of the light that is scattered through."),
 };
 /* clang-format on */
 
@@ -21,4 +21,4 @@ static const RestageMaterial1 material = {
     .tooltip = "A thin sheet that lets diffuse light through: paper, leaf, curtain.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.diffusetransmission", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.diffusetransmission", "0.1.0", {RESTAGE_MATERIAL1, &material})

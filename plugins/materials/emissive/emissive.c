@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Emissive: a surface that shines. The host makes lights of what has it; see restage/emission.h and README.md. */
-#include <restage/material_plugin.h>
+#include <restage/emission.h>
+#include <restage/material.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"radiance", "Colour", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Colour of the light; a picture makes a screen or a lit sign of it."},
-    {"scale", "Brightness", RESTAGE_FLOAT, 0, 0, 1000, {10}, "W/(m²sr)", NULL, "Radiance where the colour is 1: the same from near and from far."},
-    {"two_sided", "Two-sided", RESTAGE_BOOL, 0, 0, 1, {0}, "", NULL, "Shines from the back of its surface, too."},
-    {"reflectance", "Reflectance", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0, 0, 0}, "", NULL, "Share of other light that it reflects, as a matte surface."},
+    RESTAGE_COLOR_PARAM("radiance", "Colour", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Colour of the light; a picture makes a screen or a lit sign of it."),
+    RESTAGE_FLOAT_PARAM("scale", "Brightness", 0, 1000, 10, 0, "W/(m²sr)", "Radiance where the colour is 1: the same from near and from far."),
+    RESTAGE_BOOL_PARAM("two_sided", "Two-sided", 0, 0, "Shines from the back of its surface, too."),
+    RESTAGE_COLOR_PARAM("reflectance", "Reflectance", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "Share of other light that it reflects, as a matte surface."),
 };
 /* clang-format on */
 
@@ -30,4 +31,4 @@ static const RestageEmission1 emission = {
     .two_sided = "two_sided",
 };
 
-RESTAGE_MATERIAL_PLUGIN_EMISSION("org.restage.material.emissive", "0.1.0", material, emission)
+RESTAGE_PLUGIN("org.restage.material.emissive", "0.1.0", {RESTAGE_MATERIAL1, &material}, {RESTAGE_EMISSION1, &emission})

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Interface: the parameter table is all there is; the engine acts on the flag. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 static const RestageMaterial1 material = {
     .size = sizeof(RestageMaterial1),
@@ -10,4 +10,4 @@ static const RestageMaterial1 material = {
     .tooltip = "No surface at all: the border of a medium.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.interface", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.interface", "0.1.0", {RESTAGE_MATERIAL1, &material})

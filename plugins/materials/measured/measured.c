@@ -3,12 +3,13 @@
  */
 #include "merl.h"
 
-#include <restage/material_plugin.h>
+#include <restage/material.h>
+#include <restage/table.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"filename", "File", RESTAGE_TABLE, 0, 0, 0, {0}, "", "glossy_paint.binary", "Reflection as it was measured: a file of the MERL BRDF database (.binary)."},
-    {"tint", "Tint", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {1, 1, 1}, "", NULL, "Multiplies what was measured."},
+    RESTAGE_TABLE_PARAM("filename", "File", "glossy_paint.binary", 0, "Reflection as it was measured: a file of the MERL BRDF database (.binary)."),
+    RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Multiplies what was measured."),
 };
 /* clang-format on */
 
@@ -27,4 +28,4 @@ static const RestageMaterial1 material = {
 static const RestageTable1 reader = {
     .size = sizeof(RestageTable1), .type = "measured", .extensions = "binary", .read = merl_read};
 
-RESTAGE_MATERIAL_PLUGIN_TABLE("org.restage.material.measured", "0.1.0", material, reader)
+RESTAGE_PLUGIN("org.restage.material.measured", "0.1.0", {RESTAGE_MATERIAL1, &material}, {RESTAGE_TABLE1, &reader})

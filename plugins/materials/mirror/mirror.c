@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Mirror: the parameter table; the physics is in mirror.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"kr", "Reflectance", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.9f, 0.9f, 0.9f}, "", NULL, "Share of the light that is reflected."},
+    RESTAGE_COLOR_PARAM("kr", "Reflectance", 0, 1, 0.9f, 0.9f, 0.9f, RESTAGE_PARAM_TEXTURABLE, "", "Share of the light that is reflected."),
 };
 /* clang-format on */
 
@@ -20,4 +20,4 @@ static const RestageMaterial1 material = {
     .tooltip = "A perfect mirror.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.mirror", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.mirror", "0.1.0", {RESTAGE_MATERIAL1, &material})

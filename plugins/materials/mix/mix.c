@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Mix: the parameter table is all there is; the engine acts on the flag. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"first", "First", RESTAGE_MATERIAL, 0, 0, 0, {0}, "", NULL, "Where the amount is 0."},
-    {"second", "Second", RESTAGE_MATERIAL, 0, 0, 0, {0}, "", NULL, "Where the amount is 1."},
-    {"amount", "Amount", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f}, "", NULL, "Share of the second material."},
+    RESTAGE_MATERIAL_PARAM("first", "First", 0, "Where the amount is 0."),
+    RESTAGE_MATERIAL_PARAM("second", "Second", 0, "Where the amount is 1."),
+    RESTAGE_FLOAT_PARAM("amount", "Amount", 0, 1, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Share of the second material."),
 };
 /* clang-format on */
 
@@ -20,4 +20,4 @@ static const RestageMaterial1 material = {
     .tooltip = "A share of two materials, point by point.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.mix", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.mix", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Plastic (v3): the parameter table; the physics is in plastic.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"kd", "Diffuse", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Reflectance of the matte part."},
-    {"ks", "Specular", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Scale of the glossy part."},
-    {"roughness", "Roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Of the glossy part."},
+    RESTAGE_COLOR_PARAM("kd", "Diffuse", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the matte part."),
+    RESTAGE_COLOR_PARAM("ks", "Specular", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the glossy part."),
+    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Of the glossy part."),
     RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */
@@ -24,4 +24,4 @@ static const RestageMaterial1 material = {
     .tooltip = "Matte plus gloss, as in pbrt-v3; for new scenes take Coated diffuse.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.plastic", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.plastic", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Substrate: the parameter table; the physics is in substrate.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"kd", "Diffuse", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Reflectance of the base."},
-    {"ks", "Specular", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Reflectance of the coat head on."},
+    RESTAGE_COLOR_PARAM("kd", "Diffuse", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the base."),
+    RESTAGE_COLOR_PARAM("ks", "Specular", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the coat head on."),
     RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0.1f),
     RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0.1f),
     RESTAGE_ROW_REMAP(1),
@@ -25,4 +25,4 @@ static const RestageMaterial1 material = {
     .tooltip = "A glossy coat over a matte base (Ashikhmin-Shirley), as in pbrt-v3.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.substrate", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.substrate", "0.1.0", {RESTAGE_MATERIAL1, &material})

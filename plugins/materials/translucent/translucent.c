@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Translucent (v3): the parameter table; the physics is in translucent.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 #include <restage/material_rows.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"kd", "Diffuse", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Scale of the diffuse part."},
-    {"ks", "Glossy", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.25f, 0.25f, 0.25f}, "", NULL, "Scale of the glossy part."},
-    {"reflect", "Reflection", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Scale of all that stays on the side of the light."},
-    {"transmit", "Transmission", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.5f, 0.5f, 0.5f}, "", NULL, "Scale of all that passes to the other side."},
-    {"roughness", "Roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f}, "", NULL, "Of the glossy part."},
+    RESTAGE_COLOR_PARAM("kd", "Diffuse", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the diffuse part."),
+    RESTAGE_COLOR_PARAM("ks", "Glossy", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the glossy part."),
+    RESTAGE_COLOR_PARAM("reflect", "Reflection", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of all that stays on the side of the light."),
+    RESTAGE_COLOR_PARAM("transmit", "Transmission", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of all that passes to the other side."),
+    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Of the glossy part."),
     RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */
@@ -26,4 +26,4 @@ static const RestageMaterial1 material = {
     .tooltip = "Diffuse and glossy scattering to both sides, as in pbrt-v3.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.translucent", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.translucent", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Velvet: the parameter table; the physics is in velvet.glsl, formulas and sources in README.md. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    {"reflectance", "Cloth", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.1f, 0.02f, 0.03f}, "", NULL, "Of the matte cloth between the fibres."},
-    {"sheen", "Sheen", RESTAGE_COLOR, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.8f, 0.3f, 0.35f}, "", NULL, "Of the fibres that stand on it."},
-    {"roughness", "Roughness", RESTAGE_FLOAT, RESTAGE_PARAM_TEXTURABLE, 0, 1, {0.6f}, "", NULL, "Low: the fibres shine at the rim only; high: everywhere. Its square is the model's."},
+    RESTAGE_COLOR_PARAM("reflectance", "Cloth", 0, 1, 0.1f, 0.02f, 0.03f, RESTAGE_PARAM_TEXTURABLE, "", "Of the matte cloth between the fibres."),
+    RESTAGE_COLOR_PARAM("sheen", "Sheen", 0, 1, 0.8f, 0.3f, 0.35f, RESTAGE_PARAM_TEXTURABLE, "", "Of the fibres that stand on it."),
+    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.6f, RESTAGE_PARAM_TEXTURABLE, "", "Low: the fibres shine at the rim only; high: everywhere. Its square is the model's."),
 };
 /* clang-format on */
 
@@ -22,4 +22,4 @@ static const RestageMaterial1 material = {
     .tooltip = "Cloth with standing fibres: velvet, felt, dust, the skin of a peach.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("org.restage.material.velvet", "0.1.0", material)
+RESTAGE_PLUGIN("org.restage.material.velvet", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -1,17 +1,9 @@
 /* @LABEL@: the parameter table; the physics is in @NAME@.glsl. */
-#include <restage/material_plugin.h>
+#include <restage/material.h>
 
 static const RestageParam params[] = {
-    {"tint",
-     "Tint",
-     RESTAGE_COLOR,
-     RESTAGE_PARAM_TEXTURABLE,
-     0,
-     1,
-     {0.8f, 0.4f, 0.2f},
-     "",
-     NULL,
-     "The share of light that comes back."},
+    RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.8f, 0.4f, 0.2f, RESTAGE_PARAM_TEXTURABLE, "",
+                        "The share of light that comes back."),
 };
 
 static const RestageMaterial1 material = {
@@ -26,4 +18,4 @@ static const RestageMaterial1 material = {
     .tooltip = "What somebody who looks for a material reads about it.",
 };
 
-RESTAGE_MATERIAL_PLUGIN("@ID@", "0.1.0", material)
+RESTAGE_PLUGIN("@ID@", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -23,4 +23,4 @@ constexpr RestageMaterial1 material{
 
 } // namespace
 
-RESTAGE_MATERIAL_PLUGIN("@ID@", "0.1.0", material)
+RESTAGE_PLUGIN("@ID@", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structs that grow at their end (restage/plugin.h): how the host reads what a plugin built with another SDK gives it,
+// and writes what such a plugin asked for. For the adapters in plugin/ and io/.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+namespace restage::plugin {
+
+// Bytes of a struct up to and with a member: what every revision of it has.
+#define RESTAGE_SIZE_UP_TO(type, member) (offsetof(type, member) + sizeof(type::member))
+
+// What a shorter one lacks keeps its default; what a longer one has beyond is not looked at.
+template <class T>
+T sized(const T& given) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T out{};
+    std::memcpy(static_cast<void*>(&out), &given, std::min<std::size_t>(given.size, sizeof out));
+    out.size = sizeof out;
+    return out;
+}
+
+// Element i of an array from elsewhere.
+template <class T>
+T element(const T* array, std::size_t i) {
+    return sized(*reinterpret_cast<const T*>(reinterpret_cast<const char*>(array) + i * array->size));
+}
+
+// Fills what the caller knows of: no more than out->size bytes, of which `size` stays. A caller that left it 0 gets
+// nothing.
+template <class T>
+void give(T* out, T value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value.size = out->size;
+    std::memcpy(static_cast<void*>(out), &value, std::min<std::size_t>(out->size, sizeof value));
+}
+
+} // namespace restage::plugin

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// From what a plugin declares to the engine's model, one function a revision of an interface: "restage.material/2" will
+// be one more here, and nothing else in the engine will notice. What the functions judge is what reading relies on
+// (sizes, strings that are there); what the tables must fulfil besides is tables.hpp's. Errors are sentences about the
+// table, without the plugin's name. [main]
+#pragma once
+
+#include "base/result.hpp"
+#include "model/formats.hpp"
+#include "model/material.hpp"
+
+#include <restage/denoiser.h>
+#include <restage/emission.h>
+#include <restage/inspector.h>
+#include <restage/material.h>
+#include <restage/scene_io.h>
+#include <restage/table.h>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace restage::plugin {
+
+struct MaterialAdapter {
+    const char* interface_id;
+    Result<model::Material> (*read)(const void* table);
+};
+// Every revision this program knows, the newest first.
+std::span<const MaterialAdapter> material_adapters();
+
+Result<model::Material> read_material1(const void* table);
+Result<std::vector<model::Param>> read_params(const RestageParam* params, std::uint32_t count);
+
+// A table of the model as plugins see it. An empty table has a pointer, too: it is there.
+class GivenTable {
+  public:
+    explicit GivenTable(model::ParamTable);
+    GivenTable(const GivenTable&) = delete;
+    const RestageParam* lines() const { return lines_.data(); }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(lines_.size() - 1); }
+
+  private:
+    std::vector<model::Param> params_; // whose strings the lines point to
+    std::vector<std::string> choices_; // joined
+    std::vector<RestageParam> lines_; // and one more, which is no line
+};
+
+// Of a material of the same plugin.
+struct DeclaredEmission {
+    std::string material_type;
+    model::Emission emission;
+};
+Result<DeclaredEmission> read_emission1(const RestageEmission1&);
+
+Result<model::Importer> read_importer1(const RestageImporter1&);
+Result<model::Exporter> read_exporter1(const RestageExporter1&);
+
+std::vector<std::string> split_words(std::string_view text); // at '|'
+std::uint32_t abi_type(model::ParamType); // RestageType
+std::optional<model::ParamType> model_type(std::uint32_t type); // nullopt: none that this program knows
+
+} // namespace restage::plugin
