@@ -77,7 +77,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
             continue;
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
-        if (type.is_textured(i)) // a slot nobody has textured carries no texture code
+        if (line.texturable && type.is_textured(i)) // a slot nobody has textured carries no texture code
             fetch += fmt::format("    if (w.at[at + {0}] != 0u) m.{1} = texture_eval(scene, w.at[at + {0}], uv).{2};\n",
                                  at + n, line.id, line.type == model::ParamType::color ? "xyz" : "x");
         at += line_words(line);

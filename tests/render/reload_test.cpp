@@ -81,6 +81,15 @@ bool near(glm::vec3 a, glm::vec3 b) { return glm::length(a - b) < 1e-3f; }
 
 } // namespace
 
+TEST_CASE("the judge takes every material that is shipped", "[reload]") {
+    Paint paint;
+    const auto judge = render::material_judge(restage::test::source_dir() / "shaders");
+    for (const plugin::MaterialEntry& entry : paint.registry.materials()) {
+        const auto verdict = judge(entry);
+        CHECK((verdict ? "" : verdict.error().message) == "");
+    }
+}
+
 TEST_CASE("an edited plugin is seen by who renders with it", "[reload]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Paint paint;
