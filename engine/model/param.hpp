@@ -15,7 +15,7 @@ namespace restage::model {
 
 enum class ParamType : std::uint8_t {
     number,   // v[0]                                  GLSL float
-    color,    // v[0..2], linear sRGB primaries        GLSL Spectrum
+    color,    // v[0..2], linear sRGB primaries        GLSL vec3
     integer,  // i                                     GLSL int
     boolean,  // i, 0 or 1                             GLSL bool
     choice,   // text, one of the line's choices       GLSL int, the index of the choice
@@ -37,7 +37,7 @@ struct Param {
     int int_def = 0;              // integer; boolean: 0 or 1; choice: its index
     std::string unit; // "", "deg", "m", "1/m"
     std::vector<std::string> choices;
-    std::string file; // table: the default, an absolute path; "" = none
+    std::string file; // table: the default, in the plugin's folder (absolute in a MaterialSource); "" = none
     std::string tooltip;
 
     bool ranged() const { return type == ParamType::number || type == ParamType::color || type == ParamType::integer; }

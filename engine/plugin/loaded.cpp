@@ -202,7 +202,7 @@ Result<> Loaded::take_formats(const Manifest& manifest, const std::string& who) 
         for (const void* table : tables) {
             auto item = read(static_cast<const Table*>(table));
             if (!item) return fail(who + ": " + item.error().message);
-            const auto& name = [](const auto& i) -> decltype(auto) {
+            const auto name = [](const auto& i) -> decltype(auto) {
                 if constexpr (requires { i.declared; })
                     return key(i.declared);
                 else

@@ -254,7 +254,10 @@ TEST_CASE("an importer that somebody holds stays open when it is loaded anew", "
     const std::string bytes = read_file(library).value();
     fs::remove(library); // another file, as a build writes it
     REQUIRE(write_file_atomic(library, bytes));
-    REQUIRE(registry.reload(*registry.entries()[0]));
+    const auto news = registry.reload_changed();
+    REQUIRE(news.size() == 1);
+    CHECK(news[0].error == "");
+    CHECK(registry.find_importer("pbrt")->native != held->native);
     CHECK(held->native->probe("x.pbrt", "LookAt", 6) > 0);
 }
 
