@@ -52,7 +52,7 @@ struct BsdfLooked { // eval and pdf in one direction; means of the repeats
     float pdf;
 };
 
-inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4; // BSDF_* of shaders/lib/bsdf.glsl
+inline constexpr std::uint32_t reflect = 1, transmit = 2, delta = 4; // BSDF_* of shaders/restage/v1/bsdf.glsl
 
 class BsdfLab {
   public:

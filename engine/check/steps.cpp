@@ -20,7 +20,9 @@ const std::vector<Step>& plugin_steps() {
 
 const std::vector<Step>& material_steps() {
     static const std::vector<Step> steps = {
-        {"glsl", "the GLSL compiles", check_glsl, "see the line that the message names"},
+        {"glsl", "the GLSL compiles", check_glsl,
+         "see the line that the message names; the GLSL knows <restage/v1/...> and its own files, nothing of the "
+         "scene"},
         {"names", "every name starts with the prefix; no bindings, no buffers", check_names,
          "two materials share one shader where they are mixed, so names must not meet"},
         {"cost", "first dispatch and time of a call", check_cost, "a loop without a bound"},

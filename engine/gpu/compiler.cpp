@@ -101,7 +101,7 @@ std::string rewrite_log(std::string_view log, const ExpandedSource& expanded) {
         text += (text.empty() ? "" : "\n") + rewrite_line(line, expanded.names);
     }
     for (std::size_t i = 0; i < expanded.errors.size(); ++i) {
-        const std::string code = "'#error' : RESTAGE_INCLUDE_ERROR_" + std::to_string(i) + "_";
+        const std::string code = "'#error' : RESTAGE_SOURCE_ERROR_" + std::to_string(i) + "_";
         if (const auto at = text.find(code); at != std::string::npos) text.replace(at, code.size(), expanded.errors[i]);
     }
     return text;

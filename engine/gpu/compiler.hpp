@@ -24,8 +24,11 @@ struct ShaderSource {
     std::vector<std::pair<std::string, std::string>> defines; // name, value
     // Files that exist in memory only: the name as #include "name" says it -> text. They hide files on disk.
     std::map<std::string, std::string> files;
-    // Looked in before the compiler's own include folders (the plugin's folder).
+    // Looked in before the compiler's own include folders.
     std::vector<std::filesystem::path> include_dirs;
+    // Whose files #include <plugin/...> finds. They are confined: they may include <restage/v1/...> from the compiler's
+    // folders and files of this one, declare no memory and use no built-in variables. Empty: none.
+    std::filesystem::path plugin_folder = {};
     // What files on disk held at some time, by absolute, lexically normal path: read instead of the disk. May be null.
     std::shared_ptr<const std::map<std::filesystem::path, std::string>> texts = nullptr;
 };

@@ -55,7 +55,40 @@ struct Found {
     std::string name;
     std::string text;
     std::filesystem::path folder; // empty: in memory
+    bool plugin = false;          // of a plugin's folder, not the host's
 };
+
+constexpr std::string_view library = "restage/v1/";
+constexpr std::string_view plugin_prefix = "plugin/";
+constexpr const char* plugin_rule = "a plugin's GLSL may include <restage/v1/...> and files of its own folder";
+
+bool is_word(char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// The first word of a line that a plugin's GLSL may not use, comments aside: what declares or reaches memory, and
+// built-in variables, which differ with the kernel around it.
+std::string_view forbidden_word(std::string_view line, bool inside_comment) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (inside_comment) {
+            inside_comment = line.substr(i, 2) != "*/";
+            if (!inside_comment) ++i;
+        } else if (line.substr(i, 2) == "//") {
+            break;
+        } else if (line.substr(i, 2) == "/*") {
+            inside_comment = true;
+            ++i;
+        } else if (is_word(line[i])) {
+            std::size_t end = i;
+            while (end < line.size() && is_word(line[end]))
+                ++end;
+            const std::string_view word = line.substr(i, end - i);
+            for (const std::string_view bad : {"layout", "uniform", "buffer", "shared"})
+                if (word == bad) return word;
+            if (word.starts_with("gl_")) return word;
+            i = end - 1;
+        }
+    }
+    return {};
+}
 
 class Expander {
   public:
@@ -64,12 +97,12 @@ class Expander {
     ExpandedSource run() {
         ids_.push_back({});
         result_.names.push_back(source_.name);
-        expand(source_.text, 0, {});
+        expand(source_.text, 0, {}, false);
         return std::move(result_);
     }
 
   private:
-    void expand(std::string_view text, std::size_t number, const std::filesystem::path& folder) {
+    void expand(std::string_view text, std::size_t number, const std::filesystem::path& folder, bool plugin) {
         stack_.push_back(number);
         CommentTracker comments;
         std::size_t line_number = 0;
@@ -82,10 +115,16 @@ class Expander {
             std::string_view rest;
             const std::string_view word = comment ? std::string_view() : directive(line, rest);
             if (word == "include") {
-                include(rest, folder);
+                include(rest, folder, plugin);
                 result_.text += "#line " + std::to_string(line_number + 1) + " " + std::to_string(number) + "\n";
             } else if (word == "pragma" && rest == "once") {
                 result_.text += "\n"; // the wrapper around the file does it
+            } else if (plugin && word == "extension") {
+                error("a plugin's GLSL cannot enable extensions");
+            } else if (const auto bad = plugin ? forbidden_word(line, comment) : std::string_view(); !bad.empty()) {
+                error("\"" + std::string(bad) +
+                      "\": a plugin's GLSL has no bindings, buffers, shared memory or built-in " +
+                      "variables; all it is given are the arguments of its functions");
             } else {
                 result_.text += line;
                 result_.text += '\n';
@@ -94,14 +133,18 @@ class Expander {
         stack_.pop_back();
     }
 
-    void include(std::string_view rest, const std::filesystem::path& folder) {
+    void include(std::string_view rest, const std::filesystem::path& folder, bool plugin) {
         const char close = !rest.empty() && rest.front() == '<' ? '>' : '"';
         const auto end = rest.find(close, 1);
         if (rest.empty() || (rest.front() != '"' && rest.front() != '<') || end == std::string_view::npos)
             return error("#include needs a file name in quotes");
         const std::string name(rest.substr(1, end - 1));
-        const std::optional<Found> file = find(name, folder);
-        if (!file) return error("cannot find the file " + name + " to include");
+        const std::optional<Found> file = plugin         ? find_for_plugin(name, close == '>', folder)
+                                          : close == '>' ? find_angled(name)
+                                                         : find(name, folder);
+        if (!file)
+            return error(plugin ? why_not_for_plugin(name, close == '>')
+                                : "cannot find the file " + name + " to include");
         const std::size_t number = number_of(*file);
         const bool once = has_once(file->text);
         if (std::find(stack_.begin(), stack_.end(), number) != stack_.end()) {
@@ -112,12 +155,12 @@ class Expander {
         const std::string guard = "RESTAGE_INCLUDED_" + std::to_string(number);
         if (once) result_.text += "#ifndef " + guard + "\n#define " + guard + "\n";
         result_.text += "#line 1 " + std::to_string(number) + "\n";
-        expand(file->text, number, file->folder);
+        expand(file->text, number, file->folder, file->plugin);
         if (once) result_.text += "#endif\n";
     }
 
     void error(const std::string& message) {
-        result_.text += "#error RESTAGE_INCLUDE_ERROR_" + std::to_string(result_.errors.size()) + "_\n";
+        result_.text += "#error RESTAGE_SOURCE_ERROR_" + std::to_string(result_.errors.size()) + "_\n";
         result_.errors.push_back(message);
     }
 
@@ -131,6 +174,43 @@ class Expander {
         for (const auto& dir : dirs_)
             if (auto file = load(dir / name)) return file;
         return {};
+    }
+
+    // <plugin/...>: of the plugin's folder, and nowhere else.
+    std::optional<Found> find_angled(const std::string& name) {
+        if (!name.starts_with(plugin_prefix)) return find(name, {});
+        return source_.plugin_folder.empty() ? std::nullopt
+                                             : load_plugin(source_.plugin_folder / name.substr(plugin_prefix.size()));
+    }
+
+    std::optional<Found> find_for_plugin(const std::string& name, bool angled, const std::filesystem::path& folder) {
+        if (!angled) {
+            if (auto file = load_plugin(folder / name)) return file;
+            return load_plugin(source_.plugin_folder / name);
+        }
+        if (!name.starts_with(library) || name.find("..") != std::string::npos) return {};
+        for (const auto& dir : dirs_)
+            if (auto file = load(dir / name)) return file;
+        return {};
+    }
+
+    std::string why_not_for_plugin(const std::string& name, bool angled) {
+        const std::string cannot = "cannot include " + (angled ? "<" + name + ">" : "\"" + name + "\"") + ": ";
+        const std::string here = std::string(library) + std::filesystem::path(name).filename().string();
+        for (const auto& dir : dirs_) { // where it was before there were versions
+            std::error_code failed;
+            if (std::filesystem::is_regular_file(dir / here, failed)) return cannot + "write <" + here + ">";
+        }
+        return cannot + (angled && name.starts_with(library) ? "there is no such file; " : "") + plugin_rule;
+    }
+
+    // Null where the path leads out of the plugin's folder.
+    std::optional<Found> load_plugin(const std::filesystem::path& path) {
+        const auto within = path.lexically_normal().lexically_relative(source_.plugin_folder.lexically_normal());
+        if (within.empty() || *within.begin() == "..") return {};
+        auto file = load(path);
+        if (file) file->plugin = true;
+        return file;
     }
 
     std::optional<Found> load(const std::filesystem::path& path) {

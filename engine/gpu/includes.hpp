@@ -16,8 +16,8 @@ struct ExpandedSource {
     std::string text;
     std::vector<std::string> names; // "source string number" of #line and of messages -> file as to be shown
     std::vector<std::filesystem::path> files; // those on disk
-    // What is wrong with includes. The text says "#error RESTAGE_INCLUDE_ERROR_<index>_", because the compiler takes
-    // words apart.
+    // What is wrong with includes, or with what a plugin's file uses. The text says "#error
+    // RESTAGE_SOURCE_ERROR_<index>_", because the compiler takes words apart.
     std::vector<std::string> errors;
 };
 

@@ -88,20 +88,22 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
     gpu::ShaderSource source;
     source.name = stand_in ? "<stand-in>" : "<composed for " + type.type + ">";
     source.stage = stage;
-    source.include_dirs = {type.plugin.folder};
+    source.plugin_folder = type.plugin.folder;
     if (type.plugin.source) source.texts = type.plugin.source->glsl();
     source.text = fmt::format(
         R"(#version 460
 // revision {revision:016x} of the plugin's table and files: what is made of this text is made anew when they change
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
-{rt}#include "lib/bsdf.glsl"
-#include "lib/rng.glsl"
-#include "lib/texture.glsl"
-{tables}struct {p}_Params {{
+{rt}#define RESTAGE_GLSL 1
+#include <restage/v1/bsdf.glsl>
+#include <restage/v1/rng.glsl>
+{table_api}struct {p}_Params {{
 {fields}}};
-#include "{file}"
-#define Material {p}_Params
+#include <plugin/{file}>
+// The plugin's code stands before everything of the engine's, and cannot name it.
+#include "lib/texture.glsl"
+{tables}#define Material {p}_Params
 Material material_fetch(SceneData scene, uint at, vec4 uv) {{
     UintArray w = UintArray(scene.params);
     Material m;
@@ -114,7 +116,8 @@ vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 #include "{main}"
 )",
         fmt::arg("revision", type.plugin.revision()), fmt::arg("p", prefix), fmt::arg("fields", fields),
-        fmt::arg("fetch", fetch), fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),
+        fmt::arg("fetch", fetch), fmt::arg("table_api", tables ? "#include <restage/v1/table.glsl>\n" : ""),
+        fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),
         fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),
         fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
         fmt::arg("rt", stage == gpu::ShaderStage::compute ? "" : "#extension GL_EXT_ray_tracing : require\n"));

@@ -11,7 +11,7 @@ std::uint64_t add(std::uint64_t hash, const gpu::ShaderSource& source) {
     hash = hash64(source.text, hash);
     for (const auto& dir : source.include_dirs)
         hash = hash64(dir.string(), hash);
-    return hash;
+    return hash64(source.plugin_folder.string(), hash);
 }
 template <class T>
 std::uint64_t add(std::uint64_t hash, const std::vector<T>& values) {

@@ -3,9 +3,9 @@
 // orthographic and spherical cameras (5.2.1, 5.3).
 #ifndef RESTAGE_LIB_CAMERA
 #define RESTAGE_LIB_CAMERA
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 #include "lib/octahedral.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 
 // One axis of a tabulated |f|: offset in [-radius, radius], and the sign of f there.

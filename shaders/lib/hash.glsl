@@ -3,7 +3,7 @@
 // render/gpu_scene.cpp has the same in C++.
 #ifndef RESTAGE_LIB_HASH
 #define RESTAGE_LIB_HASH
-#include "lib/rng.glsl"
+#include <restage/v1/rng.glsl>
 
 const uint HASH_START = 0x9e3779b9u;
 uint hash_add(uint h, float v) { return pcg_hash(h ^ floatBitsToUint(v)); }

@@ -2,12 +2,12 @@
 // Lights: choosing one by power (alias table), sampling a point on it, and the density of having done so.
 #ifndef RESTAGE_LIB_LIGHT
 #define RESTAGE_LIB_LIGHT
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 #include "lib/octahedral.glsl"
 #include "lib/quadric.glsl"
 #include "lib/ray_offset.glsl"
 #include "lib/sampler.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
 

@@ -2,7 +2,7 @@
 // Equal-area octahedral map between the sphere and the unit square: Clarberg 2008; pbrt 4ed, 3.8.3.
 #ifndef RESTAGE_LIB_OCTAHEDRAL
 #define RESTAGE_LIB_OCTAHEDRAL
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 
 vec3 octahedral_to_direction(vec2 p) {
     vec2 uv = 2.0 * p - 1.0;

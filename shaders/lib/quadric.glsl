@@ -4,10 +4,10 @@
 // rounding hold (ray_offset.glsl).
 #ifndef RESTAGE_LIB_QUADRIC
 #define RESTAGE_LIB_QUADRIC
-#include "lib/bsdf.glsl"
-#include "lib/frame.glsl"
+#include <restage/v1/bsdf.glsl>
+#include <restage/v1/frame.glsl>
 #include "lib/ray_offset.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer QuadricRef { QuadricData data; };

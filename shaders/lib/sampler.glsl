@@ -3,7 +3,7 @@
 // its own scramble, decorrelated per pixel by the seed. Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4).
 #ifndef RESTAGE_LIB_SAMPLER
 #define RESTAGE_LIB_SAMPLER
-#include "lib/rng.glsl"
+#include <restage/v1/rng.glsl>
 
 // Laine and Karras 2011 with the constants of Vegdahl 2021: an Owen scramble of bit-reversed numbers.
 uint laine_karras(uint x, uint seed) {

@@ -3,7 +3,7 @@
 // its own error.
 #ifndef RESTAGE_PATH_FILM
 #define RESTAGE_PATH_FILM
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 #include "lib/scene.glsl"
 #include "shared/path_data.h"
 

@@ -7,7 +7,7 @@
 // material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore.
 #ifndef RESTAGE_PATH_STEP
 #define RESTAGE_PATH_STEP
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 #include "lib/light.glsl"
 #include "lib/sampler.glsl"
 #include "path/escape.glsl"

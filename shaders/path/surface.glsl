@@ -3,7 +3,7 @@
 // the bound of its own rounding error.
 #ifndef RESTAGE_PATH_SURFACE
 #define RESTAGE_PATH_SURFACE
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 #include "lib/quadric.glsl"
 #include "lib/ray_offset.glsl"
 #include "lib/scene.glsl"

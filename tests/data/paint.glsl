@@ -1,5 +1,5 @@
 // A diffuse material for tests that edit one: COLOR is replaced by what it is to reflect.
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 vec3 paint_eval(paint_Params m, vec3 wo, vec3 wi) {
     return same_hemisphere(wo, wi) ? COLOR * INV_PI * abs_cos(wi) : vec3(0);
 }

@@ -132,6 +132,46 @@ TEST_CASE("files are searched in order: memory, beside the includer, the source'
     CHECK(who("#include \"f.glsl\"", {}, false) == 4);
 }
 
+TEST_CASE("files of a plugin include the library and each other, and reach nothing else", "[compiler]") {
+    const TemporaryFolder folder;
+    folder.write("shaders/restage/v1/wood.glsl", "#include \"lib/rings.glsl\"\n#define WOOD 1\n");
+    folder.write("shaders/lib/rings.glsl", "#define RINGS 1\n");
+    folder.write("shaders/lib/private.glsl", "#include \"oak.glsl\"\n");
+    folder.write("oak/grain.glsl", "#define GRAIN 1\n");
+    folder.write("oak/parts/knot.glsl", "#include \"../grain.glsl\"\n#include \"grain.glsl\"\n");
+    folder.write("oak/lib/rings.glsl", "#error hides a file of the host's\n");
+    folder.write("elm/leaf.glsl", "#define LEAF 1\n");
+    const ShaderCompiler compiler({.include_dirs = {folder.path() / "shaders"}});
+    const auto error = [&](const std::string& oak) {
+        folder.write("oak/oak.glsl", oak);
+        const auto done = compiler.compile({.name = "main",
+                                            .text = head + "#include <plugin/oak.glsl>\nvoid main() {}\n",
+                                            .plugin_folder = folder.path() / "oak"});
+        return done ? std::string() : done.error().message.substr(folder.path().string().size() + 1);
+    };
+    CHECK(error("#include <restage/v1/wood.glsl>\n#include \"parts/knot.glsl\"\n"
+                "#if !defined(WOOD) || !defined(RINGS) || !defined(GRAIN)\n#error no\n#endif\n") == "");
+    const std::string rule = "a plugin's GLSL may include <restage/v1/...> and files of its own folder";
+    CHECK_THAT(error("\n#include \"lib/wood.glsl\"\n"),
+               StartsWith("oak/oak.glsl:2: cannot include \"lib/wood.glsl\": write <restage/v1/wood.glsl>"));
+    for (const char* other : {"\"lib/private.glsl\"", "<lib/rings.glsl>", "\"../elm/leaf.glsl\"", "\"/etc/hosts\"",
+                              "<plugin/../elm/leaf.glsl>", "<restage/v1/../../lib/private.glsl>"})
+        CHECK_THAT(
+            error("#include " + std::string(other) + "\n"),
+            StartsWith("oak/oak.glsl:1: cannot include " + std::string(other) + ": ") && ContainsSubstring(rule));
+    CHECK_THAT(error("#include <restage/v1/iron.glsl>\n"),
+               StartsWith("oak/oak.glsl:1: cannot include <restage/v1/iron.glsl>: there is no such file; " + rule));
+    for (const char* word : {"layout", "uniform", "buffer", "shared", "gl_WorkGroupID"})
+        CHECK_THAT(error("/* layout\nbuffer */ // uniform\nfloat x = 1; " + std::string(word) + " y;\n"),
+                   StartsWith("oak/oak.glsl:3: \"" + std::string(word) + "\": a plugin's GLSL has no"));
+    CHECK(error("float layouts(float a_buffer) { return a_buffer; } // shared\n") == "");
+    CHECK_THAT(error("#extension GL_EXT_buffer_reference : require\n"), StartsWith("oak/oak.glsl:1: "));
+    CHECK_THAT(error_of(compiler, {.name = "main",
+                                   .text = head + "#include \"oak.glsl\"\nvoid main() {}\n",
+                                   .plugin_folder = folder.path() / "oak"}),
+               StartsWith("main:3: cannot find the file oak.glsl"));
+}
+
 TEST_CASE("the files of a shader are listed, each once", "[compiler]") {
     const TemporaryFolder folder;
     folder.write("a.glsl", "#pragma once\n#include \"b.glsl\"\n");

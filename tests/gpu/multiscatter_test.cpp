@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Energy compensation: what a rough white surface gives back with and without it, by integrating its samples, and what
-// the loss and its fitted mean (shaders/lib/multiscatter.glsl) are worth over the whole range of roughness.
+// the loss and its fitted mean (shaders/restage/v1/multiscatter.glsl) are worth over the whole range of roughness.
 #include "gpu/bench.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -47,8 +47,8 @@ struct Case {
 
 } // namespace
 
-// A body that reflects all, under white fibres: the sheen's fitted albedo (shaders/lib/sheen.glsl) says how much of the
-// body is left. Energy is lost where the two directions' shares differ, as KHR_materials_sheen has it.
+// A body that reflects all, under white fibres: the sheen's fitted albedo (shaders/restage/v1/sheen.glsl) says how much
+// of the body is left. Energy is lost where the two directions' shares differ, as KHR_materials_sheen has it.
 TEST_CASE("sheen: a white body under white fibres neither gains nor loses much", "[materials][multiscatter]") {
     std::vector<scene::ParamSet> configs;
     const float roughness[] = {0.f, 0.3f, 0.6f, 1.f}, cosines[] = {1.f, 0.6f, 0.25f, 0.06f};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rough metal (GGX, single scattering, visible normals), right as it stands; a macro broken_<fault> makes it wrong.
-#include "lib/microfacet.glsl"
+#include <restage/v1/microfacet.glsl>
 
 vec2 broken_alpha(broken_Params m) {
 #ifdef broken_nan_at_alpha_0

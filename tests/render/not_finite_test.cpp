@@ -19,7 +19,7 @@ const model::Material bad_table{
     .params = {{.id = "mode", .label = "Mode", .type = model::ParamType::integer, .int_max = 8}}};
 // A white diffuse surface but for what the mode spoils.
 const char* const bad_glsl = R"(
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 float bad_value(bad_Params m, int mode, float good) { return m.mode == mode ? uintBitsToFloat(0x7fc00000u) : good; }
 vec3 bad_eval(bad_Params m, vec3 wo, vec3 wi) { return vec3(bad_value(m, 1, same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0)); }
 float bad_pdf(bad_Params m, vec3 wo, vec3 wi) { return bad_value(m, 2, same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0); }

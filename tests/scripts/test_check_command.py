@@ -17,6 +17,14 @@ BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
 ADDED = {  # faults that are a line more
     "prefix": "float helper(float x) { return x; }",
     "binding": "layout(binding = 0) uniform sampler2D broken_picture;",
+    "library": '#include "lib/microfacet.glsl"',
+    "outside": '#include "../other/secret.glsl"',
+    "engine": "#include <path/surface.glsl>",
+    "newer": "#include <restage/v2/bsdf.glsl>",
+    "extension": "#extension GL_EXT_buffer_reference : require",
+    "builtin": "uint broken_who() { return gl_GlobalInvocationID.x; }",
+    "scene": "float broken_peek(uint64_t at) { return FloatArray(at).at[0]; }",
+    "texture": "vec3 broken_look(vec2 uv) { SceneData scene; return texture_eval(scene, 0u, uv); }",
     "syntax": "float broken_typo(float x) { return x + y; }",
 }
 
@@ -80,7 +88,15 @@ def test_the_rough_metal_without_a_fault_passes(tmp_path):
     ("non_reciprocal", "reciprocity", ["f(wo, wi) is", "NONRECIPROCAL"]),
     ("back_side", "chi-square", ["samples do not fall as pdf says", "back side"]),
     ("prefix", "names", ["broken.glsl:1: \"helper\" does not start with the plugin's prefix \"broken_\""]),
-    ("binding", "names", ["broken.glsl:1: declares \"layout\"", "no bindings"]),
+    ("binding", "glsl", ["broken.glsl:1: \"layout\": a plugin's GLSL has no bindings"]),
+    ("library", "glsl", ["broken.glsl:1: cannot include \"lib/microfacet.glsl\": write <restage/v1/microfacet.glsl>"]),
+    ("outside", "glsl", ["broken.glsl:1: cannot include \"../other/secret.glsl\": a plugin's GLSL may include <restage/v1/...> and"]),
+    ("engine", "glsl", ["broken.glsl:1: cannot include <path/surface.glsl>: a plugin's GLSL may include"]),
+    ("newer", "glsl", ["broken.glsl:1: cannot include <restage/v2/bsdf.glsl>: write <restage/v1/bsdf.glsl>"]),
+    ("extension", "glsl", ["broken.glsl:1: a plugin's GLSL cannot enable extensions"]),
+    ("builtin", "glsl", ["broken.glsl:1: \"gl_GlobalInvocationID\": a plugin's GLSL has no"]),
+    ("scene", "glsl", ["broken.glsl:1: 'FloatArray'", "nothing of the scene"]),
+    ("texture", "glsl", ["broken.glsl:1: 'SceneData' : undeclared identifier", "nothing of the scene"]),
     ("syntax", "glsl", ["broken.glsl:1: 'y' : undeclared identifier"]),
 ])
 def test_a_fault_in_glsl_is_found(tmp_path, fault, step, says):
@@ -107,7 +123,7 @@ def test_a_fault_in_native_code_is_found(tmp_path, library, step, says):
 @pytest.mark.parametrize("taken", [False, True])
 def test_a_parameter_that_a_pbrt_file_cannot_give_back_is_found(tmp_path, taken):
     """One whose id is the word that names the plugin there; any other is the control."""
-    (tmp_path / "grey.glsl").write_text("""#include "lib/sampling.glsl"
+    (tmp_path / "grey.glsl").write_text("""#include <restage/v1/sampling.glsl>
 vec3 grey_eval(grey_Params m, vec3 wo, vec3 wi) { return vec3(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.%s : 0.0); }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
 BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }

@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))).resolve()
 BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
 
-GLSL = """#include "lib/sampling.glsl"
+GLSL = """#include <restage/v1/sampling.glsl>
 vec3 broken_eval(broken_Params m, vec3 wo, vec3 wi) { return vec3(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.share : 0.0); }
 float broken_pdf(broken_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
 BsdfSample broken_sample(broken_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }

@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))).resolve()
 
 # Lambert's reflection; $NAME stands for what a case changes.
-LAMBERT = """#include "lib/sampling.glsl"
+LAMBERT = """#include <restage/v1/sampling.glsl>
 vec3 grey_eval(grey_Params m, vec3 wo, vec3 wi) { return $EVAL; }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? cosine_hemisphere_pdf(abs_cos(wi)) : 0.0; }
 BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) {
@@ -31,9 +31,9 @@ PLAIN = "vec3(same_hemisphere(wo, wi) ? 0.5 * m.share * INV_PI * abs_cos(wi) : 0
 
 # A rough pane whose lobe transmits and whose share varies from look to look; the sharp lobe is what a coarse sum of pdf
 # gets wrong. $PDF multiplies the density that it states.
-STOCHASTIC = """#include "lib/sampling.glsl"
-#include "lib/microfacet.glsl"
-#include "lib/rng.glsl"
+STOCHASTIC = """#include <restage/v1/sampling.glsl>
+#include <restage/v1/microfacet.glsl>
+#include <restage/v1/rng.glsl>
 const float grey_delta = 0.35;
 vec2 grey_alpha() { return vec2(0.03); }
 float grey_density(vec3 o, vec3 i) { return (1.0 - grey_delta) * ggx_d(normalize(o + i), grey_alpha()) / (4.0 * ggx_sigma(o, grey_alpha())); }

@@ -34,6 +34,6 @@ def test_descriptors_are_closed_in_children():
 
 
 def test_shaders_ask_the_bits_of_what_may_be_no_number():
-    """Without SignedZeroInfNanPreserve, isnan(x) is false and !(x > 0.0) is x <= 0.0 (see shaders/lib/numbers.glsl)."""
+    """Without SignedZeroInfNanPreserve, isnan(x) is false and !(x > 0.0) is x <= 0.0 (see shaders/restage/v1/numbers.glsl)."""
     assert found(r"\bis(?:nan|inf)\s*\(", SHADERS) == []
     assert found(r"!\((?:[^()&|]|\([^()]*\))*[<>]=?[^()&|]*\)", SHADERS) == []

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A conductor under a dielectric coat (pbrt-v4 CoatedConductorBxDF): see lib/layered.glsl. Stochastic.
-#include "lib/layered.glsl"
+// A conductor under a dielectric coat (pbrt-v4 CoatedConductorBxDF): see restage/v1/layered.glsl. Stochastic.
+#include <restage/v1/layered.glsl>
 
 Layered coatedconductor_layers(coatedconductor_Params m) {
     Layered l = layered_coat_of(vec2(m.interface_uroughness, m.interface_vroughness), m.remap, m.interface_eta,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A diffuse base under a dielectric coat (pbrt-v4 CoatedDiffuseBxDF): see lib/layered.glsl. Stochastic, but for a
+// A diffuse base under a dielectric coat (pbrt-v4 CoatedDiffuseBxDF): see restage/v1/layered.glsl. Stochastic, but for a
 // smooth coat with nothing scattering below it, where the series sums in closed form and eval and pdf are exact.
-#include "lib/layered.glsl"
+#include <restage/v1/layered.glsl>
 
 Layered coateddiffuse_layers(coateddiffuse_Params m) {
     Layered l = layered_coat_of(vec2(m.uroughness, m.vroughness), m.remap, m.eta, m.thickness, m.albedo, m.g, m.max_depth,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metal: microfacets with complex Fresnel reflectance (pbrt-v4 ConductorBxDF; v3 "metal"); a mirror when smooth.
 // With `multiscatter`, light that a rough metal's microfacets pass between each other comes out again.
-#include "lib/multiscatter.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/multiscatter.glsl>
+#include <restage/v1/sampling.glsl>
 
 vec2 conductor_alpha(conductor_Params m) { return alpha_from_roughness(m.uroughness, m.vroughness, m.remap); }
 

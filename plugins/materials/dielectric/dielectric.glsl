@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Glass, water: smooth, rough or thin (pbrt-v4 DielectricBxDF and ThinDielectricBxDF; v3 "glass" with its two tints).
 // With `multiscatter`, light that rough microfacets pass between each other comes out again.
-#include "lib/dielectric.glsl"
-#include "lib/multiscatter.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/dielectric.glsl>
+#include <restage/v1/multiscatter.glsl>
+#include <restage/v1/sampling.glsl>
 
 // As in pbrt-v3's glass, a roughness of 0 is smooth whatever the remapping makes of it.
 vec2 dielectric_alpha(dielectric_Params m) {

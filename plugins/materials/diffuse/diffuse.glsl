@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lambert, or Oren-Nayar when sigma > 0.
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 
 // Oren and Nayar 1994, Eq. 30 (the qualitative model; pbrt-v3, sec. 8.4.1). sin(alpha) tan(beta) cos(dphi) is
 // dot(wo.xy, wi.xy) / max(co, ci): the sines of the two cases cancel.

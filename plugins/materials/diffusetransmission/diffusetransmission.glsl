@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A thin sheet that scatters diffusely to both sides (pbrt-v4 DiffuseTransmissionBxDF).
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 
 vec3 diffusetransmission_albedo(diffusetransmission_Params m, vec3 wo) {
     return clamp(m.reflectance, vec3(0), vec3(1)) + clamp(m.transmittance, vec3(0), vec3(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What it reflects: Lambert, on both sides. What it emits is the host's part; see restage/emission.h.
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 
 vec3 emissive_albedo(emissive_Params m, vec3 wo) { return clamp(m.reflectance, vec3(0), vec3(1)); }
 

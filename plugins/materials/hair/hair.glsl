@@ -5,7 +5,7 @@
 // The surface is the fibre's own cylinder: x runs along it, z is the normal, and where on it light falls (h, the offset
 // across the fibre) is the angle between wo and the normal about x. What happens inside is in the scattering function, so
 // from within the cylinder (wo.z < 0) light passes the wall as if there were none.
-#include "lib/fresnel.glsl"
+#include <restage/v1/fresnel.glsl>
 
 const int hair_lobes = 3; // R, TT, TRT; one more holds the rest
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tabulated isotropic BRDF in half and difference angles (Rusinkiewicz 1998; Matusik et al. 2003). merl.h says how
 // the table lies, README.md what it means. Both sides reflect.
-#include "lib/sampling.glsl"
-#include "lib/table.glsl"
+#include <restage/v1/sampling.glsl>
+#include <restage/v1/table.glsl>
 
 const uint measured_head = 4u;
 const uint measured_row_head = 4u;

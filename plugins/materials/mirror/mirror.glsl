@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A perfect mirror of constant reflectance (pbrt-v3 "mirror"), on both sides.
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 
 vec3 mirror_eval(mirror_Params m, vec3 wo, vec3 wi) { return vec3(0); }
 float mirror_pdf(mirror_Params m, vec3 wo, vec3 wi) { return 0.0; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt-v3 "plastic": Lambert plus GGX microfacets with dielectric Fresnel, simply added.
-#include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/fresnel.glsl>
+#include <restage/v1/microfacet.glsl>
+#include <restage/v1/sampling.glsl>
 
 float plastic_alpha(plastic_Params m) { return max(alpha_from_roughness(m.roughness, m.roughness, m.remap).x, 1e-3); }
 

@@ -3,11 +3,11 @@
 // refraction), _clearcoat, _sheen, _anisotropy and _iridescence. Lobes: diffuse; one GGX layer that reflects, as metal or
 // dielectric, and lets through what is transmissive; fibres over both; a GGX coat on top. README.md says where it is not
 // the specification to the letter.
-#include "lib/dielectric.glsl"
-#include "lib/multiscatter.glsl"
-#include "lib/sampling.glsl"
-#include "lib/sheen.glsl"
-#include "lib/thin_film.glsl"
+#include <restage/v1/dielectric.glsl>
+#include <restage/v1/multiscatter.glsl>
+#include <restage/v1/sampling.glsl>
+#include <restage/v1/sheen.glsl>
+#include <restage/v1/thin_film.glsl>
 
 const float principled_coat_f0 = 0.04;   // ior 1.5, KHR_materials_clearcoat
 const float principled_least_eta = 1.01; // below it the half vector of refraction has no direction left
@@ -186,7 +186,7 @@ float principled_under_coat(principled_State s, float cos_o, float cos_i) {
 }
 
 // f |cos wi| of light that the layer scatters more than once: Kulla and Conty's lobes, of what reflects all and of glass
-// (lib/multiscatter.glsl). The losses are taken in a loop: compiled once.
+// (restage/v1/multiscatter.glsl). The losses are taken in a loop: compiled once.
 vec3 principled_multiple(principled_State s, vec3 wo, vec3 wi) {
     bool reflects = wi.z > 0.0;
     float ci = abs(wi.z);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ashikhmin and Shirley 2000, "An Anisotropic Phong BRDF Model", in pbrt-v3's form (FresnelBlend, sec. 8.5): a diffuse
 // base under a glossy coat, with GGX for the distribution and no shadowing.
-#include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/fresnel.glsl>
+#include <restage/v1/microfacet.glsl>
+#include <restage/v1/sampling.glsl>
 
 vec2 substrate_alpha(substrate_Params m) {
     return max(alpha_from_roughness(m.uroughness, m.vroughness, m.remap), 1e-3);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt-v3 "translucent": diffuse and rough-dielectric (ior 1.5) lobes, each scaled by `reflect` on the near side and by
 // `transmit` on the far side, simply added.
-#include "lib/dielectric.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/dielectric.glsl>
+#include <restage/v1/sampling.glsl>
 
 vec2 translucent_alpha(translucent_Params m) {
     return vec2(max(alpha_from_roughness(m.roughness, m.roughness, m.remap).x, 1e-3));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt-v3 "uber": Lambert (kd), GGX gloss (ks), mirror (kr) and refraction (kt), all scaled by opacity, simply added;
 // what opacity leaves passes straight through.
-#include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/fresnel.glsl>
+#include <restage/v1/microfacet.glsl>
+#include <restage/v1/sampling.glsl>
 
 vec2 uber_alpha(uber_Params m) { return max(alpha_from_roughness(m.uroughness, m.vroughness, m.remap), 1e-3); }
 float uber_eta(uber_Params m, vec3 wo) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cloth with standing fibres: a "Charlie" sheen (Estevez and Kulla 2017) over a Lambertian ground, which gets what the
 // fibres leave, as in KHR_materials_sheen. Both sides are alike.
-#include "lib/sampling.glsl"
-#include "lib/sheen.glsl"
+#include <restage/v1/sampling.glsl>
+#include <restage/v1/sheen.glsl>
 
 vec3 velvet_value(velvet_Params m, vec3 wo, vec3 wi) {
     float alpha = sheen_alpha(m.roughness);

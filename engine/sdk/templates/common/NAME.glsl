@@ -1,6 +1,6 @@
 // @LABEL@: Lambert's diffuse reflection, f = tint / pi, to begin with. What the four functions must fulfil is said in
 // <restage/material.h>; `restage check` tests it.
-#include "lib/sampling.glsl"
+#include <restage/v1/sampling.glsl>
 
 vec3 @NAME@_eval(@NAME@_Params m, vec3 wo, vec3 wi) {
     return same_hemisphere(wo, wi) ? m.tint * INV_PI * abs_cos(wi) : vec3(0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rough dielectric interface: reflection and transmission of one microfacet layer, in radiance transport.
 // wo.z > 0; eta = ior below / ior above. Whoever is below the surface mirrors z and passes 1 / eta.
-#ifndef RESTAGE_LIB_DIELECTRIC
-#define RESTAGE_LIB_DIELECTRIC
+#ifndef RESTAGE_V1_DIELECTRIC
+#define RESTAGE_V1_DIELECTRIC
 
-#include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
+#include <restage/v1/fresnel.glsl>
+#include <restage/v1/microfacet.glsl>
 
 // Nearly equal indices do not bend light and leave the half vector of transmission without a direction.
 bool dielectric_is_smooth(vec2 alpha, float eta) { return alpha_is_smooth(alpha) || abs(eta - 1.0) < 1e-3; }

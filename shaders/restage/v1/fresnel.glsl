@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fresnel reflectances for unpolarized light, and refraction.
-#ifndef RESTAGE_LIB_FRESNEL
-#define RESTAGE_LIB_FRESNEL
+#ifndef RESTAGE_V1_FRESNEL
+#define RESTAGE_V1_FRESNEL
 
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 
 // Dielectric; eta = ior on the transmitted side / on the incident side; cos_i >= 0. cos_t = 0 on total internal
 // reflection. Pharr et al. 2023, Eqs. 9.5 and 9.6 (Snell: 9.2).

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Iridescence of a thin film over a base: Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the
 // Modeling of Varying Iridescence", with Schlick's Fresnel terms as KHR_materials_iridescence has it.
-#ifndef RESTAGE_LIB_THIN_FILM
-#define RESTAGE_LIB_THIN_FILM
+#ifndef RESTAGE_V1_THIN_FILM
+#define RESTAGE_V1_THIN_FILM
 
-#include "lib/fresnel.glsl"
+#include <restage/v1/fresnel.glsl>
 
 // The eye's answer to a path difference [nm] and to twice it, in linear sRGB: the Fourier transform of Gaussians fitted to
 // the CIE 1931 curves (Belcour and Barla 2017, sec. 4.2 and supplemental). X has two of them.

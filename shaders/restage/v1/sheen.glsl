@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cloth fibres: the "Charlie" distribution with its fitted masking. Estevez and Kulla 2017, "Production Friendly
 // Microfacet Sheen BRDF"; KHR_materials_sheen takes alpha = roughness^2. Directions have z > 0.
-#ifndef RESTAGE_LIB_SHEEN
-#define RESTAGE_LIB_SHEEN
+#ifndef RESTAGE_V1_SHEEN
+#define RESTAGE_V1_SHEEN
 
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 
 const float SHEEN_LEAST_ALPHA = 0.01; // the fit of the albedo ends here
 

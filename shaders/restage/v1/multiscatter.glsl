@@ -4,11 +4,11 @@
 //   f_ms(o, i) = L(o) L(i) / (pi Lm),  L = 1 - directional albedo with F = 1,  Lm = 2 int_0^1 L mu dmu
 // L is a quadrature over visible normals, because fits hold neither for anisotropic surfaces (four variables) nor for
 // dielectrics (three, with total reflection); Lm, which is smooth, is a fit. Errors stand at each.
-#ifndef RESTAGE_LIB_MULTISCATTER
-#define RESTAGE_LIB_MULTISCATTER
+#ifndef RESTAGE_V1_MULTISCATTER
+#define RESTAGE_V1_MULTISCATTER
 
-#include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
+#include <restage/v1/fresnel.glsl>
+#include <restage/v1/microfacet.glsl>
 
 // 1 - directional albedo of a microfacet interface seen from wo, wo.z > 0. eta = ior below / above; 0: all is reflected.
 // A Fibonacci lattice of 55 normals (Sloan and Joe 1994, sec. 2.9), shifted off 0 and 1. Error: rms 0.005, most 0.02;

@@ -7,10 +7,10 @@
 //   G2 / (co ci)                 = 1 / (ci sigma_o + co sigma_i - co ci)   (height-correlated)      Heitz 2014, Eq. 99
 //   reflection                   f ci = D F ci V / 4, density D / (4 sigma_o), weight F ci V sigma_o
 // Directions given here have z > 0.
-#ifndef RESTAGE_LIB_MICROFACET
-#define RESTAGE_LIB_MICROFACET
+#ifndef RESTAGE_V1_MICROFACET
+#define RESTAGE_V1_MICROFACET
 
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 
 const float ALPHA_SMOOTH = 1e-3; // below this a surface is a mirror (pbrt-v4, EffectivelySmooth)
 const int REMAP_V4 = 0;          // choices of every `remap` parameter: "v4|v3|none"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frame: an orthonormal basis; BSDFs live in its local coordinates (n = +z).
-#ifndef RESTAGE_LIB_FRAME
-#define RESTAGE_LIB_FRAME
-#include "lib/numbers.glsl"
+#ifndef RESTAGE_V1_FRAME
+#define RESTAGE_V1_FRAME
+#include <restage/v1/numbers.glsl>
 
 struct Frame {
     vec3 t, b, n;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a float is, asked of its bits (IEEE 754). Where a device does not promise to keep NaN and infinity, its compiler
 // may take every value for a number: isnan() is then false, and !(x > 0.0) the same as x <= 0.0.
-#ifndef RESTAGE_LIB_NUMBERS
-#define RESTAGE_LIB_NUMBERS
+#ifndef RESTAGE_V1_NUMBERS
+#define RESTAGE_V1_NUMBERS
 
 const uint EXPONENT_BITS = 0x7f800000u;
 

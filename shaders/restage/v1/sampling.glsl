@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Warps of the unit square and the MIS heuristic.
-#ifndef RESTAGE_LIB_SAMPLING
-#define RESTAGE_LIB_SAMPLING
+#ifndef RESTAGE_V1_SAMPLING
+#define RESTAGE_V1_SAMPLING
 
-#include "lib/bsdf.glsl"
+#include <restage/v1/bsdf.glsl>
 
 // Uniform on the unit disk, polar map.
 vec2 sample_disk(vec2 u) {

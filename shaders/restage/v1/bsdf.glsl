@@ -2,9 +2,9 @@
 // The BSDF contract: what a material's GLSL is given and what it returns. See engine/sdk/restage/material.h.
 // Local shading frame: n = +z, wo towards the viewer, wi towards the light, both unit and away from the surface.
 // z < 0 is the back side (inside, for closed things). Radiance transport: transmission carries 1/eta^2.
-#ifndef RESTAGE_LIB_BSDF
-#define RESTAGE_LIB_BSDF
-#include "lib/numbers.glsl"
+#ifndef RESTAGE_V1_BSDF
+#define RESTAGE_V1_BSDF
+#include <restage/v1/numbers.glsl>
 
 const float PI = 3.14159265358979323846;
 const float INV_PI = 0.31830988618379067154;

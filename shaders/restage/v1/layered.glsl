@@ -14,12 +14,12 @@
 // eval. (4) Coats are smooth below alpha = 0.0015. (5) What leaves by a smooth coat after a smooth base is marked delta,
 // even if the medium scattered it before: eval cannot make that connection, so no MIS weight may count on it.
 // Directions have z > 0 outside; the walk runs downwards from z = thickness.
-#ifndef RESTAGE_LIB_LAYERED
-#define RESTAGE_LIB_LAYERED
+#ifndef RESTAGE_V1_LAYERED
+#define RESTAGE_V1_LAYERED
 
-#include "lib/dielectric.glsl"
-#include "lib/rng.glsl"
-#include "lib/sampling.glsl"
+#include <restage/v1/dielectric.glsl>
+#include <restage/v1/rng.glsl>
+#include <restage/v1/sampling.glsl>
 
 struct Layered {
     vec2 alpha;      // of the coat
