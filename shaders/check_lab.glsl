@@ -47,7 +47,7 @@ void main() {
     for (uint k = 0u; k < (push.mode == LAB_LOOK ? 0u : 1u); ++k)
         s = material_sample(m, job.wo, job.u, rng);
     if (push.mode == LAB_DRAW)
-        DrawnArray(push.answers).at[i] = Drawn(s.wi, s.weight, s.pdf, s.flags, s.eta);
+        DrawnArray(push.answers).at[i] = Drawn(s.wi, rgb_from_spectrum(s.weight), s.pdf, s.flags, s.eta);
 
     Answer a;
     a.eval = a.eval_sampled = a.eval_reverse = vec3(0);
@@ -57,7 +57,7 @@ void main() {
         if (k < 2u && !sampled) continue;
         vec3 o = k == 1u ? s.wi : job.wo;
         vec3 t = k == 0u ? s.wi : k == 1u ? job.wo : job.wi;
-        vec3 f = material_eval(m, o, t, rng);
+        vec3 f = rgb_from_spectrum(material_eval(m, o, t, rng));
         float p = material_pdf(m, o, t, rng);
         if (k == 0u) { a.eval_sampled = f; a.pdf_sampled = p; }
         else if (k == 1u) a.eval_reverse = f;
@@ -69,8 +69,8 @@ void main() {
     if (push.mode == LAB_LOOK)
         LookedArray(push.answers).at[i] = Looked(a.eval, a.eval_sq, a.pdf);
     for (uint k = 0u; k < (push.mode == LAB_LIST ? 1u : 0u); ++k) {
-        a.wi = s.wi; a.weight = s.weight; a.sample_pdf = s.pdf; a.flags = s.flags; a.eta = s.eta;
-        a.albedo = material_albedo(m, job.wo);
+        a.wi = s.wi; a.weight = rgb_from_spectrum(s.weight); a.sample_pdf = s.pdf; a.flags = s.flags; a.eta = s.eta;
+        a.albedo = rgb_from_spectrum(material_albedo(m, job.wo));
         Answers(push.answers).at[i] = a;
     }
 }

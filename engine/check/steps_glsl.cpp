@@ -23,12 +23,12 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
 }
 
-Result<gpu::Spirv> compile(Subject& s) {
+Result<gpu::Spirv> compile(Subject& s, render::ColorMode color = render::ColorMode::rgb) {
     render::MaterialType type;
     type.type = s.table().type;
     type.plugin = {&s.table(), s.folder};
     RESTAGE_TRY(const gpu::ShaderCompiler* const compiler, s.compiler());
-    return compiler->compile(render::compose_material(type, "check_lab.glsl", gpu::ShaderStage::compute));
+    return compiler->compile(render::compose_material(type, "check_lab.glsl", gpu::ShaderStage::compute, color));
 }
 
 struct Definition {
@@ -130,7 +130,12 @@ Result<StepResult> check_glsl(Subject& s) {
     if (!has_glsl(s)) return StepResult::skip(no_glsl);
     const auto start = std::chrono::steady_clock::now();
     RESTAGE_TRY(const gpu::Spirv spirv, compile(s));
-    return StepResult::passed({{"compile time", seconds_since(start) * 1000, "ms"},
+    const double seconds = seconds_since(start);
+    if (const auto spectral = compile(s, render::ColorMode::spectral); !spectral)
+        return StepResult::failed(spectral.error().message +
+                                  "\nin spectral mode, where a colour has four components: say "
+                                  "Spectrum, not vec3 or .rgb (restage/v1/spectrum.glsl)");
+    return StepResult::passed({{"compile time", seconds * 1000, "ms"},
                                {"code", static_cast<double>(spirv.words.size() * 4), "bytes of SPIR-V"}});
 }
 

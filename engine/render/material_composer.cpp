@@ -10,7 +10,7 @@ namespace {
 const char* glsl_type(const model::Param& p) {
     switch (p.type) {
         case model::ParamType::color:
-            return "vec3";
+            return "Spectrum";
         case model::ParamType::number:
             return "float";
         case model::ParamType::boolean:
@@ -22,13 +22,17 @@ const char* glsl_type(const model::Param& p) {
     }
 }
 
+// A COLOR's RGB as the Spectrum that the plugin sees.
+std::string spectrum(const model::Param& p, const std::string& rgb) {
+    return fmt::format("{}({})", p.max <= 1 ? "spectrum_from_rgb" : "spectrum_from_rgb_unbounded", rgb);
+}
+
 std::string read_value(const model::Param& p, std::uint32_t at) {
     switch (p.type) {
         case model::ParamType::color:
-            return fmt::format(
-                "vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
-                "uintBitsToFloat(w.at[at + {}]))",
-                at, at + 1, at + 2);
+            return spectrum(p, fmt::format("vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
+                                           "uintBitsToFloat(w.at[at + {}]))",
+                                           at, at + 1, at + 2));
         case model::ParamType::number:
             return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
         case model::ParamType::boolean:
@@ -46,7 +50,7 @@ std::string read_value(const model::Param& p, std::uint32_t at) {
 std::string default_value(const model::Param& p) {
     switch (p.type) {
         case model::ParamType::color:
-            return fmt::format("vec3({}, {}, {})", p.def[0], p.def[1], p.def[2]);
+            return spectrum(p, fmt::format("vec3({}, {}, {})", p.def[0], p.def[1], p.def[2]));
         case model::ParamType::number:
             return fmt::format("float({})", p.def[0]);
         case model::ParamType::boolean:
@@ -58,8 +62,8 @@ std::string default_value(const model::Param& p) {
     }
 }
 
-gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage,
-                          bool stand_in) {
+gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage, bool stand_in,
+                          ColorMode mode) {
     const model::Material& table = *type.plugin.table;
     const std::string prefix = table.prefix;
     std::string fields, fetch;
@@ -77,9 +81,11 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
             continue;
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
-        if (line.texturable && type.is_textured(i)) // a slot nobody has textured carries no texture code
-            fetch += fmt::format("    if (w.at[at + {0}] != 0u) m.{1} = texture_eval(scene, w.at[at + {0}], uv).{2};\n",
-                                 at + n, line.id, line.type == model::ParamType::color ? "xyz" : "x");
+        if (line.texturable && type.is_textured(i)) { // else it carries no texture code
+            const std::string value = fmt::format("texture_eval(scene, w.at[at + {}], uv)", at + n);
+            fetch += fmt::format("    if (w.at[at + {}] != 0u) m.{} = {};\n", at + n, line.id,
+                                 line.type == model::ParamType::color ? spectrum(line, value) : value + ".x");
+        }
         at += line_words(line);
     }
     if (fields.empty()) fields = "    int unused;\n", fetch = "    m.unused = 0;\n";
@@ -96,7 +102,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 {rt}#define RESTAGE_GLSL 1
-#include <restage/v1/bsdf.glsl>
+{spectral}#include <restage/v1/bsdf.glsl>
 #include <restage/v1/rng.glsl>
 {table_api}struct {p}_Params {{
 {fields}}};
@@ -109,14 +115,15 @@ Material material_fetch(SceneData scene, uint at, vec4 uv) {{
     Material m;
 {before}{fetch}    return m;
 }}
-vec3 material_eval(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_eval(m, wo, wi{rng}); }}
+Spectrum material_eval(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_eval(m, wo, wi{rng}); }}
 float material_pdf(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_pdf(m, wo, wi{rng}); }}
 BsdfSample material_sample(Material m, vec3 wo, vec3 u, inout Rng rng) {{ return {p}_sample(m, wo, u{rng}); }}
-vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
+Spectrum material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 #include "{main}"
 )",
         fmt::arg("revision", type.plugin.revision()), fmt::arg("p", prefix), fmt::arg("fields", fields),
         fmt::arg("fetch", fetch), fmt::arg("table_api", tables ? "#include <restage/v1/table.glsl>\n" : ""),
+        fmt::arg("spectral", mode == ColorMode::spectral ? "#define RESTAGE_SPECTRAL 1\n" : ""),
         fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),
         fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),
         fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
@@ -126,11 +133,12 @@ vec3 material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
 
 } // namespace
 
-gpu::ShaderSource compose_material(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
-    return compose(type, main_file, stage, false);
+gpu::ShaderSource compose_material(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage,
+                                   ColorMode color) {
+    return compose(type, main_file, stage, false, color);
 }
 gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
-    return compose(type, main_file, stage, true);
+    return compose(type, main_file, stage, true, ColorMode::rgb);
 }
 
 plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {

@@ -27,8 +27,12 @@ struct SceneFeatures {
     bool operator==(const SceneFeatures&) const = default;
 };
 
+// What a Spectrum is in the composed shader: see shaders/restage/v1/spectrum.glsl. Nothing renders spectrally yet.
+enum class ColorMode { rgb, spectral };
+
 // `main_file`: "wave_shade.glsl" or what another tracer wraps around path_step.
-gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage);
+gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage,
+                                   ColorMode = ColorMode::rgb);
 
 // What runs in place of a material that is still being compiled: `type` (diffuse) with its defaults, in the material's
 // own colour; see MaterialData::params.

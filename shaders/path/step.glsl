@@ -4,7 +4,8 @@
 // roulette. pbrt 4ed, 13.4; Veach 1997, ch. 9. Who finds the hits is not known here.
 //
 // The material composer defines before this file: Material (the parameter struct), material_fetch, material_eval,
-// material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore.
+// material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore. A path carries RGB:
+// here their Spectrum becomes that.
 #ifndef RESTAGE_PATH_STEP
 #define RESTAGE_PATH_STEP
 #include <restage/v1/bsdf.glsl>
@@ -80,7 +81,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     vec3 wo = to_local(s, wo_world);
     if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) {
         vec3 seen = depth == 0u ? vec3(1) : abs(path.throughput) / (scene.filter_.weight.x * scene.filter_.weight.y);
-        vec3 albedo = seen * material_albedo(m, wo);
+        vec3 albedo = seen * rgb_from_spectrum(material_albedo(m, wo));
         guide.albedo = finite(albedo) ? clamp(albedo, vec3(0), vec3(1)) : vec3(0);
         guide.normal = finite(s.ns) ? s.ns : vec3(0);
         guide.depth = t;
@@ -101,7 +102,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
-            vec3 f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : vec3(0);
+            vec3 f = same_side == same_hemisphere(wo, wi) ? rgb_from_spectrum(material_eval(m, wo, wi, rng)) : vec3(0);
             ok = finite(f);
             if (max_component(f) > 0.0) {
                 float w = light.delta ? 1.0 : STRATEGY == 2 ? 0.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
@@ -132,19 +133,20 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe.x), rng);
+    vec3 weight = rgb_from_spectrum(b.weight);
     vec3 sums = shadow_contribution + path.radiance;
     if (shadow.tmax > 0.0) sums += shadow.origin + shadow.direction;
-    if (b.flags != 0u) sums += b.weight + b.wi + vec3(b.pdf, b.eta, 0.0);
+    if (b.flags != 0u) sums += weight + b.wi + vec3(b.pdf, b.eta, 0.0);
     ok = ok && finite(sums);
     if (!ok) {
         shadow.tmax = -1.0;
         return false;
     }
-    if (b.flags == 0u || !positive(max_component(b.weight))) return true;
+    if (b.flags == 0u || !positive(max_component(weight))) return true;
     vec3 wi_world = to_world(s, b.wi);
     bool same_side = dot(wi_world, s.ng) * dot(wo_world, s.ng) > 0.0;
     if (same_side != ((b.flags & BSDF_REFLECT) != 0u)) return true;
-    path.throughput *= b.weight;
+    path.throughput *= weight;
     path.pdf = b.pdf;
     path.eta_scale *= b.eta * b.eta;
     if (HAS_MEDIA && !same_side && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)

@@ -28,9 +28,9 @@ float broken_pdf(broken_Params m, vec3 wo, vec3 wi) {
 #endif
 }
 
-vec3 broken_eval(broken_Params m, vec3 wo, vec3 wi) {
+Spectrum broken_eval(broken_Params m, vec3 wo, vec3 wi) {
     if (!same_hemisphere(wo, wi))
-        return vec3(0);
+        return Spectrum(0);
     vec2 alpha = broken_alpha(m);
     float side = wo.z < 0.0 ? -1.0 : 1.0;
     vec3 v = vec3(wo.xy, side * wo.z);
@@ -68,11 +68,11 @@ BsdfSample broken_sample(broken_Params m, vec3 wo, vec3 u) {
     float pdf = broken_pdf(m, wo, wi);
     if (!(pdf > 0.0))
 #ifdef broken_nan_at_alpha_0
-        return BsdfSample(wi, vec3(1), 1.0, BSDF_REFLECT, 1.0);
+        return BsdfSample(wi, Spectrum(1), 1.0, BSDF_REFLECT, 1.0);
 #else
         return BSDF_NONE;
 #endif
     return BsdfSample(wi, broken_eval(m, wo, wi) / pdf, pdf, BSDF_REFLECT, 1.0);
 }
 
-vec3 broken_albedo(broken_Params m, vec3 wo) { return m.tint; }
+Spectrum broken_albedo(broken_Params m, vec3 wo) { return m.tint; }

@@ -234,7 +234,7 @@ TEST_CASE("a material whose shader has an error keeps its stand-in in an editor,
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto folder = empty_cache("broken_" + tracer);
     REQUIRE(
-        write_file_atomic(folder / "broken.glsl", "vec3 broken_eval(broken_Params m, vec3 wo, vec3 wi) { oops; }\n"));
+        write_file_atomic(folder / "broken.glsl", "Spectrum broken_eval(broken_Params m, vec3 wo, vec3 wi) { oops; }\n"));
     const model::Material table{
         .type = "broken",
         .label = "Broken",

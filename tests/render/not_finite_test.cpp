@@ -21,16 +21,16 @@ const model::Material bad_table{
 const char* const bad_glsl = R"(
 #include <restage/v1/sampling.glsl>
 float bad_value(bad_Params m, int mode, float good) { return m.mode == mode ? uintBitsToFloat(0x7fc00000u) : good; }
-vec3 bad_eval(bad_Params m, vec3 wo, vec3 wi) { return vec3(bad_value(m, 1, same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0)); }
+Spectrum bad_eval(bad_Params m, vec3 wo, vec3 wi) { return Spectrum(bad_value(m, 1, same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0)); }
 float bad_pdf(bad_Params m, vec3 wo, vec3 wi) { return bad_value(m, 2, same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0); }
 BsdfSample bad_sample(bad_Params m, vec3 wo, vec3 u) {
     vec3 wi = sample_cosine_hemisphere(u.xy);
     if (wo.z < 0.0) wi.z = -wi.z;
     wi.x = bad_value(m, 3, wi.x);
     float weight = m.mode == 6 ? uintBitsToFloat(0x7f800000u) : bad_value(m, 4, 1.0);
-    return BsdfSample(wi, vec3(weight), bad_value(m, 5, abs(wi.z) * INV_PI), BSDF_REFLECT, 1.0);
+    return BsdfSample(wi, Spectrum(weight), bad_value(m, 5, abs(wi.z) * INV_PI), BSDF_REFLECT, 1.0);
 }
-vec3 bad_albedo(bad_Params m, vec3 wo) { return vec3(1); }
+Spectrum bad_albedo(bad_Params m, vec3 wo) { return Spectrum(1); }
 )";
 
 bool all_finite(const render::FilmImage& image) {

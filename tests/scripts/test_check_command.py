@@ -25,6 +25,9 @@ ADDED = {  # faults that are a line more
     "builtin": "uint broken_who() { return gl_GlobalInvocationID.x; }",
     "scene": "float broken_peek(uint64_t at) { return FloatArray(at).at[0]; }",
     "texture": "vec3 broken_look(vec2 uv) { SceneData scene; return texture_eval(scene, 0u, uv); }",
+    "three": "vec3 broken_copy(broken_Params m) { return m.tint; }",
+    "rgb": "Spectrum broken_copy(broken_Params m) { return m.tint.rgb; }",
+    "both": "Spectrum broken_copy(broken_Params m) { return max(m.tint, spectrum_from_rgb(vec3(1, 0, 0)) / average(wavelengths())); }",
     "syntax": "float broken_typo(float x) { return x + y; }",
 }
 
@@ -97,6 +100,8 @@ def test_the_rough_metal_without_a_fault_passes(tmp_path):
     ("builtin", "glsl", ["broken.glsl:1: \"gl_GlobalInvocationID\": a plugin's GLSL has no"]),
     ("scene", "glsl", ["broken.glsl:1: 'FloatArray'", "nothing of the scene"]),
     ("texture", "glsl", ["broken.glsl:1: 'SceneData' : undeclared identifier", "nothing of the scene"]),
+    ("three", "glsl", ["broken.glsl:1: 'return'", "in spectral mode"]),
+    ("rgb", "glsl", ["broken.glsl:1: 'return'", "in spectral mode"]),
     ("syntax", "glsl", ["broken.glsl:1: 'y' : undeclared identifier"]),
 ])
 def test_a_fault_in_glsl_is_found(tmp_path, fault, step, says):
@@ -104,6 +109,11 @@ def test_a_fault_in_glsl_is_found(tmp_path, fault, step, says):
     assert code == 1 and list(failed) == [step]
     for words in says:
         assert words in failed[step]
+
+
+def test_code_for_any_number_of_wavelengths_passes(tmp_path):
+    code, failed = failures(broken(tmp_path / "plugin", fault="both"), "--only", "glsl")
+    assert failed == {} and code == 0
 
 
 @pytest.mark.parametrize("library, step, says", [
@@ -124,10 +134,10 @@ def test_a_fault_in_native_code_is_found(tmp_path, library, step, says):
 def test_a_parameter_that_a_pbrt_file_cannot_give_back_is_found(tmp_path, taken):
     """One whose id is the word that names the plugin there; any other is the control."""
     (tmp_path / "grey.glsl").write_text("""#include <restage/v1/sampling.glsl>
-vec3 grey_eval(grey_Params m, vec3 wo, vec3 wi) { return vec3(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.%s : 0.0); }
+Spectrum grey_eval(grey_Params m, vec3 wo, vec3 wi) { return Spectrum(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.%s : 0.0); }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
 BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }
-vec3 grey_albedo(grey_Params m, vec3 wo) { return vec3(0.5); }
+Spectrum grey_albedo(grey_Params m, vec3 wo) { return Spectrum(0.5); }
 """ % ("plugin" if taken else "share"))
     (tmp_path / "plugin.json").write_text(json.dumps({
         "id": "org.example.grey", "provides": ["restage.material/1"], "version": "1.0.0", "needs": {"host": ">=0.2"}, "licence": "MIT", "files": ["grey.glsl"],

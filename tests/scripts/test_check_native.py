@@ -14,10 +14,10 @@ RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/resta
 BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
 
 GLSL = """#include <restage/v1/sampling.glsl>
-vec3 broken_eval(broken_Params m, vec3 wo, vec3 wi) { return vec3(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.share : 0.0); }
+Spectrum broken_eval(broken_Params m, vec3 wo, vec3 wi) { return Spectrum(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.share : 0.0); }
 float broken_pdf(broken_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
 BsdfSample broken_sample(broken_Params m, vec3 wo, vec3 u) { return BSDF_NONE; }
-vec3 broken_albedo(broken_Params m, vec3 wo) { return vec3(0.5); }
+Spectrum broken_albedo(broken_Params m, vec3 wo) { return Spectrum(0.5); }
 """
 
 

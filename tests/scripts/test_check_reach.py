@@ -13,7 +13,7 @@ RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/resta
 
 # Lambert's reflection; $NAME stands for what a case changes.
 LAMBERT = """#include <restage/v1/sampling.glsl>
-vec3 grey_eval(grey_Params m, vec3 wo, vec3 wi) { return $EVAL; }
+Spectrum grey_eval(grey_Params m, vec3 wo, vec3 wi) { return $EVAL; }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? cosine_hemisphere_pdf(abs_cos(wi)) : 0.0; }
 BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) {
     vec3 wi = sample_cosine_hemisphere(u.xy);
@@ -25,9 +25,9 @@ BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u) {
     $EXTRA
     return BsdfSample(wi, grey_eval(m, wo, wi) / pdf, pdf, BSDF_REFLECT, 1.0);
 }
-vec3 grey_albedo(grey_Params m, vec3 wo) { return vec3(0.5 * m.share); }
+Spectrum grey_albedo(grey_Params m, vec3 wo) { return Spectrum(0.5 * m.share); }
 """
-PLAIN = "vec3(same_hemisphere(wo, wi) ? 0.5 * m.share * INV_PI * abs_cos(wi) : 0.0)"
+PLAIN = "Spectrum(same_hemisphere(wo, wi) ? 0.5 * m.share * INV_PI * abs_cos(wi) : 0.0)"
 
 # A rough pane whose lobe transmits and whose share varies from look to look; the sharp lobe is what a coarse sum of pdf
 # gets wrong. $PDF multiplies the density that it states.
@@ -37,11 +37,11 @@ STOCHASTIC = """#include <restage/v1/sampling.glsl>
 const float grey_delta = 0.35;
 vec2 grey_alpha() { return vec2(0.03); }
 float grey_density(vec3 o, vec3 i) { return (1.0 - grey_delta) * ggx_d(normalize(o + i), grey_alpha()) / (4.0 * ggx_sigma(o, grey_alpha())); }
-vec3 grey_eval(grey_Params m, vec3 wo, vec3 wi, inout Rng rng) {
-    if (!(wo.z * wi.z < 0.0)) return vec3(0);
+Spectrum grey_eval(grey_Params m, vec3 wo, vec3 wi, inout Rng rng) {
+    if (!(wo.z * wi.z < 0.0)) return Spectrum(0);
     vec3 o = vec3(wo.xy, abs(wo.z)), i = vec3(wi.xy, abs(wi.z));
     float lobe = ggx_d(normalize(o + i), grey_alpha()) * smith_visibility(o.z, ggx_sigma(o, grey_alpha()), i.z, ggx_sigma(i, grey_alpha())) * i.z * 0.25;
-    return vec3(lobe * m.share * (0.5 + rng_next(rng)) * 0.6);
+    return Spectrum(lobe * m.share * (0.5 + rng_next(rng)) * 0.6);
 }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi, inout Rng rng) {
     return wo.z * wi.z < 0.0 ? $PDF * grey_density(vec3(wo.xy, abs(wo.z)), vec3(wi.xy, abs(wi.z))) : 0.0;
@@ -50,7 +50,7 @@ BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u, inout Rng rng) {
     float side = wo.z < 0.0 ? -1.0 : 1.0;
     vec3 o = vec3(wo.xy, abs(wo.z));
     if (o.z <= 0.0) return BSDF_NONE;
-    if (u.z < grey_delta) return BsdfSample(vec3(-wo.xy, wo.z), vec3(0.3), grey_delta, BSDF_REFLECT | BSDF_DELTA, 1.0);
+    if (u.z < grey_delta) return BsdfSample(vec3(-wo.xy, wo.z), Spectrum(0.3), grey_delta, BSDF_REFLECT | BSDF_DELTA, 1.0);
     vec3 h = ggx_sample(o, grey_alpha(), u.xy);
     vec3 i = 2.0 * dot(o, h) * h - o;
     if (i.z <= 0.0) return BSDF_NONE;
@@ -59,7 +59,7 @@ BsdfSample grey_sample(grey_Params m, vec3 wo, vec3 u, inout Rng rng) {
     vec3 wi = vec3(i.xy, -side * i.z);
     return BsdfSample(wi, grey_eval(m, wo, wi, rng) / pdf, pdf, BSDF_TRANSMIT, 1.0);
 }
-vec3 grey_albedo(grey_Params m, vec3 wo) { return vec3(0.4); }
+Spectrum grey_albedo(grey_Params m, vec3 wo) { return Spectrum(0.4); }
 """
 
 
@@ -84,9 +84,9 @@ def check(folder, *args):
 @pytest.mark.parametrize("fault, step, says", [
     (None, "reach", None),
     (None, "isotropy", None),
-    ({"EVAL": "vec3(0.5 * m.share * INV_PI * abs_cos(wi))"}, "reach", ["transmitted 0.0000", "BSDF and light sampling"]),
+    ({"EVAL": "Spectrum(0.5 * m.share * INV_PI * abs_cos(wi))"}, "reach", ["transmitted 0.0000", "BSDF and light sampling"]),
     ({"EVAL": PLAIN.replace("0.5 *", "0.5 * (1.0 + 0.8 * wi.x * wo.x) *")}, "isotropy", ["TANGENT is not declared"]),
-    ({"EXTRA": "if (u.x > 0.999) return BsdfSample(vec3(0.0 / (u.x - u.x)), vec3(1), pdf, BSDF_REFLECT, 1.0);"}, "chi-square",
+    ({"EXTRA": "if (u.x > 0.999) return BsdfSample(vec3(0.0 / (u.x - u.x)), Spectrum(1), pdf, BSDF_REFLECT, 1.0);"}, "chi-square",
      ["have a direction that is none"]),
 ])
 def test_what_sampling_does_not_reach_is_found(fault, step, says, tmp_path):

@@ -7,8 +7,8 @@ Layered coateddiffuse_layers(coateddiffuse_Params m) {
     Layered l = layered_coat_of(vec2(m.uroughness, m.vroughness), m.remap, m.eta, m.thickness, m.albedo, m.g, m.max_depth,
                                 m.n_samples);
     l.metal = false;
-    l.base = clamp(m.reflectance, vec3(0), vec3(1));
-    l.base_k = vec3(0);
+    l.base = clamp(m.reflectance, Spectrum(0), Spectrum(1));
+    l.base_k = Spectrum(0);
     l.base_alpha = vec2(0);
     return l;
 }
@@ -38,22 +38,22 @@ float coateddiffuse_returned(float eta, float thickness) {
 }
 
 // T(wo) T(wi) R / (pi eta^2) sum_k (R K)^k with as many terms as the walk has bounces on the base.
-vec3 coateddiffuse_closed_form(Layered l, vec3 wo, vec3 wi) {
+Spectrum coateddiffuse_closed_form(Layered l, vec3 wo, vec3 wi) {
     float cos_o;
     float cos_i;
     float fo = fresnel_dielectric(abs(wo.z), l.eta, cos_o);
     float fi = fresnel_dielectric(abs(wi.z), l.eta, cos_i);
     float passage = (1.0 - fo) * (1.0 - fi) * exp(-l.thickness * (1.0 / max(cos_o, 1e-4) + 1.0 / max(cos_i, 1e-4)));
-    vec3 q = clamp(l.base * coateddiffuse_returned(l.eta, l.thickness), vec3(1e-6), vec3(0.9999));
+    Spectrum q = clamp(l.base * coateddiffuse_returned(l.eta, l.thickness), Spectrum(1e-6), Spectrum(0.9999));
     float terms = float((max(l.max_depth, 0) + 1) / 2);
-    vec3 series = (1.0 - exp2(terms * log2(q))) / (1.0 - q);
+    Spectrum series = (1.0 - exp2(terms * log2(q))) / (1.0 - q);
     return l.base * series * (passage * abs(wi.z) * INV_PI / (l.eta * l.eta));
 }
 
-vec3 coateddiffuse_eval(coateddiffuse_Params m, vec3 wo, vec3 wi, inout Rng rng) {
+Spectrum coateddiffuse_eval(coateddiffuse_Params m, vec3 wo, vec3 wi, inout Rng rng) {
     Layered l = coateddiffuse_layers(m);
     if (!same_hemisphere(wo, wi))
-        return vec3(0);
+        return Spectrum(0);
     if (coateddiffuse_is_closed_form(l))
         return coateddiffuse_closed_form(l, wo, wi);
     return layered_eval(l, wo, wi, rng);
@@ -71,7 +71,7 @@ BsdfSample coateddiffuse_sample(coateddiffuse_Params m, vec3 wo, vec3 u, inout R
         return BSDF_NONE;
     float f = fresnel_dielectric(abs(wo.z), l.eta);
     if (u.z < f)
-        return BsdfSample(vec3(-wo.xy, wo.z), vec3(1), f, BSDF_REFLECT | BSDF_DELTA, 1.0);
+        return BsdfSample(vec3(-wo.xy, wo.z), Spectrum(1), f, BSDF_REFLECT | BSDF_DELTA, 1.0);
     vec3 wi = sample_cosine_hemisphere(u.xy);
     float pdf = (1.0 - f) * cosine_hemisphere_pdf(wi.z);
     if (!positive(pdf))
@@ -82,10 +82,10 @@ BsdfSample coateddiffuse_sample(coateddiffuse_Params m, vec3 wo, vec3 u, inout R
 }
 
 // As if the coat were smooth and clear.
-vec3 coateddiffuse_albedo(coateddiffuse_Params m, vec3 wo) {
+Spectrum coateddiffuse_albedo(coateddiffuse_Params m, vec3 wo) {
     float eta = max(m.eta, 1.0);
     float f = fresnel_dielectric(abs(wo.z), eta);
     float k = 1.0 - (1.0 - fresnel_dielectric_average(eta)) / (eta * eta);
-    vec3 r = clamp(m.reflectance, vec3(0), vec3(1));
+    Spectrum r = clamp(m.reflectance, Spectrum(0), Spectrum(1));
     return f + (1.0 - f) * r * (1.0 - k) / (1.0 - r * min(k, 0.999));
 }

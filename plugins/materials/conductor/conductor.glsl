@@ -7,29 +7,29 @@
 vec2 conductor_alpha(conductor_Params m) { return alpha_from_roughness(m.uroughness, m.vroughness, m.remap); }
 
 // The index, real and imaginary part.
-vec3 conductor_eta(conductor_Params m) { return m.use_reflectance ? vec3(1) : m.eta; }
-vec3 conductor_k(conductor_Params m) {
+Spectrum conductor_eta(conductor_Params m) { return m.use_reflectance ? Spectrum(1) : m.eta; }
+Spectrum conductor_k(conductor_Params m) {
     return m.use_reflectance ? conductor_k_from_reflectance(m.reflectance) : m.k;
 }
-vec3 conductor_fresnel(conductor_Params m, float cos_i) {
+Spectrum conductor_fresnel(conductor_Params m, float cos_i) {
     return fresnel_conductor(cos_i, conductor_eta(m), conductor_k(m));
 }
 
 // Of light that is reflected more than once; the density of such samples follows its mean share of all light.
-vec3 conductor_multiple(conductor_Params m, vec2 alpha, out float share) {
+Spectrum conductor_multiple(conductor_Params m, vec2 alpha, out float share) {
     share = 0.0;
     if (!m.multiscatter)
-        return vec3(0);
+        return Spectrum(0);
     float lost = microfacet_mean_loss(alpha, m.distribution);
-    vec3 mean = fresnel_conductor_average(conductor_eta(m), conductor_k(m));
-    vec3 color = multiscatter_color(mean, lost);
+    Spectrum mean = fresnel_conductor_average(conductor_eta(m), conductor_k(m));
+    Spectrum color = multiscatter_color(mean, lost);
     float most = max_component(color) * lost;
     share = most / max(most + max_component(mean) * (1.0 - lost), 1e-20);
     return color;
 }
 
 // Pharr et al. 2023, Eq. 9.33 (Torrance and Sparrow 1967); wo.z, wi.z > 0.
-vec3 conductor_single(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float pdf) {
+Spectrum conductor_single(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float pdf) {
     vec3 h = normalize(wo + wi);
     float sigma_o = microfacet_sigma(wo, alpha, m.distribution);
     float sigma_i = microfacet_sigma(wi, alpha, m.distribution);
@@ -38,10 +38,10 @@ vec3 conductor_single(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out floa
     return conductor_fresnel(m, dot(wo, h)) * (0.25 * d * wi.z * smith_visibility(wo.z, sigma_o, wi.z, sigma_i));
 }
 
-vec3 conductor_value(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float pdf) {
+Spectrum conductor_value(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float pdf) {
     float share;
-    vec3 color = conductor_multiple(m, alpha, share);
-    vec3 f = conductor_single(m, wo, wi, alpha, pdf);
+    Spectrum color = conductor_multiple(m, alpha, share);
+    Spectrum f = conductor_single(m, wo, wi, alpha, pdf);
     if (share > 0.0) {
         float lost = microfacet_mean_loss(alpha, m.distribution);
         f += color * multiscatter_reflection(wo, wi, alpha, lost, m.distribution);
@@ -50,11 +50,11 @@ vec3 conductor_value(conductor_Params m, vec3 wo, vec3 wi, vec2 alpha, out float
     return f;
 }
 
-vec3 conductor_eval(conductor_Params m, vec3 wo, vec3 wi) {
+Spectrum conductor_eval(conductor_Params m, vec3 wo, vec3 wi) {
     vec2 alpha = conductor_alpha(m);
     float pdf;
     if (!same_hemisphere(wo, wi) || alpha_is_smooth(alpha))
-        return vec3(0);
+        return Spectrum(0);
     return conductor_value(m, vec3(wo.xy, abs(wo.z)), vec3(wi.xy, abs(wi.z)), alpha, pdf);
 }
 
@@ -86,14 +86,14 @@ BsdfSample conductor_sample(conductor_Params m, vec3 wo, vec3 u) {
     if (v.z <= 0.0 || wi.z <= 0.0)
         return BSDF_NONE;
     if (smooth_surface) {
-        vec3 weight = conductor_fresnel(m, dot(v, h));
+        Spectrum weight = conductor_fresnel(m, dot(v, h));
         return BsdfSample(vec3(wi.xy, side * wi.z), weight, 1.0, BSDF_REFLECT | BSDF_DELTA, 1.0);
     }
     float pdf;
-    vec3 f = conductor_value(m, v, wi, alpha, pdf);
+    Spectrum f = conductor_value(m, v, wi, alpha, pdf);
     if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, BSDF_REFLECT, 1.0);
 }
 
-vec3 conductor_albedo(conductor_Params m, vec3 wo) { return conductor_fresnel(m, abs(wo.z)); }
+Spectrum conductor_albedo(conductor_Params m, vec3 wo) { return conductor_fresnel(m, abs(wo.z)); }

@@ -18,8 +18,8 @@ float dielectric_eta(dielectric_Params m, vec3 wo) {
     return wo.z < 0.0 && !m.thin ? 1.0 / eta : eta;
 }
 
-vec3 dielectric_tint(dielectric_Params m, bool reflects) {
-    return clamp(reflects ? m.reflectance : m.transmittance, vec3(0), vec3(1));
+Spectrum dielectric_tint(dielectric_Params m, bool reflects) {
+    return clamp(reflects ? m.reflectance : m.transmittance, Spectrum(0), Spectrum(1));
 }
 
 // The share of samples that follow what is scattered more than once.
@@ -50,7 +50,7 @@ vec2 dielectric_value_pdf(dielectric_Params m, vec3 wo, vec3 wi) {
     return value;
 }
 
-vec3 dielectric_eval(dielectric_Params m, vec3 wo, vec3 wi) {
+Spectrum dielectric_eval(dielectric_Params m, vec3 wo, vec3 wi) {
     return dielectric_tint(m, same_hemisphere(wo, wi)) * dielectric_value_pdf(m, wo, wi).x;
 }
 
@@ -107,7 +107,7 @@ BsdfSample dielectric_sample(dielectric_Params m, vec3 wo, vec3 u) {
     return BsdfSample(wi, dielectric_tint(m, reflects) * weight, pdf, flags, reflects || m.thin ? 1.0 : eta);
 }
 
-vec3 dielectric_albedo(dielectric_Params m, vec3 wo) {
+Spectrum dielectric_albedo(dielectric_Params m, vec3 wo) {
     float r = fresnel_dielectric(abs(wo.z), dielectric_eta(m, wo));
     return mix(dielectric_tint(m, false), dielectric_tint(m, true), m.thin ? 2.0 * r / (1.0 + r) : r);
 }

@@ -2,8 +2,8 @@
 // A thin sheet that scatters diffusely to both sides (pbrt-v4 DiffuseTransmissionBxDF).
 #include <restage/v1/sampling.glsl>
 
-vec3 diffusetransmission_albedo(diffusetransmission_Params m, vec3 wo) {
-    return clamp(m.reflectance, vec3(0), vec3(1)) + clamp(m.transmittance, vec3(0), vec3(1));
+Spectrum diffusetransmission_albedo(diffusetransmission_Params m, vec3 wo) {
+    return clamp(m.reflectance, Spectrum(0), Spectrum(1)) + clamp(m.transmittance, Spectrum(0), Spectrum(1));
 }
 
 // Probability of reflection.
@@ -13,8 +13,9 @@ float diffusetransmission_reflects(diffusetransmission_Params m) {
     return r + t > 0.0 ? r / (r + t) : 1.0;
 }
 
-vec3 diffusetransmission_eval(diffusetransmission_Params m, vec3 wo, vec3 wi) {
-    return clamp(same_hemisphere(wo, wi) ? m.reflectance : m.transmittance, vec3(0), vec3(1)) * (INV_PI * abs(wi.z));
+Spectrum diffusetransmission_eval(diffusetransmission_Params m, vec3 wo, vec3 wi) {
+    Spectrum share = same_hemisphere(wo, wi) ? m.reflectance : m.transmittance;
+    return clamp(share, Spectrum(0), Spectrum(1)) * (INV_PI * abs(wi.z));
 }
 
 float diffusetransmission_pdf(diffusetransmission_Params m, vec3 wo, vec3 wi) {
@@ -31,6 +32,6 @@ BsdfSample diffusetransmission_sample(diffusetransmission_Params m, vec3 wo, vec
     float pdf = diffusetransmission_pdf(m, wo, wi);
     if (!positive(pdf) || wo.z == 0.0)
         return BSDF_NONE;
-    vec3 weight = diffusetransmission_eval(m, wo, wi) / pdf;
+    Spectrum weight = diffusetransmission_eval(m, wo, wi) / pdf;
     return BsdfSample(wi, weight, pdf, reflects ? BSDF_REFLECT : BSDF_TRANSMIT, 1.0);
 }

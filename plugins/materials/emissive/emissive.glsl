@@ -2,10 +2,10 @@
 // What it reflects: Lambert, on both sides. What it emits is the host's part; see restage/emission.h.
 #include <restage/v1/sampling.glsl>
 
-vec3 emissive_albedo(emissive_Params m, vec3 wo) { return clamp(m.reflectance, vec3(0), vec3(1)); }
+Spectrum emissive_albedo(emissive_Params m, vec3 wo) { return clamp(m.reflectance, Spectrum(0), Spectrum(1)); }
 
-vec3 emissive_eval(emissive_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? emissive_albedo(m, wo) * (INV_PI * abs(wi.z)) : vec3(0);
+Spectrum emissive_eval(emissive_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? emissive_albedo(m, wo) * (INV_PI * abs(wi.z)) : Spectrum(0);
 }
 
 float emissive_pdf(emissive_Params m, vec3 wo, vec3 wi) {

@@ -16,7 +16,7 @@ struct hair_State {
     float s;      // scale of the logistic distribution about the fibre
     vec4 v;       // longitudinal variances
     vec2 tilt[3]; // (sin, cos) of wo's inclination, turned by the scales
-    vec3 ap[4];   // attenuations
+    Spectrum ap[4];   // attenuations
     vec4 choice;  // probabilities of the lobes
 };
 
@@ -79,10 +79,10 @@ float hair_sample_n(float u, hair_State st) {
 }
 
 // Absorption [1 / fibre radius] of hair that, as many, has this colour: Chiang et al. 2016, Eq. 9.
-vec3 hair_sigma(vec3 color, float b) {
+Spectrum hair_sigma(Spectrum color, float b) {
     float b2 = b * b;
     float d = 5.969 - 0.215 * b + 2.532 * b2 - 10.73 * b2 * b + 5.574 * b2 * b2 + 0.245 * b2 * b2 * b;
-    vec3 x = log(clamp(color, vec3(1e-4), vec3(1))) / d;
+    Spectrum x = log(clamp(color, Spectrum(1e-4), Spectrum(1))) / d;
     return x * x;
 }
 
@@ -107,16 +107,16 @@ hair_State hair_state(hair_Params m, vec3 wo) {
     float sin_gamma_t = clamp(h / eta_p, -1.0, 1.0);
     float cos_gamma_t = sqrt(max(0.0, 1.0 - sqr(sin_gamma_t)));
     st.gamma_t = hair_atan(sin_gamma_t, cos_gamma_t);
-    vec3 t = exp(-hair_sigma(m.color, bn) * (2.0 * cos_gamma_t / cos_t));
+    Spectrum t = exp(-hair_sigma(m.color, bn) * (2.0 * cos_gamma_t / cos_t));
 
     // Attenuations, d'Eon et al. 2011, Eq. 13; the last sums all that is left (a geometric series).
     float f = fresnel_dielectric(wo.z, eta); // cos theta_o cos gamma_o
-    st.ap[0] = vec3(f);
+    st.ap[0] = Spectrum(f);
     st.ap[1] = sqr(1.0 - f) * t;
     st.ap[2] = st.ap[1] * t * f;
-    st.ap[3] = st.ap[2] * f * t / max(1.0 - f * t, vec3(1e-6));
+    st.ap[3] = st.ap[2] * f * t / max(1.0 - f * t, Spectrum(1e-6));
     for (int p = 0; p <= hair_lobes; ++p)
-        st.choice[p] = dot(st.ap[p], vec3(1.0 / 3.0));
+        st.choice[p] = average(st.ap[p]);
     st.choice /= max(st.choice.x + st.choice.y + st.choice.z + st.choice.w, 1e-12);
 
     // The scales turn R by -2 alpha, TT by alpha, TRT by 4 alpha.
@@ -131,11 +131,11 @@ hair_State hair_state(hair_Params m, vec3 wo) {
 }
 
 // f |cos wi| and its density; wo.z > 0. The scattering function has no cosine of its own: 1 / |cos| is left out here.
-vec3 hair_value(hair_State st, vec3 wi, out float pdf) {
+Spectrum hair_value(hair_State st, vec3 wi, out float pdf) {
     float sin_i = clamp(wi.x, -1.0, 1.0);
     float cos_i = sqrt(max(0.0, 1.0 - sin_i * sin_i));
     float phi = hair_atan(wi.z, wi.y) - st.phi_o;
-    vec3 f = vec3(0);
+    Spectrum f = Spectrum(0);
     pdf = 0.0;
     for (int p = 0; p <= hair_lobes; ++p) {
         bool rest = p == hair_lobes;
@@ -147,9 +147,9 @@ vec3 hair_value(hair_State st, vec3 wi, out float pdf) {
     return f;
 }
 
-vec3 hair_eval(hair_Params m, vec3 wo, vec3 wi) {
+Spectrum hair_eval(hair_Params m, vec3 wo, vec3 wi) {
     float pdf;
-    return wo.z > 0.0 && wi.z != 0.0 ? hair_value(hair_state(m, wo), wi, pdf) : vec3(0);
+    return wo.z > 0.0 && wi.z != 0.0 ? hair_value(hair_state(m, wo), wi, pdf) : Spectrum(0);
 }
 
 float hair_pdf(hair_Params m, vec3 wo, vec3 wi) {
@@ -161,7 +161,7 @@ float hair_pdf(hair_Params m, vec3 wo, vec3 wi) {
 
 BsdfSample hair_sample(hair_Params m, vec3 wo, vec3 u) {
     if (wo.z <= 0.0)
-        return wo.z < 0.0 ? BsdfSample(-wo, vec3(1), 1.0, BSDF_TRANSMIT | BSDF_DELTA, 1.0) : BSDF_NONE;
+        return wo.z < 0.0 ? BsdfSample(-wo, Spectrum(1), 1.0, BSDF_TRANSMIT | BSDF_DELTA, 1.0) : BSDF_NONE;
     hair_State st = hair_state(m, wo);
     int p = 0;
     float left = u.z;
@@ -180,15 +180,15 @@ BsdfSample hair_sample(hair_Params m, vec3 wo, vec3 u) {
     if (wi.z == 0.0)
         return BSDF_NONE;
     float pdf;
-    vec3 f = hair_value(st, wi, pdf);
+    Spectrum f = hair_value(st, wi, pdf);
     if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(wi, f / pdf, pdf, wi.z > 0.0 ? BSDF_REFLECT : BSDF_TRANSMIT, 1.0);
 }
 
-vec3 hair_albedo(hair_Params m, vec3 wo) {
+Spectrum hair_albedo(hair_Params m, vec3 wo) {
     if (wo.z <= 0.0)
-        return vec3(1);
+        return Spectrum(1);
     hair_State st = hair_state(m, wo);
-    return clamp(st.ap[0] + st.ap[1] + st.ap[2] + st.ap[3], vec3(0), vec3(1));
+    return clamp(st.ap[0] + st.ap[1] + st.ap[2] + st.ap[3], Spectrum(0), Spectrum(1));
 }

@@ -26,7 +26,7 @@ vec3 measured_entry(measured_Params m, uint first, uvec3 n, ivec3 at) {
 }
 
 // The BRDF, wo and wi above. Angles by their tangents: near the peak an arc cosine has no digits left.
-vec3 measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
+Spectrum measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
     uvec3 n = measured_counts(m);
     vec3 h = wo + wi, d = wi - wo;
     float h_xy = length(h.xy);
@@ -47,7 +47,7 @@ vec3 measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
     lower.z = (lower.z + around) % around;
     upper.z = (lower.z + 1) % around;
     uint first = measured_head + table_word(m.filename, 3u) * measured_row_words(m);
-    vec3 sum = vec3(0), measured = vec3(0); // what was not measured has no weight
+    vec3 sum = vec3(0), measured = vec3(0); // RGB, as the table has it; what was not measured has no weight
     for (int k = 0; k < 8; ++k) {
         bvec3 up = bvec3((k & 1) != 0, (k & 2) != 0, (k & 4) != 0);
         vec3 w = mix(1.0 - f, f, up);
@@ -57,7 +57,7 @@ vec3 measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
         sum += weight * value;
         measured += weight;
     }
-    return sum / max(measured, vec3(1e-30));
+    return spectrum_from_rgb_unbounded(sum / max(measured, vec3(1e-30)));
 }
 
 vec3 measured_up(vec3 w) { return vec3(w.xy, abs(w.z)); }
@@ -101,10 +101,10 @@ vec3 measured_sample_half(measured_Params m, uint row, vec2 u) {
     return vec3(r * cos(phi), r * sin(phi), 1.0 - v);
 }
 
-vec3 measured_eval(measured_Params m, vec3 wo, vec3 wi) {
+Spectrum measured_eval(measured_Params m, vec3 wo, vec3 wi) {
     if (!same_hemisphere(wo, wi) || table_size(m.filename) == 0u)
-        return vec3(0);
-    return clamp(m.tint, vec3(0), vec3(1)) * measured_brdf(m, measured_up(wo), measured_up(wi)) * abs(wi.z);
+        return Spectrum(0);
+    return clamp(m.tint, Spectrum(0), Spectrum(1)) * measured_brdf(m, measured_up(wo), measured_up(wi)) * abs(wi.z);
 }
 
 float measured_pdf(measured_Params m, vec3 wo, vec3 wi) {
@@ -124,11 +124,12 @@ BsdfSample measured_sample(measured_Params m, vec3 wo, vec3 u) {
     float pdf = measured_density(m, v, wi);
     if (!positive(pdf))
         return BSDF_NONE;
-    vec3 f = measured_eval(m, v, wi);
+    Spectrum f = measured_eval(m, v, wi);
     return BsdfSample(wo.z < 0.0 ? vec3(wi.xy, -wi.z) : wi, f / pdf, pdf, BSDF_REFLECT, 1.0);
 }
 
-vec3 measured_albedo(measured_Params m, vec3 wo) {
+Spectrum measured_albedo(measured_Params m, vec3 wo) {
     uint row = measured_row(m, measured_up(wo));
-    return m.tint * vec3(table_float(m.filename, row), table_float(m.filename, row + 1u), table_float(m.filename, row + 2u));
+    vec3 mean = vec3(table_float(m.filename, row), table_float(m.filename, row + 1u), table_float(m.filename, row + 2u));
+    return m.tint * spectrum_from_rgb(mean);
 }

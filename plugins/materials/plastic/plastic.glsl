@@ -17,16 +17,16 @@ float plastic_glossy(plastic_Params m, vec3 wo) {
     return s + d > 0.0 ? s / (s + d) : 0.0;
 }
 
-vec3 plastic_eval(plastic_Params m, vec3 wo, vec3 wi) {
+Spectrum plastic_eval(plastic_Params m, vec3 wo, vec3 wi) {
     if (!same_hemisphere(wo, wi))
-        return vec3(0);
+        return Spectrum(0);
     vec2 alpha = vec2(plastic_alpha(m));
     vec3 o = vec3(wo.xy, abs(wo.z));
     vec3 i = vec3(wi.xy, abs(wi.z));
     vec3 h = normalize(o + i);
     float gloss = 0.25 * ggx_d(h, alpha) * smith_visibility(o.z, ggx_sigma(o, alpha), i.z, ggx_sigma(i, alpha)) *
                   fresnel_dielectric(dot(i, h), plastic_eta(wo));
-    return (clamp(m.kd, vec3(0), vec3(1)) * INV_PI + clamp(m.ks, vec3(0), vec3(1)) * gloss) * i.z;
+    return (clamp(m.kd, Spectrum(0), Spectrum(1)) * INV_PI + clamp(m.ks, Spectrum(0), Spectrum(1)) * gloss) * i.z;
 }
 
 float plastic_pdf(plastic_Params m, vec3 wo, vec3 wi) {
@@ -53,6 +53,6 @@ BsdfSample plastic_sample(plastic_Params m, vec3 wo, vec3 u) {
     return BsdfSample(wi, plastic_eval(m, wo, wi) / pdf, pdf, BSDF_REFLECT, 1.0);
 }
 
-vec3 plastic_albedo(plastic_Params m, vec3 wo) {
-    return clamp(m.kd + m.ks * fresnel_dielectric(abs(wo.z), plastic_eta(wo)), vec3(0), vec3(1));
+Spectrum plastic_albedo(plastic_Params m, vec3 wo) {
+    return clamp(m.kd + m.ks * fresnel_dielectric(abs(wo.z), plastic_eta(wo)), Spectrum(0), Spectrum(1));
 }

@@ -13,24 +13,24 @@ const float principled_coat_f0 = 0.04;   // ior 1.5, KHR_materials_clearcoat
 const float principled_least_eta = 1.01; // below it the half vector of refraction has no direction left
 
 struct principled_State {
-    vec3 base;
+    Spectrum base;
     float metallic;
     float transmission;
-    vec3 f0;   // of the dielectric, head on and grazing
+    Spectrum f0;   // of the dielectric, head on and grazing
     float f90;
     float eta; // behind the surface / on wo's side
     bool thin;
     vec2 alpha;
     vec2 coat_alpha;
     float coat;
-    vec3 sheen;
+    Spectrum sheen;
     float sheen_alpha;
     float film; // share of the surface that has one
     float film_ior;
     float film_thickness; // nm
     float mean_loss;      // of the layer, to multiple scattering; 0 when that is left out
-    vec3 multiple;        // colour of light reflected more than once
-    vec3 multiple_through; // of a pane: colour of what goes through then
+    Spectrum multiple;    // colour of light reflected more than once
+    Spectrum multiple_through; // of a pane: colour of what goes through then
     float clear_multiple; // share of the surface that is glass and scatters more than once
     MultiscatterDielectric glass;
     float sink;           // share of the cosine lobe's samples that go below
@@ -43,8 +43,8 @@ float principled_schlick(float c) {
     return sqr(x * x) * x;
 }
 // Of the opaque dielectric. `film`: s.film, or 0 where a guess will do, for the film is much code to compile.
-vec3 principled_fresnel(principled_State s, float c, float film) {
-    vec3 bare = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
+Spectrum principled_fresnel(principled_State s, float c, float film) {
+    Spectrum bare = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
     return film > 0.0 ? mix(bare, thin_film_reflectance(c, s.film_ior, s.film_thickness, s.f0), film) : bare;
 }
 float principled_coat_fresnel(principled_State s, float c) {
@@ -52,24 +52,24 @@ float principled_coat_fresnel(principled_State s, float c) {
 }
 
 // What a microfacet seen under the cosine c reflects and lets through.
-vec3 principled_reflected(principled_State s, float c, float film, out vec3 through) {
-    vec3 f[3]; // of the opaque dielectric, of glass, of metal; a film takes its share in a loop: compiled once
+Spectrum principled_reflected(principled_State s, float c, float film, out Spectrum through) {
+    Spectrum f[3]; // of the opaque dielectric, of glass, of metal; a film takes its share in a loop: compiled once
     f[0] = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
     float cos_t = 1.0;
-    f[1] = vec3(!s.thin && s.transmission > 0.0 ? fresnel_dielectric(c, s.eta, cos_t) : 0.0);
+    f[1] = Spectrum(!s.thin && s.transmission > 0.0 ? fresnel_dielectric(c, s.eta, cos_t) : 0.0);
     f[2] = fresnel_schlick(s.base, c);
     if (film > 0.0) {
         for (int k = 0; k < 3; ++k) {
             if (k == 1 && cos_t <= 0.0)
                 continue; // total reflection
             // A film looks alike from both sides of glass.
-            vec3 filmed = thin_film_reflectance(k == 1 && s.eta < 1.0 ? cos_t : c, s.film_ior, s.film_thickness,
+            Spectrum filmed = thin_film_reflectance(k == 1 && s.eta < 1.0 ? cos_t : c, s.film_ior, s.film_thickness,
                                               k == 2 ? s.base : s.f0);
             f[k] = mix(f[k], filmed, film);
         }
     }
-    vec3 dielectric = f[0];
-    vec3 glass = s.thin ? vec3(max_component(dielectric)) : f[1];
+    Spectrum dielectric = f[0];
+    Spectrum glass = s.thin ? Spectrum(max_component(dielectric)) : f[1];
     float clear = (1.0 - s.metallic) * s.transmission;
     through = clear * (1.0 - glass) * s.base;
     dielectric = mix(dielectric, s.thin ? dielectric : glass, s.transmission);
@@ -77,7 +77,7 @@ vec3 principled_reflected(principled_State s, float c, float film, out vec3 thro
 }
 
 // The share of the layer's samples that reflect.
-float principled_reflects(vec3 reflected, vec3 through) {
+float principled_reflects(Spectrum reflected, Spectrum through) {
     float r = max_component(reflected);
     float t = max_component(through);
     return t > 0.0 ? r / (r + t) : 1.0;
@@ -86,7 +86,7 @@ float principled_reflects(vec3 reflected, vec3 through) {
 // The matte part below the layer: what the layer lets in on the way of wi and out on the way of wo, scaled so that a
 // smooth white surface loses nothing. Shirley, Smits, Hu and Lafortune 1997, "A Practitioners' Assessment of Light
 // Reflection Models", Eq. 7.
-vec3 principled_diffuse(principled_State s, float cos_o, float cos_i, float mean_fresnel, float film) {
+Spectrum principled_diffuse(principled_State s, float cos_o, float cos_i, float mean_fresnel, float film) {
     float through = 1.0;
     for (int k = 0; k < 2; ++k)
         through *= 1.0 - max_component(principled_fresnel(s, k == 0 ? cos_o : cos_i, film));
@@ -123,12 +123,12 @@ vec3 principled_turned_back(principled_State s, vec3 w) {
 
 principled_State principled_state(principled_Params m, vec3 wo) {
     principled_State s;
-    s.base = clamp(m.base_color, vec3(0), vec3(1));
+    s.base = clamp(m.base_color, Spectrum(0), Spectrum(1));
     s.metallic = clamp(m.metallic, 0.0, 1.0);
     s.transmission = clamp(m.transmission, 0.0, 1.0);
     float ior = clamp(m.ior, 1.0, 10.0);
     s.f90 = clamp(m.specular, 0.0, 1.0);
-    s.f0 = min(sqr((ior - 1.0) / (ior + 1.0)) * max(m.specular_color, vec3(0)), vec3(1)) * s.f90;
+    s.f0 = min(sqr((ior - 1.0) / (ior + 1.0)) * max(m.specular_color, Spectrum(0)), Spectrum(1)) * s.f90;
     float eta = max(ior, principled_least_eta);
     s.eta = wo.z < 0.0 ? 1.0 / eta : eta;
     s.thin = m.thin;
@@ -137,14 +137,14 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     s.alpha = vec2(mix(alpha, 1.0, sqr(strength)), alpha); // KHR_materials_anisotropy, "Individual lobes"
     float turn = strength > 0.0 ? radians(m.anisotropy_rotation) : 0.0;
     s.turn = vec2(cos(turn), sin(turn));
-    s.sheen = clamp(m.sheen_color, vec3(0), vec3(1));
+    s.sheen = clamp(m.sheen_color, Spectrum(0), Spectrum(1));
     s.sheen_alpha = sheen_alpha(m.sheen_roughness);
     s.film = clamp(m.iridescence, 0.0, 1.0);
     s.film_ior = clamp(m.iridescence_ior, 1.0, 3.0);
     s.film_thickness = max(m.iridescence_thickness, 0.0);
     s.mean_loss = 0.0;
-    s.multiple = vec3(0);
-    s.multiple_through = vec3(0);
+    s.multiple = Spectrum(0);
+    s.multiple_through = Spectrum(0);
     s.clear_multiple = 0.0;
     s.glass = MultiscatterDielectric(s.eta, vec2(1), 0.0);
     if (m.multiscatter && !alpha_is_smooth(s.alpha)) {
@@ -164,8 +164,8 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     s.coat_alpha = vec2(sqr(clamp(m.clearcoat_roughness, 0.0, 1.0)));
     s.coat = clamp(m.clearcoat, 0.0, 1.0);
     float c = abs(wo.z);
-    vec3 through;
-    vec3 reflected = principled_reflected(s, c, 0.0, through);
+    Spectrum through;
+    Spectrum reflected = principled_reflected(s, c, 0.0, through);
     float coat = principled_coat_fresnel(s, c);
     float below = (1.0 - coat) * principled_under_sheen(s, c, c);
     float upward = max_component(principled_diffuse(s, c, 0.7, principled_bare_mean(s), 0.0)) +
@@ -187,11 +187,11 @@ float principled_under_coat(principled_State s, float cos_o, float cos_i) {
 
 // f |cos wi| of light that the layer scatters more than once: Kulla and Conty's lobes, of what reflects all and of glass
 // (restage/v1/multiscatter.glsl). The losses are taken in a loop: compiled once.
-vec3 principled_multiple(principled_State s, vec3 wo, vec3 wi) {
+Spectrum principled_multiple(principled_State s, vec3 wo, vec3 wi) {
     bool reflects = wi.z > 0.0;
     float ci = abs(wi.z);
-    vec3 color = reflects ? s.multiple : s.multiple_through;
-    vec3 f = vec3(0);
+    Spectrum color = reflects ? s.multiple : s.multiple_through;
+    Spectrum f = Spectrum(0);
     for (int k = 0; k < 2; ++k) {
         if (k == 0 ? max_component(color) <= 0.0 : s.clear_multiple <= 0.0)
             continue;
@@ -212,13 +212,13 @@ vec3 principled_multiple(principled_State s, vec3 wo, vec3 wi) {
 }
 
 // f |cos wi| and the density of all lobes that are not delta; wo.z > 0.
-vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
+Spectrum principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     pdf = 0.0;
     if (wo.z <= 0.0 || wi.z == 0.0)
-        return vec3(0);
+        return Spectrum(0);
     bool reflects = wi.z > 0.0;
     float ci = abs(wi.z);
-    vec3 f = principled_multiple(s, wo, wi);
+    Spectrum f = principled_multiple(s, wo, wi);
     pdf = s.choice.x * (reflects ? 1.0 - s.sink : s.sink) * cosine_hemisphere_pdf(ci);
     if (reflects)
         f += principled_diffuse(s, wo.z, ci, principled_mean_fresnel(s), s.film) * (INV_PI * ci);
@@ -227,8 +227,8 @@ vec3 principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
         bool mirrored = !reflects && s.thin;
         float ho;
         vec2 layer = rough_interface(wo, mirrored ? vec3(wi.xy, ci) : wi, s.alpha, s.eta, DISTRIBUTION_GGX, ho);
-        vec3 through;
-        vec3 reflected = principled_reflected(s, ho, s.film, through);
+        Spectrum through;
+        Spectrum reflected = principled_reflected(s, ho, s.film, through);
         float share = principled_reflects(reflected, through);
         f += (reflects ? reflected : through) * layer.x;
         pdf += s.choice.y * (reflects ? share : 1.0 - share) * layer.y;
@@ -253,7 +253,7 @@ vec3 principled_turned_up(principled_State s, vec3 wo, vec3 w) {
     return principled_turned(s, vec3(w.xy, wo.z < 0.0 ? -w.z : w.z));
 }
 
-vec3 principled_eval(principled_Params m, vec3 wo, vec3 wi) {
+Spectrum principled_eval(principled_Params m, vec3 wo, vec3 wi) {
     float pdf;
     principled_State s = principled_state(m, wo);
     return principled_value(s, principled_turned_up(s, wo, wo), principled_turned_up(s, wo, wi), pdf);
@@ -289,8 +289,9 @@ BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
         float ho = dot(v, h);
         if (ho <= 0.0)
             return BSDF_NONE;
-        vec3 through = vec3(0);
-        vec3 reflected = coat ? vec3(principled_coat_fresnel(s, ho)) : principled_reflected(s, ho, s.film, through);
+        Spectrum through = Spectrum(0);
+        Spectrum reflected =
+            coat ? Spectrum(principled_coat_fresnel(s, ho)) : principled_reflected(s, ho, s.film, through);
         float share = principled_reflects(reflected, through);
         bool reflects = coat || layers < s.choice.y * share;
         wi = delta ? vec3(-v.xy, v.z) : normalize(reflect_about(v, h));
@@ -310,14 +311,14 @@ BsdfSample principled_sample_up(principled_State s, vec3 v, vec3 u) {
             float p = coat ? s.choice.z : s.choice.y * (reflects ? share : 1.0 - share);
             if (!positive(p))
                 return BSDF_NONE;
-            vec3 weight = (reflects ? reflected : through / (bent * bent)) / p;
+            Spectrum weight = (reflects ? reflected : through / (bent * bent)) / p;
             if (!coat)
                 weight *= principled_under_coat(s, v.z, abs(wi.z)) * principled_under_sheen(s, v.z, abs(wi.z));
             return BsdfSample(wi, weight, p, BSDF_DELTA | (reflects ? BSDF_REFLECT : BSDF_TRANSMIT), bent);
         }
     }
     float pdf;
-    vec3 f = principled_value(s, v, wi, pdf);
+    Spectrum f = principled_value(s, v, wi, pdf);
     if (!positive(pdf))
         return BSDF_NONE;
     return BsdfSample(wi, f / pdf, pdf, wi.z > 0.0 ? BSDF_REFLECT : BSDF_TRANSMIT, bent);
@@ -333,14 +334,14 @@ BsdfSample principled_sample(principled_Params m, vec3 wo, vec3 u) {
     return b;
 }
 
-vec3 principled_albedo(principled_Params m, vec3 wo) {
+Spectrum principled_albedo(principled_Params m, vec3 wo) {
     principled_State s = principled_state(m, wo);
     float c = abs(wo.z);
-    vec3 through;
-    vec3 reflected = principled_reflected(s, c, s.film, through);
+    Spectrum through;
+    Spectrum reflected = principled_reflected(s, c, s.film, through);
     float matte = (1.0 - s.metallic) * (1.0 - s.transmission) * (1.0 - max_component(principled_fresnel(s, c, 0.0)));
     float coat = principled_coat_fresnel(s, c);
-    vec3 below = principled_under_sheen(s, c, c) * (reflected + through + s.base * matte);
-    vec3 fibres = s.sheen * sheen_albedo(c, s.sheen_alpha);
-    return clamp(coat + (1.0 - coat) * (fibres + below), vec3(0), vec3(1));
+    Spectrum below = principled_under_sheen(s, c, c) * (reflected + through + s.base * matte);
+    Spectrum fibres = s.sheen * sheen_albedo(c, s.sheen_alpha);
+    return clamp(coat + (1.0 - coat) * (fibres + below), Spectrum(0), Spectrum(1));
 }

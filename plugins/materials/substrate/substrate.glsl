@@ -16,16 +16,16 @@ float substrate_fade(float x) {
 }
 
 // pbrt-v3, Eqs. 8.20 (diffuse) and 8.21 (specular).
-vec3 substrate_eval(substrate_Params m, vec3 wo, vec3 wi) {
+Spectrum substrate_eval(substrate_Params m, vec3 wo, vec3 wi) {
     if (!same_hemisphere(wo, wi))
-        return vec3(0);
+        return Spectrum(0);
     wo.z = abs(wo.z);
     wi.z = abs(wi.z);
-    vec3 kd = clamp(m.kd, vec3(0), vec3(1));
-    vec3 ks = clamp(m.ks, vec3(0), vec3(1));
+    Spectrum kd = clamp(m.kd, Spectrum(0), Spectrum(1));
+    Spectrum ks = clamp(m.ks, Spectrum(0), Spectrum(1));
     vec3 h = normalize(wo + wi);
     float hi = max(dot(wi, h), 1e-6);
-    vec3 diffuse = kd * (1.0 - ks) * (28.0 / 23.0 * INV_PI * substrate_fade(wi.z) * substrate_fade(wo.z));
+    Spectrum diffuse = kd * (1.0 - ks) * (28.0 / 23.0 * INV_PI * substrate_fade(wi.z) * substrate_fade(wo.z));
     float specular = ggx_d(h, substrate_alpha(m)) / (4.0 * hi * max(wi.z, wo.z));
     return (diffuse + specular * fresnel_schlick(ks, hi)) * wi.z;
 }
@@ -47,13 +47,13 @@ BsdfSample substrate_sample(substrate_Params m, vec3 wo, vec3 u) {
     if (v.z == 0.0 || wi.z <= 0.0)
         return BSDF_NONE;
     float pdf = substrate_pdf(m, v, wi);
-    vec3 weight = substrate_eval(m, v, wi) / pdf;
+    Spectrum weight = substrate_eval(m, v, wi) / pdf;
     return BsdfSample(vec3(wi.xy, wo.z < 0.0 ? -wi.z : wi.z), weight, pdf, BSDF_REFLECT, 1.0);
 }
 
 // Of the diffuse part exactly (28/23 is there to make it so), of the specular part without its loss at high roughness.
-vec3 substrate_albedo(substrate_Params m, vec3 wo) {
-    vec3 ks = clamp(m.ks, vec3(0), vec3(1));
-    vec3 diffuse = clamp(m.kd, vec3(0), vec3(1)) * (1.0 - ks) * substrate_fade(abs(wo.z));
+Spectrum substrate_albedo(substrate_Params m, vec3 wo) {
+    Spectrum ks = clamp(m.ks, Spectrum(0), Spectrum(1));
+    Spectrum diffuse = clamp(m.kd, Spectrum(0), Spectrum(1)) * (1.0 - ks) * substrate_fade(abs(wo.z));
     return diffuse + fresnel_schlick(ks, abs(wo.z));
 }

@@ -25,9 +25,10 @@ vec2 translucent_glossy(translucent_Params m, vec3 wo, vec3 wi) {
                             translucent_eta(wo), DISTRIBUTION_GGX);
 }
 
-vec3 translucent_combine(translucent_Params m, vec3 wo, vec3 wi, float glossy) {
-    vec3 tint = clamp(same_hemisphere(wo, wi) ? m.reflect : m.transmit, vec3(0), vec3(1));
-    return tint * (clamp(m.kd, vec3(0), vec3(1)) * (INV_PI * abs(wi.z)) + clamp(m.ks, vec3(0), vec3(1)) * glossy);
+Spectrum translucent_combine(translucent_Params m, vec3 wo, vec3 wi, float glossy) {
+    Spectrum tint = clamp(same_hemisphere(wo, wi) ? m.reflect : m.transmit, Spectrum(0), Spectrum(1));
+    return tint * (clamp(m.kd, Spectrum(0), Spectrum(1)) * (INV_PI * abs(wi.z)) +
+                   clamp(m.ks, Spectrum(0), Spectrum(1)) * glossy);
 }
 float translucent_density(translucent_Params m, vec3 wo, vec3 wi, float glossy) {
     vec2 p = translucent_choice(m);
@@ -35,8 +36,8 @@ float translucent_density(translucent_Params m, vec3 wo, vec3 wi, float glossy) 
     return mix(diffuse, glossy, p.x);
 }
 
-vec3 translucent_eval(translucent_Params m, vec3 wo, vec3 wi) {
-    return wo.z == 0.0 ? vec3(0) : translucent_combine(m, wo, wi, translucent_glossy(m, wo, wi).x);
+Spectrum translucent_eval(translucent_Params m, vec3 wo, vec3 wi) {
+    return wo.z == 0.0 ? Spectrum(0) : translucent_combine(m, wo, wi, translucent_glossy(m, wo, wi).x);
 }
 float translucent_pdf(translucent_Params m, vec3 wo, vec3 wi) {
     return wo.z == 0.0 ? 0.0 : translucent_density(m, wo, wi, translucent_glossy(m, wo, wi).y);
@@ -71,7 +72,7 @@ BsdfSample translucent_sample(translucent_Params m, vec3 wo, vec3 u) {
                       1.0);
 }
 
-vec3 translucent_albedo(translucent_Params m, vec3 wo) {
+Spectrum translucent_albedo(translucent_Params m, vec3 wo) {
     float f = fresnel_dielectric(abs(wo.z), translucent_eta(wo));
-    return clamp(m.kd * (m.reflect + m.transmit) + m.ks * mix(m.transmit, m.reflect, f), vec3(0), vec3(1));
+    return clamp(m.kd * (m.reflect + m.transmit) + m.ks * mix(m.transmit, m.reflect, f), Spectrum(0), Spectrum(1));
 }

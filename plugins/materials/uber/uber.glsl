@@ -10,29 +10,30 @@ float uber_eta(uber_Params m, vec3 wo) {
     float eta = m.eta > 0.0 ? m.eta : 1.0;
     return wo.z > 0.0 ? eta : 1.0 / eta;
 }
-vec3 uber_opacity(uber_Params m) { return clamp(m.opacity, vec3(0), vec3(1)); }
+Spectrum uber_opacity(uber_Params m) { return clamp(m.opacity, Spectrum(0), Spectrum(1)); }
 
 // Probabilities of the lobes: x diffuse, y glossy, z mirror, w refraction; the rest passes through.
 vec4 uber_choice(uber_Params m, float fresnel) {
-    vec3 o = uber_opacity(m);
-    vec4 p = vec4(max_component(clamp(m.kd, vec3(0), vec3(1)) * o),
-                  max_component(clamp(m.ks, vec3(0), vec3(1)) * o) * (0.1 + 0.9 * fresnel),
-                  max_component(clamp(m.kr, vec3(0), vec3(1)) * o) * fresnel,
-                  max_component(clamp(m.kt, vec3(0), vec3(1)) * o) * (1.0 - fresnel));
+    Spectrum o = uber_opacity(m);
+    vec4 p = vec4(max_component(clamp(m.kd, Spectrum(0), Spectrum(1)) * o),
+                  max_component(clamp(m.ks, Spectrum(0), Spectrum(1)) * o) * (0.1 + 0.9 * fresnel),
+                  max_component(clamp(m.kr, Spectrum(0), Spectrum(1)) * o) * fresnel,
+                  max_component(clamp(m.kt, Spectrum(0), Spectrum(1)) * o) * (1.0 - fresnel));
     float through = max_component(1.0 - o);
     return p / max(dot(p, vec4(1)) + through, 1e-20);
 }
 
-vec3 uber_eval(uber_Params m, vec3 wo, vec3 wi) {
+Spectrum uber_eval(uber_Params m, vec3 wo, vec3 wi) {
     if (!same_hemisphere(wo, wi))
-        return vec3(0);
+        return Spectrum(0);
     vec2 alpha = uber_alpha(m);
     vec3 o = vec3(wo.xy, abs(wo.z));
     vec3 i = vec3(wi.xy, abs(wi.z));
     vec3 h = normalize(o + i);
     float gloss = 0.25 * ggx_d(h, alpha) * smith_visibility(o.z, ggx_sigma(o, alpha), i.z, ggx_sigma(i, alpha)) *
                   fresnel_dielectric(dot(i, h), uber_eta(m, wo));
-    return uber_opacity(m) * (clamp(m.kd, vec3(0), vec3(1)) * INV_PI + clamp(m.ks, vec3(0), vec3(1)) * gloss) * i.z;
+    return uber_opacity(m) *
+           (clamp(m.kd, Spectrum(0), Spectrum(1)) * INV_PI + clamp(m.ks, Spectrum(0), Spectrum(1)) * gloss) * i.z;
 }
 
 float uber_pdf(uber_Params m, vec3 wo, vec3 wi) {
@@ -53,7 +54,7 @@ BsdfSample uber_sample(uber_Params m, vec3 wo, vec3 u) {
     float eta = uber_eta(m, wo);
     float cos_t;
     float fresnel = fresnel_dielectric(v.z, eta, cos_t);
-    vec3 o = uber_opacity(m);
+    Spectrum o = uber_opacity(m);
     vec4 p = uber_choice(m, fresnel);
     vec3 wi;
     if (u.z < p.x + p.y) {
@@ -68,12 +69,12 @@ BsdfSample uber_sample(uber_Params m, vec3 wo, vec3 u) {
         return BsdfSample(wi, uber_eval(m, wo, wi) / pdf, pdf, BSDF_REFLECT, 1.0);
     }
     if (u.z < p.x + p.y + p.z)
-        return BsdfSample(vec3(-wo.xy, wo.z), o * clamp(m.kr, vec3(0), vec3(1)) * (fresnel / p.z), p.z,
+        return BsdfSample(vec3(-wo.xy, wo.z), o * clamp(m.kr, Spectrum(0), Spectrum(1)) * (fresnel / p.z), p.z,
                           BSDF_REFLECT | BSDF_DELTA, 1.0);
     if (u.z < p.x + p.y + p.z + p.w) {
         wi = normalize(vec3(-v.xy / eta, -max(cos_t, 1e-6)));
         wi.z *= side;
-        vec3 weight = o * clamp(m.kt, vec3(0), vec3(1)) * ((1.0 - fresnel) / (p.w * eta * eta));
+        Spectrum weight = o * clamp(m.kt, Spectrum(0), Spectrum(1)) * ((1.0 - fresnel) / (p.w * eta * eta));
         return BsdfSample(wi, weight, p.w, BSDF_TRANSMIT | BSDF_DELTA, eta);
     }
     float through = 1.0 - dot(p, vec4(1));
@@ -82,8 +83,8 @@ BsdfSample uber_sample(uber_Params m, vec3 wo, vec3 u) {
     return BsdfSample(-wo, (1.0 - o) / through, through, BSDF_TRANSMIT | BSDF_DELTA, 1.0);
 }
 
-vec3 uber_albedo(uber_Params m, vec3 wo) {
+Spectrum uber_albedo(uber_Params m, vec3 wo) {
     float f = fresnel_dielectric(abs(wo.z), uber_eta(m, wo));
-    vec3 o = uber_opacity(m);
-    return clamp(o * (m.kd + (m.ks + m.kr) * f + m.kt * (1.0 - f)) + 1.0 - o, vec3(0), vec3(1));
+    Spectrum o = uber_opacity(m);
+    return clamp(o * (m.kd + (m.ks + m.kr) * f + m.kt * (1.0 - f)) + 1.0 - o, Spectrum(0), Spectrum(1));
 }

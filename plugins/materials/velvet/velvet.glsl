@@ -4,11 +4,12 @@
 #include <restage/v1/sampling.glsl>
 #include <restage/v1/sheen.glsl>
 
-vec3 velvet_value(velvet_Params m, vec3 wo, vec3 wi) {
+Spectrum velvet_value(velvet_Params m, vec3 wo, vec3 wi) {
     float alpha = sheen_alpha(m.roughness);
-    vec3 sheen = clamp(m.sheen, vec3(0), vec3(1));
+    Spectrum sheen = clamp(m.sheen, Spectrum(0), Spectrum(1));
     float taken = max_component(sheen) * max(sheen_albedo(wo.z, alpha), sheen_albedo(wi.z, alpha));
-    return sheen * sheen_value(wo, wi, alpha) + clamp(m.reflectance, vec3(0), vec3(1)) * ((1.0 - taken) * INV_PI * wi.z);
+    return sheen * sheen_value(wo, wi, alpha) +
+           clamp(m.reflectance, Spectrum(0), Spectrum(1)) * ((1.0 - taken) * INV_PI * wi.z);
 }
 
 // The share of samples that follow the sheen.
@@ -17,9 +18,9 @@ float velvet_share(velvet_Params m, float cos_o) {
     return sheen / max(sheen + max_component(m.reflectance) * (1.0 - sheen), 1e-20);
 }
 
-vec3 velvet_eval(velvet_Params m, vec3 wo, vec3 wi) {
+Spectrum velvet_eval(velvet_Params m, vec3 wo, vec3 wi) {
     if (!same_hemisphere(wo, wi))
-        return vec3(0);
+        return Spectrum(0);
     return velvet_value(m, vec3(wo.xy, abs(wo.z)), vec3(wi.xy, abs(wi.z)));
 }
 
@@ -37,11 +38,11 @@ BsdfSample velvet_sample(velvet_Params m, vec3 wo, vec3 u) {
     float pdf = mix(cosine_hemisphere_pdf(wi.z), SHEEN_PDF, share);
     if (v.z <= 0.0 || wi.z <= 0.0 || !positive(pdf))
         return BSDF_NONE;
-    vec3 f = velvet_value(m, v, wi);
+    Spectrum f = velvet_value(m, v, wi);
     return BsdfSample(vec3(wi.xy, side * wi.z), f / pdf, pdf, BSDF_REFLECT, 1.0);
 }
 
-vec3 velvet_albedo(velvet_Params m, vec3 wo) {
+Spectrum velvet_albedo(velvet_Params m, vec3 wo) {
     float sheen = sheen_albedo(abs(wo.z), sheen_alpha(m.roughness));
-    return clamp(m.sheen * sheen + m.reflectance * (1.0 - max_component(m.sheen) * sheen), vec3(0), vec3(1));
+    return clamp(m.sheen * sheen + m.reflectance * (1.0 - max_component(m.sheen) * sheen), Spectrum(0), Spectrum(1));
 }

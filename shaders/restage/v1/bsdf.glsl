@@ -5,6 +5,7 @@
 #ifndef RESTAGE_V1_BSDF
 #define RESTAGE_V1_BSDF
 #include <restage/v1/numbers.glsl>
+#include <restage/v1/spectrum.glsl>
 
 const float PI = 3.14159265358979323846;
 const float INV_PI = 0.31830988618379067154;
@@ -15,20 +16,18 @@ const uint BSDF_TRANSMIT = 2u; // wi on the other side
 const uint BSDF_DELTA = 4u;    // wi is the only direction: no MIS, pdf is the lobe's probability
 
 struct BsdfSample {
-    vec3 wi;     // unit; meaningless when flags == 0
-    vec3 weight; // f * |cos wi| / pdf
-    float pdf;   // solid-angle density; of a delta lobe its discrete probability
-    uint flags;  // BSDF_*; 0 = no sample (absorbed)
-    float eta;   // ior behind wi / ior before, on transmission; else 1 (Russian roulette undoes eta^2 with it)
+    vec3 wi;         // unit; meaningless when flags == 0
+    Spectrum weight; // f * |cos wi| / pdf
+    float pdf;       // solid-angle density; of a delta lobe its discrete probability
+    uint flags;      // BSDF_*; 0 = no sample (absorbed)
+    float eta;       // ior behind wi / ior before, on transmission; else 1 (Russian roulette undoes eta^2 with it)
 };
 
-const BsdfSample BSDF_NONE = BsdfSample(vec3(0, 0, 1), vec3(0), 0.0, 0u, 1.0);
+const BsdfSample BSDF_NONE = BsdfSample(vec3(0, 0, 1), Spectrum(0), 0.0, 0u, 1.0);
 
 float sqr(float x) { return x * x; }
 float cos_theta(vec3 w) { return w.z; }
 float abs_cos(vec3 w) { return abs(w.z); }
 bool same_hemisphere(vec3 a, vec3 b) { return a.z * b.z > 0.0; }
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); } // Rec. 709 primaries, linear
-float max_component(vec3 c) { return max(c.x, max(c.y, c.z)); }
 
 #endif

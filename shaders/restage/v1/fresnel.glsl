@@ -30,30 +30,30 @@ vec3 reflect_about(vec3 w, vec3 n) { return 2.0 * dot(w, n) * n - w; }
 
 // Conductor with ior eta + ik relative to the outside. Born and Wolf; real arithmetic after Lagarde 2013,
 // "Memo on Fresnel equations"; equal to Pharr et al. 2023, Eq. 9.5 with complex eta.
-vec3 fresnel_conductor(float cos_i, vec3 eta, vec3 k) {
+Spectrum fresnel_conductor(float cos_i, Spectrum eta, Spectrum k) {
     float c = clamp(cos_i, 0.0, 1.0);
     float c2 = c * c;
     float s2 = 1.0 - c2;
-    vec3 eta2 = eta * eta;
-    vec3 t0 = eta2 - k * k - s2;
-    vec3 a2b2 = sqrt(t0 * t0 + 4.0 * eta2 * k * k);
-    vec3 t1 = a2b2 + c2;
-    vec3 t2 = 2.0 * c * sqrt(max(vec3(0), 0.5 * (a2b2 + t0)));
-    vec3 rs = (t1 - t2) / max(t1 + t2, vec3(1e-20));
-    vec3 t3 = c2 * a2b2 + s2 * s2;
-    vec3 t4 = t2 * s2;
-    vec3 rp = rs * (t3 - t4) / max(t3 + t4, vec3(1e-20));
-    return clamp(0.5 * (rp + rs), vec3(0), vec3(1));
+    Spectrum eta2 = eta * eta;
+    Spectrum t0 = eta2 - k * k - s2;
+    Spectrum a2b2 = sqrt(t0 * t0 + 4.0 * eta2 * k * k);
+    Spectrum t1 = a2b2 + c2;
+    Spectrum t2 = 2.0 * c * sqrt(max(Spectrum(0), 0.5 * (a2b2 + t0)));
+    Spectrum rs = (t1 - t2) / max(t1 + t2, Spectrum(1e-20));
+    Spectrum t3 = c2 * a2b2 + s2 * s2;
+    Spectrum t4 = t2 * s2;
+    Spectrum rp = rs * (t3 - t4) / max(t3 + t4, Spectrum(1e-20));
+    return clamp(0.5 * (rp + rs), Spectrum(0), Spectrum(1));
 }
 
 // The k of a conductor with eta = 1 that reflects r at normal incidence (pbrt-v4, conductor "reflectance").
-vec3 conductor_k_from_reflectance(vec3 r) {
-    r = clamp(r, vec3(0), vec3(0.9999));
+Spectrum conductor_k_from_reflectance(Spectrum r) {
+    r = clamp(r, Spectrum(0), Spectrum(0.9999));
     return 2.0 * sqrt(r / (1.0 - r));
 }
 
 // Schlick 1994, Eq. 15.
-vec3 fresnel_schlick(vec3 r0, float cos_i) {
+Spectrum fresnel_schlick(Spectrum r0, float cos_i) {
     float x = clamp(1.0 - cos_i, 0.0, 1.0);
     float x2 = x * x;
     return r0 + (x2 * x2 * x) * (1.0 - r0);

@@ -25,24 +25,24 @@ struct Layered {
     vec2 alpha;      // of the coat
     float eta;       // of the coat, relative to the outside
     float thickness; // in mean free paths, as pbrt's (extinction 1)
-    vec3 albedo;     // of the medium; 0 = it only absorbs
+    Spectrum albedo;     // of the medium; 0 = it only absorbs
     float g;         // Henyey-Greenstein
     int max_depth;
     int n_samples;
     bool metal;      // a literal at the caller, so that the other base costs no code
-    vec3 base;       // diffuse: reflectance; metal: ior relative to the coat
-    vec3 base_k;     // metal
+    Spectrum base;       // diffuse: reflectance; metal: ior relative to the coat
+    Spectrum base_k;     // metal
     vec2 base_alpha; // metal
 };
 
 // The coat from a material's parameters; the base is the caller's to fill in.
-Layered layered_coat_of(vec2 roughness, int remap, float eta, float thickness, vec3 albedo, float g, int max_depth,
+Layered layered_coat_of(vec2 roughness, int remap, float eta, float thickness, Spectrum albedo, float g, int max_depth,
                         int n_samples) {
     Layered l;
     l.alpha = roughness == vec2(0) ? vec2(0) : alpha_from_roughness(roughness.x, roughness.y, remap);
     l.eta = eta > 0.0 ? eta : 1.0;
     l.thickness = max(thickness, 1e-6);
-    l.albedo = clamp(albedo, vec3(0), vec3(1));
+    l.albedo = clamp(albedo, Spectrum(0), Spectrum(1));
     l.g = clamp(g, -0.99, 0.99);
     l.max_depth = max_depth;
     l.n_samples = n_samples;
@@ -100,7 +100,7 @@ float layered_coat(vec2 alpha, float eta, vec3 v, vec3 u, int allowed, out vec3 
 }
 
 // Russian roulette from the fourth event on, where little light is left.
-bool layered_survives(int depth, inout vec3 beta, inout Rng rng) {
+bool layered_survives(int depth, inout Spectrum beta, inout Rng rng) {
     float q = max_component(beta);
     if (depth <= 3 || q >= 0.25)
         return true;
@@ -111,7 +111,7 @@ bool layered_survives(int depth, inout vec3 beta, inout Rng rng) {
 }
 
 // From height z along w to the next event.
-int layered_advance(Layered l, bool medium, vec3 w, inout float z, inout vec3 beta, inout Rng rng) {
+int layered_advance(Layered l, bool medium, vec3 w, inout float z, inout Spectrum beta, inout Rng rng) {
     float c = max(abs(w.z), 1e-6);
     bool up = w.z > 0.0;
     if (medium) {
@@ -129,7 +129,7 @@ int layered_advance(Layered l, bool medium, vec3 w, inout float z, inout vec3 be
 }
 
 // Scatters at the base; v = where it came from. beta takes f cos / pdf. Returns the density of w (rough metal) or 0.
-float layered_base_sample(Layered l, vec3 v, vec2 u, out vec3 w, inout vec3 beta) {
+float layered_base_sample(Layered l, vec3 v, vec2 u, out vec3 w, inout Spectrum beta) {
     if (!l.metal) {
         w = sample_cosine_hemisphere(u);
         beta *= l.base;
@@ -140,7 +140,7 @@ float layered_base_sample(Layered l, vec3 v, vec2 u, out vec3 w, inout vec3 beta
     w = reflect_about(v, h);
     float hv = dot(v, h);
     if (w.z < 1e-6 || hv <= 0.0) {
-        beta = vec3(0);
+        beta = Spectrum(0);
         return 0.0;
     }
     beta *= fresnel_conductor(hv, l.base, l.base_k);
@@ -152,18 +152,18 @@ float layered_base_sample(Layered l, vec3 v, vec2 u, out vec3 w, inout vec3 beta
 }
 
 // f * |cos wi|, an unbiased estimate.
-vec3 layered_eval(Layered l, vec3 wo, vec3 wi, inout Rng rng) {
+Spectrum layered_eval(Layered l, vec3 wo, vec3 wi, inout Rng rng) {
     if (wo.z * wi.z <= 0.0)
-        return vec3(0);
+        return Spectrum(0);
     wo.z = abs(wo.z);
     wi.z = abs(wi.z);
     bool medium = max_component(l.albedo) > 0.0;
     bool rough_coat = !coat_is_smooth(l.alpha, l.eta);
     bool rough_base = !alpha_is_smooth(l.base_alpha);
-    vec3 sum = vec3(0);
+    Spectrum sum = Spectrum(0);
     int n = max(l.n_samples, 1);
     for (int s = 0; s < n; ++s) {
-        vec3 beta = vec3(1);
+        Spectrum beta = Spectrum(1);
         vec3 w = wo;
         float z = l.thickness;
         vec3 light = vec3(0, 0, 1); // inside the coat, towards the light: drawn from wi through the coat
@@ -241,7 +241,7 @@ vec3 layered_eval(Layered l, vec3 wo, vec3 wi, inout Rng rng) {
             }
         }
     }
-    vec3 value = sum * (wi.z / (float(n) * l.eta * l.eta)); // wo entered: 1/eta^2
+    Spectrum value = sum * (wi.z / (float(n) * l.eta * l.eta)); // wo entered: 1/eta^2
     if (rough_coat)
         value += rough_dielectric(wo, wi, l.alpha, l.eta, DISTRIBUTION_GGX).x;
     return value;
@@ -282,7 +282,7 @@ BsdfSample layered_sample(Layered l, vec3 wo, vec3 u, inout Rng rng) {
     bool medium = max_component(l.albedo) > 0.0;
     bool smooth_coat = coat_is_smooth(l.alpha, l.eta);
     bool delta = smooth_coat;
-    vec3 beta = vec3(1);
+    Spectrum beta = Spectrum(1);
     vec3 v = vec3(wo.xy, abs(wo.z));
     vec3 w = v;
     float z = l.thickness;

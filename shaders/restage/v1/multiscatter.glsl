@@ -83,13 +83,13 @@ vec2 microfacet_mean_loss_dielectric(vec2 alpha, float n, int distribution) {
 // The share of colour that survives two and more reflections of mean reflectance f, when one goes out with 1 - mean_loss:
 // the geometric series f^2 E (1 + f (1 - E) + ...). Kulla and Conty 2017, p. 16, with the square of Hill 2018,
 // "A Multi-Faceted Exploration", part 3.
-vec3 multiscatter_color(vec3 f, float mean_loss) { return f * f * (1.0 - mean_loss) / (1.0 - f * mean_loss); }
+Spectrum multiscatter_color(Spectrum f, float mean_loss) { return f * f * (1.0 - mean_loss) / (1.0 - f * mean_loss); }
 
 // Cosine-weighted means over the hemisphere: of Schlick's curve, and of a conductor by Gauss-Jacobi quadrature.
-vec3 fresnel_schlick_average(vec3 f0, float f90) { return f0 + (f90 - f0) / 21.0; }
-vec3 fresnel_conductor_average(vec3 eta, vec3 k) {
+Spectrum fresnel_schlick_average(Spectrum f0, float f90) { return f0 + (f90 - f0) / 21.0; }
+Spectrum fresnel_conductor_average(Spectrum eta, Spectrum k) {
     const vec3 node = vec3(0.21234054, 0.59053314, 0.91141204), weight = vec3(0.13965396, 0.45848221, 0.40186383);
-    vec3 sum = vec3(0);
+    Spectrum sum = Spectrum(0);
     for (int i = 0; i < 3; ++i)
         sum += weight[i] * fresnel_conductor(node[i], eta, k);
     return sum;

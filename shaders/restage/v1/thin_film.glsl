@@ -6,9 +6,17 @@
 
 #include <restage/v1/fresnel.glsl>
 
+#ifdef RESTAGE_SPECTRAL
+// Interference at a path difference [nm] and at twice it.
+void thin_film_sensitivity(float path, Spectrum shift, out Spectrum once, out Spectrum twice) {
+    Spectrum phase = TWO_PI * path / wavelengths() + shift;
+    once = cos(phase);
+    twice = cos(2.0 * phase);
+}
+#else
 // The eye's answer to a path difference [nm] and to twice it, in linear sRGB: the Fourier transform of Gaussians fitted to
 // the CIE 1931 curves (Belcour and Barla 2017, sec. 4.2 and supplemental). X has two of them.
-void thin_film_sensitivity(float path, vec3 shift, out vec3 once, out vec3 twice) {
+void thin_film_sensitivity(float path, Spectrum shift, out Spectrum once, out Spectrum twice) {
     float phase = TWO_PI * path * 1e-9;
     const vec4 value = vec4(5.4856e-13, 4.4201e-13, 5.2481e-13, 9.7470e-14) / 1.0685e-7;
     const vec4 position = vec4(1.6810e+06, 1.7953e+06, 2.2084e+06, 2.2399e+06);
@@ -24,29 +32,30 @@ void thin_film_sensitivity(float path, vec3 shift, out vec3 once, out vec3 twice
     once = xyz_to_rgb * vec3(a.x + a.w, a.yz);
     twice = xyz_to_rgb * vec3(b.x + b.w, b.yz);
 }
+#endif
 
 // Reflectance under the cosine c of a film (index, thickness [nm]) over a base that reflects f0 head on.
-vec3 thin_film_reflectance(float c, float index, float thickness, vec3 f0) {
+Spectrum thin_film_reflectance(float c, float index, float thickness, Spectrum f0) {
     float film = mix(1.0, index, smoothstep(0.0, 30.0, thickness)); // a film that vanishes has no index of its own
     float cos2 = 1.0 - (1.0 - c * c) / (film * film);
     if (cos2 <= 0.0)
-        return vec3(1);
+        return Spectrum(1);
     float cos_t = sqrt(cos2);
-    float r12 = fresnel_schlick(vec3(sqr((film - 1.0) / (film + 1.0))), c).x;
+    float r12 = fresnel_schlick(Spectrum(sqr((film - 1.0) / (film + 1.0))), c).x; // the same at each
     float t121 = 1.0 - r12;
-    vec3 root = sqrt(clamp(f0, vec3(0), vec3(0.9999)));
-    vec3 base = (1.0 + root) / (1.0 - root);
-    vec3 r1 = (base - film) / (base + film);
-    vec3 r23 = fresnel_schlick(r1 * r1, cos_t);
-    vec3 shift = (film < 1.0 ? 0.0 : PI) + mix(vec3(0), vec3(PI), lessThan(base, vec3(film)));
-    vec3 r123 = clamp(r12 * r23, vec3(1e-5), vec3(0.9999));
-    vec3 amplitude = sqrt(r123);
-    vec3 series = sqr(t121) * r23 / (1.0 - r123); // Eq. 10, all orders without their phase
-    vec3 sum = r12 + series;
-    vec3 once, twice; // higher orders are averaged away by the eye's curves
+    Spectrum root = sqrt(clamp(f0, Spectrum(0), Spectrum(0.9999)));
+    Spectrum base = (1.0 + root) / (1.0 - root);
+    Spectrum r1 = (base - film) / (base + film);
+    Spectrum r23 = fresnel_schlick(r1 * r1, cos_t);
+    Spectrum shift = (film < 1.0 ? 0.0 : PI) + mix(Spectrum(0), Spectrum(PI), lessThan(base, Spectrum(film)));
+    Spectrum r123 = clamp(r12 * r23, Spectrum(1e-5), Spectrum(0.9999));
+    Spectrum amplitude = sqrt(r123);
+    Spectrum series = sqr(t121) * r23 / (1.0 - r123); // Eq. 10, all orders without their phase
+    Spectrum sum = r12 + series;
+    Spectrum once, twice; // higher orders are averaged away by the eye's curves
     thin_film_sensitivity(2.0 * film * thickness * cos_t, shift, once, twice); // Eq. 3
     sum += 2.0 * (series - t121) * amplitude * (once + amplitude * twice);
-    return clamp(sum, vec3(0), vec3(1)); // outside sRGB's triangle some are negative
+    return clamp(sum, Spectrum(0), Spectrum(1)); // outside sRGB's triangle some are negative
 }
 
 #endif

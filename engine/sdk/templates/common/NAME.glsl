@@ -2,8 +2,8 @@
 // <restage/material.h>; `restage check` tests it.
 #include <restage/v1/sampling.glsl>
 
-vec3 @NAME@_eval(@NAME@_Params m, vec3 wo, vec3 wi) {
-    return same_hemisphere(wo, wi) ? m.tint * INV_PI * abs_cos(wi) : vec3(0);
+Spectrum @NAME@_eval(@NAME@_Params m, vec3 wo, vec3 wi) {
+    return same_hemisphere(wo, wi) ? m.tint * INV_PI * abs_cos(wi) : Spectrum(0);
 }
 
 float @NAME@_pdf(@NAME@_Params m, vec3 wo, vec3 wi) {
@@ -20,4 +20,4 @@ BsdfSample @NAME@_sample(@NAME@_Params m, vec3 wo, vec3 u) {
     return BsdfSample(wi, m.tint, pdf, BSDF_REFLECT, 1.0);
 }
 
-vec3 @NAME@_albedo(@NAME@_Params m, vec3 wo) { return m.tint; }
+Spectrum @NAME@_albedo(@NAME@_Params m, vec3 wo) { return m.tint; }
