@@ -34,6 +34,7 @@ struct Material {
     bool null_surface = false;  // rays pass (pbrt's `interface`)
     bool mix = false;           // chooses between its parameters `first` and `second` by `amount`
     bool tangent = false;       // the frame's x axis follows dp/du
+    bool site = false;          // eval, pdf, sample and albedo take a Site
     bool additive = false;      // energy <= 1 only while its colours, all but "opacity", sum to at most 1
 
     const Param* find(std::string_view id) const { return find_param(params, id); }

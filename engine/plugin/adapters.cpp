@@ -116,6 +116,7 @@ Result<model::Material> read_material1(const void* table) {
                         .null_surface = has(RESTAGE_MATERIAL_NULL),
                         .mix = has(RESTAGE_MATERIAL_MIX),
                         .tangent = has(RESTAGE_MATERIAL_TANGENT),
+                        .site = has(RESTAGE_MATERIAL_SITE),
                         .additive = has(RESTAGE_MATERIAL_ADDITIVE)};
     auto params = read_params(in.params, in.param_count);
     if (!params) return fail("material \"" + out.type + "\": " + params.error().message);

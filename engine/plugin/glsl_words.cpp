@@ -27,7 +27,7 @@ constexpr std::string_view words[] = {
     "subgroupcoherent", "shadercallcoherent", "pervertexEXT", "pervertexNV", "nonprivate", "demote",
     "terminateInvocation",
     // macros of the headers around a material and of the compiler, and the one method that everything has
-    "address", "length", "Material", "Spectrum", "VULKAN"};
+    "address", "length", "Material", "MATERIAL_SITE", "Spectrum", "VULKAN"};
 
 bool any_of(std::string_view name, std::initializer_list<std::string_view> list) {
     return std::find(list.begin(), list.end(), name) != list.end();

@@ -56,7 +56,7 @@ MaterialSource::MaterialSource(model::Material material, fs::path folder, std::s
     for (const std::string& text : {m.type, m.label, m.prefix, m.glsl_file, m.tooltip})
         digest.text(text);
     for (const bool flag : {m.stochastic, m.lossless, m.transmissive, m.nonreciprocal, m.null_surface, m.mix, m.tangent,
-                            m.additive, m.emission.has_value()})
+                            m.additive, m.site, m.emission.has_value()})
         digest.number(flag);
     for (model::Param& p : material_.params) {
         for (const std::string& text : {p.id, p.label, p.unit, choices_text(p), p.file, p.tooltip})

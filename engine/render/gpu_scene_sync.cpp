@@ -504,6 +504,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     d.clamp_direct = settings.clamp_direct;
     d.clamp_indirect = settings.clamp_indirect;
     d.ray_epsilon = settings.ray_epsilon;
+    d.world_origin = glm::vec3(origin_);
     scene_data_.set(0, d);
     RESTAGE_CHECK(scene_data_.flush(*device_));
 

@@ -90,6 +90,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
     }
     if (fields.empty()) fields = "    int unused;\n", fetch = "    m.unused = 0;\n";
     const char* rng = table.stochastic ? ", rng" : "";
+    const bool site = table.site;
 
     gpu::ShaderSource source;
     source.name = stand_in ? "<stand-in>" : "<composed for " + type.type + ">";
@@ -104,25 +105,32 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
 {rt}#define RESTAGE_GLSL 1
 {spectral}#include <restage/v1/bsdf.glsl>
 #include <restage/v1/rng.glsl>
-{table_api}struct {p}_Params {{
+{table_api}{site_api}struct {p}_Params {{
 {fields}}};
 #include <plugin/{file}>
 // The plugin's code stands before everything of the engine's, and cannot name it.
 #include "lib/texture.glsl"
-{tables}#define Material {p}_Params
-Material material_fetch(SceneData scene, uint at, vec4 uv) {{
+{tables}{material}Material material_fetch(SceneData scene, uint at, vec4 uv) {{
     UintArray w = UintArray(scene.params);
-    Material m;
-{before}{fetch}    return m;
+    {p}_Params m;
+{before}{fetch}    {result}
 }}
-Spectrum material_eval(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_eval(m, wo, wi{rng}); }}
-float material_pdf(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_pdf(m, wo, wi{rng}); }}
-BsdfSample material_sample(Material m, vec3 wo, vec3 u, inout Rng rng) {{ return {p}_sample(m, wo, u{rng}); }}
-Spectrum material_albedo(Material m, vec3 wo) {{ return {p}_albedo(m, wo); }}
+Spectrum material_eval(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_eval({m}, wo, wi{rng}); }}
+float material_pdf(Material m, vec3 wo, vec3 wi, inout Rng rng) {{ return {p}_pdf({m}, wo, wi{rng}); }}
+BsdfSample material_sample(Material m, vec3 wo, vec3 u, inout Rng rng) {{ return {p}_sample({m}, wo, u{rng}); }}
+Spectrum material_albedo(Material m, vec3 wo) {{ return {p}_albedo({m}, wo); }}
 #include "{main}"
 )",
         fmt::arg("revision", type.plugin.revision()), fmt::arg("p", prefix), fmt::arg("fields", fields),
         fmt::arg("fetch", fetch), fmt::arg("table_api", tables ? "#include <restage/v1/table.glsl>\n" : ""),
+        fmt::arg("site_api", site ? "#include <restage/v1/site.glsl>\n" : ""),
+        fmt::arg("material", site ? fmt::format("#define MATERIAL_SITE 1\n"
+                                                "struct Material {{ {}_Params params; Site site; }};\n",
+                                                prefix)
+                                  : fmt::format("#define Material {}_Params\n", prefix)),
+        fmt::arg("result", site ? "Material x;\n    x.params = m; // the site is the caller's to fill in\n    return x;"
+                                : "return m;"),
+        fmt::arg("m", site ? "m.params, m.site" : "m"),
         fmt::arg("spectral", mode == ColorMode::spectral ? "#define RESTAGE_SPECTRAL 1\n" : ""),
         fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),
         fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),

@@ -14,6 +14,9 @@
 #include "path/escape.glsl"
 #include "path/film.glsl"
 #include "path/surface.glsl"
+#ifdef MATERIAL_SITE
+#include "path/site.glsl"
+#endif
 #include "shared/path_data.h"
 
 struct StepRay {
@@ -78,6 +81,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
 
     Material m = material_fetch(scene, material_data.params, s.uv);
+#ifdef MATERIAL_SITE
+    m.site = make_site(scene, inst, prim, bary, s);
+#endif
     vec3 wo = to_local(s, wo_world);
     if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) {
         vec3 seen = depth == 0u ? vec3(1) : abs(path.throughput) / (scene.filter_.weight.x * scene.filter_.weight.y);

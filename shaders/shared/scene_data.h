@@ -185,7 +185,7 @@ struct SceneData {
     uint camera_medium;
     float clamp_direct, clamp_indirect; // 0 = off
     float ray_epsilon; // 0 = error bounds
-    uint pad0;
+    vec3 world_origin; // of the kernels' world in the scene's
 };
 
 RESTAGE_SHARED_END

@@ -111,6 +111,11 @@ def test_a_fault_in_glsl_is_found(tmp_path, fault, step, says):
         assert words in failed[step]
 
 
+def test_a_material_that_asks_for_its_site_passes():
+    done = check(ROOT / "tests" / "plugins_site" / "dots", "--quick")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_code_for_any_number_of_wavelengths_passes(tmp_path):
     code, failed = failures(broken(tmp_path / "plugin", fault="both"), "--only", "glsl")
     assert failed == {} and code == 0

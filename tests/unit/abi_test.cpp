@@ -197,8 +197,8 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
         CHECK(types[i] == i + 1);
     const unsigned flags[] = {RESTAGE_MATERIAL_STOCHASTIC,    RESTAGE_MATERIAL_LOSSLESS, RESTAGE_MATERIAL_TRANSMISSIVE,
                               RESTAGE_MATERIAL_NONRECIPROCAL, RESTAGE_MATERIAL_NULL,     RESTAGE_MATERIAL_MIX,
-                              RESTAGE_MATERIAL_TANGENT,       RESTAGE_MATERIAL_ADDITIVE};
-    for (unsigned i = 0; i < 8; ++i)
+                              RESTAGE_MATERIAL_TANGENT,       RESTAGE_MATERIAL_ADDITIVE, RESTAGE_MATERIAL_SITE};
+    for (unsigned i = 0; i < 9; ++i)
         CHECK(flags[i] == 1u << i);
     CHECK(RESTAGE_PARAM_TEXTURABLE == 1u);
     CHECK(RESTAGE_PARAM_ADVANCED == 2u);

@@ -4,17 +4,20 @@
  * The GLSL file defines, with the table's prefix (here `p`), in the local shading frame (n = +z; wo towards the viewer,
  * wi towards the light, unit vectors that both point away from the surface; z < 0 is the back side):
  *
- *   vec3       p_eval  (p_Params m, vec3 wo, vec3 wi)    f(wo,wi) * |cos wi|  [1/sr], radiance transport (1/eta^2 on
+ *   Spectrum   p_eval  (p_Params m, vec3 wo, vec3 wi)    f(wo,wi) * |cos wi|  [1/sr], radiance transport (1/eta^2 on
  *                                                        transmission, Veach 1997 sec. 5.2); 0 for delta lobes
  *   float      p_pdf   (p_Params m, vec3 wo, vec3 wi)    solid-angle density of p_sample [1/sr]; 0 for delta lobes
- *   BsdfSample p_sample(p_Params m, vec3 wo, vec3 u)     u in [0,1)^3; see shaders/lib/bsdf.glsl
- *   vec3       p_albedo(p_Params m, vec3 wo)             directional albedo, approximate (at the defaults within 0.3,
+ *   BsdfSample p_sample(p_Params m, vec3 wo, vec3 u)     u in [0,1)^3; see <restage/v1/bsdf.glsl>
+ *   Spectrum   p_albedo(p_Params m, vec3 wo)             directional albedo, approximate (at the defaults within 0.3,
  *                                                        seen at up to 75 degrees); guides and light budget
  *
- * Of a material with RESTAGE_MATERIAL_STOCHASTIC, eval, pdf and sample take `inout Rng rng` as last argument, and the
- * expectation of eval is f*|cos|. `p_Params` is written by the host from the table (fields in its order, already
- * textured). The file may include the library ("lib/microfacet.glsl") and files of its own folder; it declares no
- * bindings and no buffers, and every name of its own starts with `p_`. */
+ * Of a material with RESTAGE_MATERIAL_SITE all four take `Site site` after `m`: the place on the object
+ * (<restage/v1/site.glsl>). With RESTAGE_MATERIAL_STOCHASTIC, eval, pdf and sample take `inout Rng rng` as last
+ * argument, and the expectation of eval is f*|cos|. `p_Params` is written by the host from the table: fields in its
+ * order, already textured, a COLOR as a Spectrum: a vec3 in RGB mode, a vec4 in spectral mode, so that code must say
+ * Spectrum and not vec3 (<restage/v1/spectrum.glsl>). The file may include the library, <restage/v1/microfacet.glsl>
+ * and so on (share/restage/shaders), and files of its own folder. It sees nothing else, declares no bindings and no
+ * buffers, and every name of its own starts with `p_`. RESTAGE_GLSL is the revision of the library, 1. */
 #ifndef RESTAGE_MATERIAL_H
 #define RESTAGE_MATERIAL_H
 
@@ -38,7 +41,8 @@ enum {
     RESTAGE_MATERIAL_TANGENT = 64u, /* depends on the tangent: the frame's x axis follows dp/du (anisotropy) */
     /* Its lobes add up as the scene says (pbrt-v3's plastic): energy <= 1 only while its COLOR parameters, all but an
      * "opacity", sum to at most 1; tests scale them so. */
-    RESTAGE_MATERIAL_ADDITIVE = 128u
+    RESTAGE_MATERIAL_ADDITIVE = 128u,
+    RESTAGE_MATERIAL_SITE = 256u /* depends on the place, not by textures alone: its functions take a Site */
 };
 
 typedef struct RestageMaterial1 {

@@ -5,7 +5,7 @@
  * the bytes and makes 32-bit words of them, in whatever order its GLSL wants them. The host keeps the words, uploads
  * them once for all materials that name the file, and reads it anew when it has changed. The GLSL sees a `Table`:
  *
- *   #include "lib/table.glsl"
+ *   #include <restage/v1/table.glsl>
  *   uint  table_size (Table t)          words; 0 = there is no file
  *   uint  table_word (Table t, uint i)  0 past the end
  *   float table_float(Table t, uint i)  the same bits as a float
