@@ -5,6 +5,7 @@
 #define RESTAGE_TRACE_COMMON
 #include "lib/quadric.glsl"
 #include "path/film.glsl"
+#include "shared/normal.h"
 
 layout(push_constant, scalar) uniform Push { TracePush push; };
 
@@ -43,7 +44,7 @@ struct StepPayload {
     uint shadow_medium;
 };
 
-// The geometric normal by the rule of path/surface.glsl, not unit.
+// The geometric normal on the outside, not unit.
 vec3 outward_normal(InstanceData inst, uint prim, vec2 bary) {
     if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u) {
         QuadricData q = quadric_of(inst);
@@ -58,12 +59,13 @@ vec3 outward_normal(InstanceData inst, uint prim, vec2 bary) {
     Vec3Array positions = Vec3Array(inst.positions);
     vec3 p0 = positions.at[tri.x];
     vec3 n = inst.normal_to_world * cross(positions.at[tri.y] - p0, positions.at[tri.z] - p0);
+    float along = 0.0;
     if ((inst.flags & INSTANCE_HAS_NORMALS) != 0u) {
         Vec3Array normals = Vec3Array(inst.normals);
         vec3 s = (1.0 - bary.x - bary.y) * normals.at[tri.x] + bary.x * normals.at[tri.y] + bary.y * normals.at[tri.z];
-        if (dot(inst.normal_to_world * s, n) < 0.0) n = -n;
+        along = dot(inst.normal_to_world * s, n);
     }
-    return (inst.flags & INSTANCE_FLIP_NORMAL) != 0u ? -n : n;
+    return points_inward(along, (inst.flags & INSTANCE_FLIP_NORMAL) != 0u) ? -n : n;
 }
 
 #endif

@@ -3,8 +3,8 @@
 // GpuScene::resolve_material makes.
 #ifndef RESTAGE_TRACE_MIX
 #define RESTAGE_TRACE_MIX
-#include "lib/hash.glsl"
 #include "lib/texture.glsl"
+#include "shared/hash.h"
 #include "trace_common.glsl"
 
 layout(constant_id = 9) const bool HAS_MIX = true; // some material is a mix
@@ -14,7 +14,6 @@ uint resolve_material(SceneData scene, InstanceData inst, uint prim, vec2 bary) 
     MaterialArray materials = MaterialArray(scene.materials);
     uint m = inst.material;
     if (!HAS_MIX || (materials.at[m].flags & MATERIAL_MIX) == 0u) return m;
-    uint h = hash_add(HASH_START, vec3(bary, float(prim)));
     vec4 uv = hit_uv(inst, prim, bary);
     UintArray words = UintArray(scene.params);
     for (uint depth = 0u; depth < 8u; ++depth) {
@@ -23,7 +22,7 @@ uint resolve_material(SceneData scene, InstanceData inst, uint prim, vec2 bary) 
         float amount = uintBitsToFloat(words.at[data.params]);
         uint texture_id = words.at[data.params + 1u];
         if (texture_id != 0u) amount = texture_eval(scene, texture_id, uv).x;
-        m = hash_unit(hash_add(h, float(depth))) < amount ? data.mix_second : data.mix_first;
+        m = mix_choice(bary, prim, depth) < amount ? data.mix_second : data.mix_first;
         if (m == MATERIAL_NOTHING) return m;
     }
     return (materials.at[m].flags & MATERIAL_MIX) == 0u ? m : 0u; // deeper than 8: the placeholder

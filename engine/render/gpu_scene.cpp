@@ -2,6 +2,8 @@
 #include "render/gpu_scene.hpp"
 
 #include "render/filter_table.hpp"
+#include "shared/hash.h"
+#include "shared/normal.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -252,21 +254,6 @@ glm::vec4 GpuScene::uv_at(const shared::InstanceData& instance, const scene::Mes
     return {first, instance.uvs2 ? mix(mesh.uvs2) : first};
 }
 
-namespace {
-// The same hash as shaders/lib/hash.glsl: both tracers cut out alike.
-std::uint32_t pcg(std::uint32_t x) {
-    const std::uint32_t s = x * 747796405u + 2891336453u;
-    const std::uint32_t w = ((s >> ((s >> 28u) + 4u)) ^ s) * 277803737u;
-    return (w >> 22u) ^ w;
-}
-float hash_unit(std::initializer_list<float> values) {
-    std::uint32_t h = 0x9e3779b9u;
-    for (float v : values)
-        h = pcg(h ^ std::bit_cast<std::uint32_t>(v));
-    return float(h >> 8) * (1.f / 16777216.f);
-}
-} // namespace
-
 // hit_alpha of shaders/lib/texture.glsl.
 float GpuScene::alpha_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
                          glm::vec2 bary) const {
@@ -281,8 +268,7 @@ bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary
                             const float* d) const {
     const float alpha = alpha_at(instances_[id], *mesh_data_[mesh_of_[id].value], prim, bary);
     if (alpha >= 1) return true;
-    // pbrt 4ed, 7.1.1; and the triangle, so that each surface along a ray is a choice of its own.
-    return alpha > 0 && hash_unit({o[0], o[1], o[2], d[0], d[1], d[2], float(id), float(prim)}) < alpha;
+    return alpha > 0 && shared::alpha_choice({o[0], o[1], o[2]}, {d[0], d[1], d[2]}, id, prim) < alpha;
 }
 
 std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, glm::vec2 bary) const {
@@ -294,8 +280,7 @@ std::uint32_t GpuScene::resolve_material(std::uint32_t id, std::uint32_t prim, g
             amount = evaluate_texture(textures_, cpu_images_, mix_texture_[m],
                                       uv_at(instance, *mesh_data_[mesh_of_[id].value], prim, bary))
                          .x;
-        // varies over the surface and does not depend on the tracer
-        const bool second = hash_unit({bary.x, bary.y, float(prim), float(depth)}) < amount;
+        const bool second = shared::mix_choice(bary, prim, std::uint32_t(depth)) < amount;
         m = second ? materials_[m].mix_second : materials_[m].mix_first;
         if (m == MATERIAL_NOTHING) return m;
     }
@@ -315,11 +300,12 @@ std::uint32_t GpuScene::medium_behind(std::uint32_t id, std::uint32_t prim, glm:
     const auto t = mesh.triangles[prim];
     const glm::vec3 p0 = mesh.positions[t.x];
     glm::vec3 n = instance.normal_to_world * glm::cross(mesh.positions[t.y] - p0, mesh.positions[t.z] - p0);
-    if (!mesh.normals.empty()) { // the rule of shaders/path/surface.glsl
+    float along = 0;
+    if (!mesh.normals.empty()) {
         const glm::vec3 s = (1 - b.x - b.y) * mesh.normals[t.x] + b.x * mesh.normals[t.y] + b.y * mesh.normals[t.z];
-        if (glm::dot(instance.normal_to_world * s, n) < 0) n = -n;
+        along = glm::dot(instance.normal_to_world * s, n);
     }
-    if (instance.flags & INSTANCE_FLIP_NORMAL) n = -n;
+    if (shared::points_inward(along, instance.flags & INSTANCE_FLIP_NORMAL)) n = -n;
     return glm::dot(direction, n) > 0 ? instance.exterior : instance.interior;
 }
 

@@ -3,6 +3,7 @@
 
 #include "render/alias_table.hpp"
 #include "scene/quadric.hpp"
+#include "shared/normal.h"
 
 #include <cmath>
 #include <numbers>
@@ -22,12 +23,12 @@ glm::dvec3 outward_normal(const scene::Instance& instance, const scene::MeshData
     const glm::dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
     const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(glm::dmat3(instance.object_to_world)));
     glm::dvec3 n = normal_to_world * glm::cross(p1 - p0, p2 - p0);
+    double along = 0;
     if (!mesh.normals.empty()) {
-        // a flip by reverse_orientation turns both normals, and the geometric one then follows the shading one
         const glm::dvec3 s = normal_to_world * glm::dvec3(mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]);
-        if (glm::dot(n, s) < 0) n = -n;
+        along = glm::dot(n, s);
     }
-    return instance.reverse_orientation ? -n : n;
+    return shared::points_inward(along, instance.reverse_orientation) ? -n : n;
 }
 
 namespace {

@@ -8,6 +8,8 @@
 #include "lib/ray_offset.glsl"
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
+#include "shared/normal.h"
+#include <restage/v1/frame.glsl>
 
 struct Surface {
     vec3 p;
@@ -18,13 +20,10 @@ struct Surface {
     float offset; // along ng, that a leaving ray needs
 };
 
-// Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
 void orthonormal_basis(vec3 n, out vec3 s, out vec3 t) {
-    float g = n.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (g + n.z);
-    float b = n.x * n.y * a;
-    s = vec3(1.0 + g * n.x * n.x * a, g * b, -g * n.x);
-    t = vec3(b, g + n.y * n.y * a, -n.y);
+    Frame f = frame_from_normal(n);
+    s = f.t;
+    t = f.b;
 }
 
 vec3 to_local(Surface s, vec3 w) { return vec3(dot(w, s.ss), dot(w, s.ts), dot(w, s.ns)); }
@@ -121,8 +120,9 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     vec3 p = p0 + (bary.x * e1 + bary.y * e2);
     s.p = inst.object_to_world * vec4(p, 1.0);
     vec3 ng = normalize(inst.normal_to_world * cross(e1, e2));
-    if ((inst.flags & INSTANCE_FLIP_NORMAL) != 0u) ng = -ng;
-    s.ns = ng;
+    bool reversed = (inst.flags & INSTANCE_FLIP_NORMAL) != 0u;
+    float along = 0.0;
+    bool shaded = false;
     if ((inst.flags & INSTANCE_HAS_NORMALS) != 0u) {
         Vec3Array normals = Vec3Array(inst.normals);
         vec3 n = (1.0 - bary.x - bary.y) * normals.at[tri.x] + bary.x * normals.at[tri.y] + bary.y * normals.at[tri.z];
@@ -130,11 +130,14 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
         float l = dot(n, n);
         if (l > 0.0) {
             s.ns = n * inversesqrt(l);
-            if ((inst.flags & INSTANCE_FLIP_NORMAL) != 0u) s.ns = -s.ns;
-            if (dot(ng, s.ns) < 0.0) ng = -ng; // the shading normals say which side is out; pbrt 4ed, 6.5.3
+            along = dot(ng, s.ns);
+            if (reversed) s.ns = -s.ns;
+            shaded = true;
         }
     }
+    if (points_inward(along, reversed)) ng = -ng;
     s.ng = ng;
+    if (!shaded) s.ns = ng;
     s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon
                                        : ray_offset(p0, e1, e2, p, s.p, inst.object_to_world, inst.normal_to_world, ng);
 

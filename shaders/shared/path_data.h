@@ -3,6 +3,7 @@
 // ShadowRay starts with RTCRay, so Embree works on the kernels' memory in place.
 #ifndef RESTAGE_SHARED_PATH_DATA_H
 #define RESTAGE_SHARED_PATH_DATA_H
+#include "shared/address.h"
 #include "shared/types.h"
 
 RESTAGE_CONSTANTS_BEGIN

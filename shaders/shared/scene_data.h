@@ -3,6 +3,7 @@
 // that floats are precise near the camera (pbrt 4ed, 5.1.1, "camera-world" rendering space).
 #ifndef RESTAGE_SHARED_SCENE_DATA_H
 #define RESTAGE_SHARED_SCENE_DATA_H
+#include "shared/address.h"
 #include "shared/types.h"
 
 RESTAGE_CONSTANTS_BEGIN

@@ -28,7 +28,6 @@ using glm::vec4;
 #define RESTAGE_SHARED_BEGIN
 #define RESTAGE_SHARED_END
 #define RESTAGE_UINT(name, value) const uint name = value
-#define address uint64_t
 #endif
 
 #endif

@@ -3,6 +3,7 @@
 // not load it from behind an address once a path.
 #ifndef RESTAGE_SHARED_WAVE_DATA_H
 #define RESTAGE_SHARED_WAVE_DATA_H
+#include "shared/address.h"
 #include "shared/types.h"
 
 RESTAGE_SHARED_BEGIN

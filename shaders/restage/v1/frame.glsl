@@ -2,7 +2,6 @@
 // Frame: an orthonormal basis; BSDFs live in its local coordinates (n = +z).
 #ifndef RESTAGE_V1_FRAME
 #define RESTAGE_V1_FRAME
-#include <restage/v1/numbers.glsl>
 
 struct Frame {
     vec3 t, b, n;
@@ -14,16 +13,6 @@ Frame frame_from_normal(vec3 n) {
     float a = -1.0 / (s + n.z);
     float b = n.x * n.y * a;
     return Frame(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
-}
-
-// n unit; t is made orthogonal to n (Gram-Schmidt), and replaced when it is parallel to n or zero.
-Frame frame_from_tangent(vec3 n, vec3 t) {
-    vec3 u = t - n * dot(n, t);
-    float l2 = dot(u, u);
-    if (is_nan(l2) || l2 <= 1e-12 * dot(t, t))
-        return frame_from_normal(n);
-    u *= inversesqrt(l2);
-    return Frame(u, cross(n, u), n);
 }
 
 vec3 to_local(Frame f, vec3 v) { return vec3(dot(v, f.t), dot(v, f.b), dot(v, f.n)); }

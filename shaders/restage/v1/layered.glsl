@@ -18,6 +18,7 @@
 #define RESTAGE_V1_LAYERED
 
 #include <restage/v1/dielectric.glsl>
+#include <restage/v1/frame.glsl>
 #include <restage/v1/rng.glsl>
 #include <restage/v1/sampling.glsl>
 
@@ -68,10 +69,8 @@ vec3 henyey_greenstein_sample(vec3 w, float g, vec2 u) {
     float c = abs(g) < 1e-3 ? 1.0 - 2.0 * u.x : clamp((1.0 + g * g - s * s) / (2.0 * g), -1.0, 1.0);
     float phi = TWO_PI * u.y;
     vec2 r = sqrt(max(0.0, 1.0 - c * c)) * vec2(cos(phi), sin(phi));
-    float sg = w.z >= 0.0 ? 1.0 : -1.0; // Duff et al. 2017
-    float a = -1.0 / (sg + w.z);
-    float b = w.x * w.y * a;
-    return r.x * vec3(1.0 + sg * w.x * w.x * a, sg * b, -sg * w.x) + r.y * vec3(b, sg + w.y * w.y * a, -w.y) + c * w;
+    Frame f = frame_from_normal(w);
+    return r.x * f.t + r.y * f.b + c * w;
 }
 
 // One scattering at the coat seen from v. Returns f cos / pdf without 1/eta^2, 0 = lost; r.z > 0 when it was reflected.

@@ -3,16 +3,11 @@
 // PCG-RXS-M-XS 32 (O'Neill 2014; as a hash, Jarzynski and Olano 2020). The path's own dimensions come from sampler.glsl.
 #ifndef RESTAGE_V1_RNG
 #define RESTAGE_V1_RNG
+#include "shared/hash.h"
 
 struct Rng {
     uint state;
 };
-
-uint pcg_hash(uint x) {
-    uint s = x * 747796405u + 2891336453u;
-    uint w = ((s >> ((s >> 28u) + 4u)) ^ s) * 277803737u;
-    return (w >> 22u) ^ w;
-}
 
 // [0, 1)
 float rng_next(inout Rng rng) {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes one function text readable by C++ and GLSL: the GLSL words that shared functions use, said with GLM. What
+// stands in such a header is tested in both languages with the same inputs (tests/render/shared_test.cpp).
+#ifndef RESTAGE_SHARED_FUNCTIONS_H
+#define RESTAGE_SHARED_FUNCTIONS_H
+#include "shared/types.h"
+
+#ifdef __cplusplus
+#include <bit>
+#define RESTAGE_INLINE inline
+#define RESTAGE_REAL double // where the CPU can be exact for nothing
+namespace restage::shared {
+inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
+} // namespace restage::shared
+#else
+#define RESTAGE_INLINE
+#define RESTAGE_REAL float
+#endif
+
+#endif
