@@ -26,11 +26,13 @@ struct Word {
 constexpr Word<ParamType> type_words[] = {{"float", ParamType::number}, {"color", ParamType::color},
                                           {"int", ParamType::integer},  {"bool", ParamType::boolean},
                                           {"enum", ParamType::choice},  {"text", ParamType::text}};
-constexpr Word<bool model::Material::*> flag_words[] = {
-    {"stochastic", &model::Material::stochastic},     {"lossless", &model::Material::lossless},
-    {"transmissive", &model::Material::transmissive}, {"nonreciprocal", &model::Material::nonreciprocal},
-    {"tangent", &model::Material::tangent},           {"additive", &model::Material::additive},
-    {"site", &model::Material::site}};
+constexpr Word<bool model::Material::*> flag_words[] = {{"stochastic", &model::Material::stochastic},
+                                                        {"lossless", &model::Material::lossless},
+                                                        {"transmissive", &model::Material::transmissive},
+                                                        {"nonreciprocal", &model::Material::nonreciprocal},
+                                                        {"tangent", &model::Material::tangent},
+                                                        {"additive", &model::Material::additive},
+                                                        {"site", &model::Material::site}};
 constexpr Word<bool model::Param::*> param_flag_words[] = {{"texturable", &model::Param::texturable},
                                                            {"advanced", &model::Param::advanced}};
 

@@ -233,8 +233,8 @@ TEST_CASE("a type that no path meets is not compiled by the wavefront") {
 TEST_CASE("a material whose shader has an error keeps its stand-in in an editor, and ends a command") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto folder = empty_cache("broken_" + tracer);
-    REQUIRE(
-        write_file_atomic(folder / "broken.glsl", "Spectrum broken_eval(broken_Params m, vec3 wo, vec3 wi) { oops; }\n"));
+    REQUIRE(write_file_atomic(folder / "broken.glsl",
+                              "Spectrum broken_eval(broken_Params m, vec3 wo, vec3 wi) { oops; }\n"));
     const model::Material table{
         .type = "broken",
         .label = "Broken",

@@ -143,7 +143,7 @@ TEST_CASE("a material that does not ask for its site carries no code for it", "[
         type.plugin = {entry.table, entry.plugin->folder, entry.source};
         if (type.mix() || type.null_surface()) continue;
         const auto source = render::compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute);
-        const bool asks = entry.table->flags & RESTAGE_MATERIAL_SITE;
+        const bool asks = entry.table->site;
         CHECK((source.text.find("MATERIAL_SITE") != std::string::npos) == asks);
         CHECK((source.text.find("v1/site.glsl") != std::string::npos) == asks);
     }
