@@ -37,6 +37,7 @@ Editor::Editor(plugin::Registry& registry, Log& log, Notices& shown, EditorOptio
     view.snap_angle = preferences.snap_angle;
     view.snap_scale = preferences.snap_scale;
     live_->denoise_by(preferences.denoiser);
+    session_->set_history_budget(std::size_t(preferences.history_mib) << 20);
 }
 
 Editor::~Editor() = default;

@@ -4,6 +4,7 @@
 #include "base/file.hpp"
 #include "base/json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace restage::editor {
@@ -29,6 +30,8 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     step("snap_move", preferences.snap_move, 1e6f);
     step("snap_angle", preferences.snap_angle, 180);
     step("snap_scale", preferences.snap_scale, 100);
+    if (const auto most = j.find("history_mib"); most != j.end() && most->is_number_integer())
+        preferences.history_mib = std::clamp(most->get<int>(), 16, 65536);
     if (const auto name = j.find("denoiser"); name != j.end() && name->is_string()) preferences.denoiser = *name;
     return preferences;
 }
@@ -40,6 +43,7 @@ void write_preferences(const std::filesystem::path& config_dir, const Preference
                            {"snap_move", preferences.snap_move},
                            {"snap_angle", preferences.snap_angle},
                            {"snap_scale", preferences.snap_scale},
+                           {"history_mib", preferences.history_mib},
                            {"denoiser", preferences.denoiser}};
     // What cannot be remembered is no reason to bother anybody.
     (void)write_file_atomic(file_in(config_dir), j.dump(1) + "\n");

@@ -13,6 +13,7 @@ struct Preferences {
     bool hint_seen = false; // how to begin, over the first picture
     KeyPreset keys = KeyPreset::standard;
     float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // steps of drags with Ctrl: scene units, deg, factor
+    int history_mib = 512; // what the history may hold [MiB], 16 to 65536
     std::string denoiser; // type or id of its plugin; "" = the one that came with the program
     bool operator==(const Preferences&) const = default;
 };

@@ -12,6 +12,9 @@ namespace restage::document {
 
 using json = nlohmann::ordered_json;
 
+// Projects of before 0.2 have values among what is verbatim, a line "=id text" each.
+void take_value_lines(scene::Origin&);
+
 template <class V>
 void fields(V& v, scene::Mesh& m) {
     v("name", m.name);
@@ -151,6 +154,8 @@ template <class V>
 void fields(V& v, scene::Origin& o) {
     v("verbatim", o.verbatim);
     v("format", o.format);
+    v("values", o.values);
+    take_value_lines(o);
 }
 
 // Names of choices, in order of their values.

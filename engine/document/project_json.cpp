@@ -203,4 +203,19 @@ Result<std::shared_ptr<const scene::PixelData>> read_inline_image(const json& j)
     return pixels;
 }
 
+void take_value_lines(scene::Origin& origin) {
+    if (origin.verbatim.find('=') == std::string::npos) return;
+    std::string kept;
+    for (std::string_view rest = origin.verbatim; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = rest.substr(0, end);
+        if (const std::size_t space = line.find(' '); line.starts_with('=') && space != std::string_view::npos)
+            origin.values.push_back({std::string(line.substr(1, space - 1)), std::string(line.substr(space + 1))});
+        else
+            kept.append(rest.substr(0, std::min(end + 1, rest.size())));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    origin.verbatim = std::move(kept);
+}
+
 } // namespace restage::document

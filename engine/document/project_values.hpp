@@ -185,6 +185,15 @@ class ValueReader {
         } else
             error(field, "a value is expected");
     }
+    void read(const json& j, std::vector<scene::OriginValue>& list, const char* field) {
+        list.clear();
+        if (!j.is_array()) return error(field, "a list is expected");
+        for (const json& pair : j) {
+            if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string())
+                return error(field, "pairs of texts are expected");
+            list.push_back({pair[0].get<std::string>(), pair[1].get<std::string>()});
+        }
+    }
     void read(const json& j, scene::ParamSet& params, const char* field) {
         if (!j.is_object()) return error(field, "values by name are expected");
         for (const auto& [id, value] : j.items()) {

@@ -160,6 +160,12 @@ class Writer {
         out_ = outer;
         return j;
     }
+    json to_json(const std::vector<OriginValue>& list) {
+        json j = json::array();
+        for (const OriginValue& value : list)
+            j.push_back({value.id, value.text});
+        return j;
+    }
     json to_json(const Value& v) {
         std::size_t used = 4;
         while (used > 0 && v.v[used - 1] == 0 && !std::signbit(v.v[used - 1]))

@@ -11,6 +11,7 @@
 #include <deque>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace restage::io {
@@ -28,13 +29,15 @@ class SceneReader : public Exchange {
   private:
     struct Calls; // the C functions
     template <class Description>
-    int give_values(const scene::ParamSet&, Description& out);
+    bool give_values(const scene::ParamSet&, Description& out);
+    const RestageOrigin* origin(const scene::Origin&);
 
     const scene::Scene& scene_;
     MaterialEmissions shine_;
     std::map<std::uint32_t, glm::vec3> means_; // of textures that shine, by Id<Texture>::value
     RestageSceneReader1 table_{};
     std::deque<std::vector<RestageValue>> values_; // handed out
+    std::map<const scene::Origin*, std::pair<std::vector<RestageOriginValue>, RestageOrigin>> origins_; // handed out
 };
 
 } // namespace restage::io

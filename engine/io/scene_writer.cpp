@@ -2,6 +2,7 @@
 #include "io/scene_writer.hpp"
 
 #include "io/scene_writer_calls.hpp"
+#include "plugin/abi.hpp"
 
 namespace restage::io {
 
@@ -9,8 +10,14 @@ using namespace scene;
 
 void SceneWriter::refuse(const std::string& what, const std::string& why) { report.add(Fate::dropped, what, why); }
 
-Origin SceneWriter::origin(const RestageText& t) {
-    Origin result{text(t.verbatim), text(t.verbatim_format)};
+Origin SceneWriter::origin(const RestageOrigin* given) {
+    if (!given) return {};
+    const RestageOrigin in = plugin::sized(*given);
+    Origin result{.verbatim = text(in.verbatim), .format = text(in.format), .values = {}};
+    for (std::uint32_t i = 0; in.values && i < in.value_count; ++i) {
+        const RestageOriginValue value = plugin::element(in.values, i);
+        result.values.push_back({text(value.id), text(value.text)});
+    }
     if (scene.format.empty()) scene.format = result.format;
     return result;
 }

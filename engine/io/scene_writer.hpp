@@ -47,7 +47,7 @@ class SceneWriter : public Exchange {
     bool known(RestageHandle handle, const char* who_kind, const std::string& who, bool needed = false);
     void refuse(const std::string& what, const std::string& why);
     std::string unique_name(const char* kind, const std::string& wanted);
-    scene::Origin origin(const RestageText&);
+    scene::Origin origin(const RestageOrigin*);
     scene::ParamSet params(const RestageValue*, std::uint32_t count, const std::string& who);
     void read_images(Jobs&);
     void add_camera();

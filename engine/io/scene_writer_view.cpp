@@ -1,83 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights that are no objects, and what there is one of: environment, camera, film, settings.
 #include "io/scene_writer_calls.hpp"
+#include "plugin/abi.hpp"
 
 namespace restage::io {
 
 using namespace scene;
 
-RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* in) {
+RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* given) {
     return guarded(ctx, "light", [&](SceneWriter& w) -> RestageHandle {
-        const glm::dmat4 to_world = matrix(in->light_to_world);
-        const std::string who = "light \"" + text(in->text.name) + "\"";
-        if (in->kind < RESTAGE_LIGHT_POINT || in->kind > RESTAGE_LIGHT_DISTANT) {
+        const RestageLight in = plugin::sized(*given);
+        const glm::dmat4 to_world = matrix(in.light_to_world);
+        const std::string who = "light \"" + text(in.name) + "\"";
+        if (in.kind < RESTAGE_LIGHT_POINT || in.kind > RESTAGE_LIGHT_DISTANT) {
             w.refuse(who, "a light of unknown kind");
             return 0;
         }
-        if (!affine(to_world) || !finite3(in->value) || !finite(in->cone_angle, in->cone_delta)) {
+        if (!affine(to_world) || !finite3(in.value) || !finite(in.cone_angle, in.cone_delta)) {
             w.refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
             return 0;
         }
-        return w.push(Light{.name = w.unique_name("light", text(in->text.name)),
-                            .kind = static_cast<LightKind>(in->kind - RESTAGE_LIGHT_POINT),
-                            .value = vec3(in->value),
+        return w.push(Light{.name = w.unique_name("light", text(in.name)),
+                            .kind = static_cast<LightKind>(in.kind - RESTAGE_LIGHT_POINT),
+                            .value = vec3(in.value),
                             .light_to_world = to_world,
-                            .cone_angle = in->cone_angle,
-                            .cone_delta = in->cone_delta,
-                            .origin = w.origin(in->text),
-                            .falloff = in->falloff == RESTAGE_FALLOFF_QUARTIC ? Falloff::quartic : Falloff::smooth,
-                            .hidden = (in->flags & RESTAGE_LIGHT_HIDDEN) != 0});
+                            .cone_angle = in.cone_angle,
+                            .cone_delta = in.cone_delta,
+                            .origin = w.origin(in.origin),
+                            .falloff = in.falloff == RESTAGE_FALLOFF_QUARTIC ? Falloff::quartic : Falloff::smooth,
+                            .hidden = (in.flags & RESTAGE_LIGHT_HIDDEN) != 0});
     });
 }
 
-void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* in) {
+void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* given) {
     guarded(ctx, "environment", [&](SceneWriter& w) -> RestageHandle {
-        const glm::dmat4 to_world = matrix(in->light_to_world);
-        if (!w.known<Image>(in->image, "environment", text(in->text.name))) return 0;
-        if (!affine(to_world) || !finite3(in->scale)) {
+        const RestageEnvironment in = plugin::sized(*given);
+        const glm::dmat4 to_world = matrix(in.light_to_world);
+        if (!w.known<Image>(in.image, "environment", text(in.name))) return 0;
+        if (!affine(to_world) || !finite3(in.scale)) {
             w.refuse("the environment", "its scale or transform is not finite, or not affine");
             return 0;
         }
         if (w.scene.environment.value)
             w.refuse("environment \"" + w.scene.environment.value->name + "\"",
                      "another one follows; the last one counts");
-        const std::string name = text(in->text.name);
+        const std::string name = text(in.name);
         w.scene.environment = {Environment{.name = name.empty() ? "environment" : name,
-                                           .image = {in->image},
-                                           .mapping = static_cast<Mapping>(in->mapping),
-                                           .scale = vec3(in->scale),
+                                           .image = {in.image},
+                                           .mapping = static_cast<Mapping>(in.mapping),
+                                           .scale = vec3(in.scale),
                                            .light_to_world = to_world,
-                                           .hidden_from_camera = in->hidden_from_camera != 0,
-                                           .origin = w.origin(in->text)},
+                                           .hidden_from_camera = in.hidden_from_camera != 0,
+                                           .origin = w.origin(in.origin)},
                                w.scene.clock};
         return 1;
     });
 }
 
-RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* in) {
+RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* given) {
     return guarded(ctx, "camera", [&](SceneWriter& w) -> RestageHandle {
-        const float* sw = in->screen_window;
-        const glm::dmat4 to_world = matrix(in->camera_to_world);
-        if (in->projection > RESTAGE_SPHERICAL_EQUAL_AREA) {
-            w.refuse("camera \"" + text(in->text.name) + "\"",
-                     "there is no projection " + std::to_string(in->projection));
+        const RestageCamera in = plugin::sized(*given);
+        const float* sw = in.screen_window;
+        const glm::dmat4 to_world = matrix(in.camera_to_world);
+        if (in.projection > RESTAGE_SPHERICAL_EQUAL_AREA) {
+            w.refuse("camera \"" + text(in.name) + "\"", "there is no projection " + std::to_string(in.projection));
             return 0;
         }
-        if (!affine(to_world) || !finite(in->fov, sw[0], sw[1], sw[2], sw[3], in->lens_radius, in->focal_distance,
-                                         in->frame_aspect, in->fit_aspect)) {
-            w.refuse("camera \"" + text(in->text.name) + "\"",
+        if (!affine(to_world) || !finite(in.fov, sw[0], sw[1], sw[2], sw[3], in.lens_radius, in.focal_distance,
+                                         in.frame_aspect, in.fit_aspect)) {
+            w.refuse("camera \"" + text(in.name) + "\"",
                      "it holds a value that is not a finite number, or its transform is not affine");
             return 0;
         }
-        Camera camera{.name = w.unique_name("camera", text(in->text.name)),
+        Camera camera{.name = w.unique_name("camera", text(in.name)),
                       .camera_to_world = to_world,
-                      .fov = in->fov,
-                      .lens_radius = in->lens_radius,
-                      .focal_distance = in->focal_distance,
-                      .frame_aspect = in->frame_aspect,
-                      .origin = w.origin(in->text),
-                      .projection = static_cast<Projection>(in->projection),
-                      .fit_aspect = in->fit_aspect};
+                      .fov = in.fov,
+                      .lens_radius = in.lens_radius,
+                      .focal_distance = in.focal_distance,
+                      .frame_aspect = in.frame_aspect,
+                      .origin = w.origin(in.origin),
+                      .projection = static_cast<Projection>(in.projection),
+                      .fit_aspect = in.fit_aspect};
         if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
             camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
         const RestageHandle handle = w.push(std::move(camera));
@@ -93,28 +96,30 @@ void SceneWriter::Calls::camera_medium(void* ctx, RestageHandle medium) {
     });
 }
 
-void SceneWriter::Calls::film(void* ctx, const RestageFilm* in) {
+void SceneWriter::Calls::film(void* ctx, const RestageFilm* given) {
     guarded(ctx, "film", [&](SceneWriter& w) -> RestageHandle {
-        w.scene.film = {Film{.width = in->width,
-                             .height = in->height,
-                             .crop = {in->crop[0], in->crop[1], in->crop[2], in->crop[3]},
-                             .filter = {.kind = filter_kind(text(in->filter)),
-                                        .radius = {in->filter_radius[0], in->filter_radius[1]},
-                                        .params = {in->filter_params[0], in->filter_params[1]}},
-                             .exposure = in->exposure,
-                             .filename = text(in->filename)},
+        const RestageFilm in = plugin::sized(*given);
+        w.scene.film = {Film{.width = in.width,
+                             .height = in.height,
+                             .crop = {in.crop[0], in.crop[1], in.crop[2], in.crop[3]},
+                             .filter = {.kind = filter_kind(text(in.filter)),
+                                        .radius = {in.filter_radius[0], in.filter_radius[1]},
+                                        .params = {in.filter_params[0], in.filter_params[1]}},
+                             .exposure = in.exposure,
+                             .filename = text(in.filename)},
                         w.scene.clock};
-        w.unexposed = in->unexposed != 0;
+        w.unexposed = in.unexposed != 0;
         return 0;
     });
 }
 
-void SceneWriter::Calls::settings(void* ctx, const RestageSettings* in) {
+void SceneWriter::Calls::settings(void* ctx, const RestageSettings* given) {
     guarded(ctx, "settings", [&](SceneWriter& w) -> RestageHandle {
+        const RestageSettings in = plugin::sized(*given);
         Settings& s = w.scene.settings.value;
-        s.max_depth = in->max_depth;
-        if (in->samples) s.samples = in->samples;
-        s.origin = w.origin(in->text);
+        s.max_depth = in.max_depth;
+        if (in.samples) s.samples = in.samples;
+        s.origin = w.origin(in.origin);
         return 0;
     });
 }

@@ -254,16 +254,7 @@ Result<Edit> set_param_of(const Scene& scene, Id<T> id, std::string_view param, 
 } // namespace
 
 void forget_edited(Origin& origin, std::string_view param) {
-    std::string kept;
-    for (std::string_view rest = origin.verbatim; !rest.empty();) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        const std::string_view line = rest.substr(0, end);
-        const std::string_view id = line.starts_with('=') ? line.substr(1, line.find(' ') - 1) : std::string_view();
-        if (id.empty() || (param != "*" && id != "*" && id != param)) kept.append(line).append("\n");
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    if (kept.size() < origin.verbatim.size()) // else only a final newline would be added
-        origin.verbatim = std::move(kept);
+    std::erase_if(origin.values, [&](const OriginValue& v) { return param == "*" || v.id == "*" || v.id == param; });
 }
 
 Result<Edit> set_param(const Scene& scene, Id<Material> id, std::string_view param, Value value) {

@@ -17,11 +17,19 @@
 
 namespace restage::scene {
 
-// Where a thing came from, and what its importer did not understand: one "key value" line each, written back verbatim.
-// Lines "=id text" and "=* text" hold only until that value, or any, is edited (restage/scene_io.h, edits.hpp).
+// What a value was before it was reduced to what the scene can hold, in the words of its format.
+struct OriginValue {
+    std::string id; // of the value; "*": of the whole thing, of which there may be several lines
+    std::string text;
+    bool operator==(const OriginValue&) const = default;
+};
+
+// Where a thing came from. The engine looks at none of it but the ids: values hold only until that one, or any ("*"),
+// is edited (edits.hpp).
 struct Origin {
-    std::string verbatim;
-    std::string format; // "pbrt-v4", ...
+    std::string verbatim; // what its importer did not understand: one "key value" line each, written back verbatim
+    std::string format; // "pbrt-v4", ...; "" = made here
+    std::vector<OriginValue> values;
     bool operator==(const Origin&) const = default;
 };
 

@@ -54,7 +54,7 @@ inline RestageSceneWriter1 host() {
                     // Four texels, whatever the bytes: the decoders have a target of their own (fuzz_image).
                     static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255,
                                                            9, 9,   9,   0, 130, 120, 250, 255};
-                    *out = {2, 2, 4, 8, texels, "", nullptr};
+                    *out = {.width = 2, .height = 2, .channels = 4, .bits = 8, .texels = texels, .problem = ""};
                     return 1;
                 },
             .release_image = [](void*, RestageDecodedImage* image) { *image = {}; }};

@@ -82,8 +82,13 @@ static int probe(const char* path, const void* head, size_t size) {
 static int load(const char* path, const RestageSceneWriter1* out) {
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const uint32_t indices[] = {0, 1, 2};
-    const RestageMesh mesh = {{"triangle", "", ""}, 3, 1, positions, NULL, NULL, indices, "", ""};
-    const RestageMaterialDesc gray = {{"gray", "", ""}, "velvet", NULL, 0};
+    const RestageMesh mesh = {.size = sizeof mesh,
+                              .name = "triangle",
+                              .vertex_count = 3,
+                              .triangle_count = 1,
+                              .positions = positions,
+                              .indices = indices};
+    const RestageMaterialDesc gray = {.size = sizeof gray, .name = "gray", .type = "velvet"};
     RestageInstance instance;
     RestageCamera camera;
     RestageFilm film;
@@ -100,6 +105,7 @@ static int load(const char* path, const RestageSceneWriter1* out) {
     memset(&instance, 0, sizeof instance);
     memset(&camera, 0, sizeof camera);
     memset(&film, 0, sizeof film);
+    instance.size = sizeof instance, camera.size = sizeof camera, film.size = sizeof film;
     for (i = 0; i < 4; ++i)
         instance.object_to_world[5 * i] = camera.camera_to_world[5 * i] = 1;
     instance.alpha = 1;

@@ -56,7 +56,7 @@ static int load(const char* path, const RestageSceneWriter1* out) {
         memset(&mesh, 0, sizeof mesh);
         memset(&material, 0, sizeof material);
         memset(&instance, 0, sizeof instance);
-        mesh.text.name = "", mesh.text.verbatim = "", mesh.text.verbatim_format = "";
+        mesh.size = sizeof mesh, material.size = sizeof material, instance.size = sizeof instance;
         mesh.vertex_count = 3, mesh.triangle_count = 1, mesh.positions = positions, mesh.indices = indices;
         mesh.source_file = "", mesh.primitive = "";
 #if defined(NATIVE_IMPORTER_VARIES)
@@ -65,8 +65,8 @@ static int load(const char* path, const RestageSceneWriter1* out) {
             positions[2] = drift += 1;
         }
 #endif
-        material.text = mesh.text, material.type = "diffuse";
-        instance.text = mesh.text, instance.alpha = 1;
+        material.type = "diffuse";
+        instance.alpha = 1;
         instance.mesh = out->mesh(out->ctx, &mesh);
         instance.material = out->material(out->ctx, &material);
         instance.object_to_world[0] = instance.object_to_world[5] = instance.object_to_world[10] = size;
@@ -94,15 +94,14 @@ static int save(const char* path, const RestageSceneReader1* in, const RestageVa
         return 0;
     }
     for (i = 1; i <= objects; ++i) {
-        RestageInstance instance;
-        memset(&instance, 0, sizeof instance);
+        RestageInstance instance = {.size = sizeof instance};
         if (!in->instance(in->ctx, i, &instance)) {
 #if defined(NATIVE_EXPORTER_CRASHES)
             *nowhere = 1; /* a hole is none of its */
 #endif
             continue;
         }
-        fprintf(file, "%s\n", instance.text.name);
+        fprintf(file, "%s\n", instance.name);
         if (!in->progress(in->ctx, (float)i / (float)objects, "writing")) {
             fclose(file);
             return 0;

@@ -64,12 +64,12 @@ TEST_CASE("the footprint of a pixel on a plane is that of a pinhole camera", "[s
     Dots dots;
     Wall wall("footprint");
     const auto facing = dots.image(wall.scene, tracer); // the same everywhere, exactly
-    for (const auto [x, y] : {std::pair{48, 32}, {10, 8}, {90, 60}})
+    for (const auto& [x, y] : {std::pair{48, 32}, {10, 8}, {90, 60}})
         CHECK(std::abs(at(facing, x, y).x / (3 * pixel) - 1) < 1e-4);
 
     wall.look_from(3.0 * glm::dvec3(std::sin(0.3), -std::sin(1.0), std::cos(1.0)));
     const auto tilted = dots.image(wall.scene, tracer);
-    for (const auto [x, y] : {std::pair{48, 32}, {30, 24}, {70, 40}}) {
+    for (const auto& [x, y] : {std::pair{48, 32}, {30, 24}, {70, 40}}) {
         const double dx = glm::length(wall.meets(x + 1, y + 0.5) - wall.meets(x, y + 0.5));
         const double dy = glm::length(wall.meets(x + 0.5, y + 1) - wall.meets(x + 0.5, y));
         INFO(x << ", " << y);
@@ -82,7 +82,7 @@ TEST_CASE("uv and their changes, and lengths in the object's space, follow the s
     Dots dots;
     const Wall by_uv("uv");
     const auto uv = dots.image(by_uv.scene, tracer);
-    for (const auto [x, y] : {std::pair{48, 32}, {20, 50}}) {
+    for (const auto& [x, y] : {std::pair{48, 32}, {20, 50}}) {
         const glm::dvec2 expected = glm::dvec2(by_uv.meets(x + 0.5, y + 0.5)) / 4.0 + 0.5;
         CHECK(glm::length(glm::dvec2(at(uv, x, y)) - expected) < pixel);
     }

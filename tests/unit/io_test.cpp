@@ -57,11 +57,11 @@ struct Pushed { // a writer and a sound triangle to push
     float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     std::uint32_t indices[3] = {0, 1, 2};
     RestageMesh mesh{
-        .text = {"m", "", ""}, .vertex_count = 3, .triangle_count = 1, .positions = positions, .indices = indices};
-    RestageMaterialDesc material{.text = {"gray", "", ""}, .type = "diffuse"};
+        .name = "m", .vertex_count = 3, .triangle_count = 1, .positions = positions, .indices = indices};
+    RestageMaterialDesc material{.name = "gray", .type = "diffuse"};
 
     RestageInstance instance(RestageHandle m, RestageHandle mat) {
-        RestageInstance i{.text = {"", "", ""}, .mesh = m, .material = mat};
+        RestageInstance i{.mesh = m, .material = mat};
         i.alpha = 1;
         for (int k = 0; k < 4; ++k)
             i.object_to_world[5 * k] = 1;
@@ -156,8 +156,9 @@ TEST_CASE("what an importer pushes arrives as it is", "[io]") {
                                    {.type = RESTAGE_ENUM, .id = "remap", .text = "v3"}};
     p.material.values = values;
     p.material.value_count = 2;
-    p.material.text.verbatim = "\"float x\" 1";
-    p.material.text.verbatim_format = "pbrt-v4";
+    const RestageOriginValue eta{.id = "eta", .text = "\"spectrum eta\" \"glass-BK7\""};
+    const RestageOrigin origin{.value_count = 1, .format = "pbrt-v4", .verbatim = "\"float x\" 1", .values = &eta};
+    p.material.origin = &origin;
     const RestageHandle material = p.out.material(p.out.ctx, &p.material);
     RestageInstance instance = p.instance(mesh, material);
     instance.flags = RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_TWO_SIDED | RESTAGE_INSTANCE_REVERSE_ORIENTATION;
@@ -177,7 +178,8 @@ TEST_CASE("what an importer pushes arrives as it is", "[io]") {
     CHECK(s.meshes[{mesh}].source_file == "/a/b.ply");
     CHECK(s.materials[{material}].params.color("reflectance", {}) == std::array{1.f, 0.5f, 0.f});
     CHECK(s.materials[{material}].params.choice("remap", "") == "v3");
-    CHECK(s.materials[{material}].origin.verbatim == "\"float x\" 1");
+    CHECK(s.materials[{material}].origin ==
+          scene::Origin{"\"float x\" 1", "pbrt-v4", {{"eta", "\"spectrum eta\" \"glass-BK7\""}}});
     const scene::Instance& i = s.instances[{1}];
     CHECK(i.name == "object 1");
     CHECK(i.object_to_world[3].x == 7);
@@ -213,9 +215,9 @@ TEST_CASE("names are unique within their kind", "[io]") {
     Pushed p;
     p.out.mesh(p.out.ctx, &p.mesh);
     p.out.mesh(p.out.ctx, &p.mesh);
-    p.mesh.text.name = "m 2";
+    p.mesh.name = "m 2";
     p.out.mesh(p.out.ctx, &p.mesh);
-    p.mesh.text.name = nullptr;
+    p.mesh.name = nullptr;
     p.out.mesh(p.out.ctx, &p.mesh);
     p.out.mesh(p.out.ctx, &p.mesh);
     std::vector<std::string> names;

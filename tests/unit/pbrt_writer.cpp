@@ -25,6 +25,16 @@ ValueMap copy(const RestageValue* values, std::uint32_t count) {
     return out;
 }
 
+std::string name_of(const char* name) { return name ? name : ""; }
+
+// What was kept, values ("=id text") first.
+std::string lines_of(const RestageOrigin* origin) {
+    std::string out;
+    for (std::uint32_t i = 0; origin && i < origin->value_count; ++i)
+        out += "=" + std::string(origin->values[i].id) + " " + origin->values[i].text + "\n";
+    return origin && origin->verbatim ? out + origin->verbatim : out;
+}
+
 template <class T>
 RestageHandle handle(const std::vector<T>& list) {
     return static_cast<RestageHandle>(list.size());
@@ -37,7 +47,7 @@ RestageSceneWriter1 Recorder::table() {
     w.size = sizeof w;
     w.ctx = this;
     w.mesh = [](void* c, const RestageMesh* m) {
-        MeshRecord r{m->text.name, m->source_file, m->primitive, {}, {}, {}, {}};
+        MeshRecord r{name_of(m->name), m->source_file, m->primitive, {}, {}, {}, {}};
         r.positions.assign(m->positions, m->positions + 3 * std::size_t(m->vertex_count));
         if (m->normals) r.normals.assign(m->normals, m->normals + 3 * std::size_t(m->vertex_count));
         if (m->uvs) r.uvs.assign(m->uvs, m->uvs + 2 * std::size_t(m->vertex_count));
@@ -46,14 +56,14 @@ RestageSceneWriter1 Recorder::table() {
         return handle(self(c).meshes);
     };
     w.image = [](void* c, const RestageImage* i) {
-        Named n{.name = i->text.name, .path = i->path, .encoding = i->encoding, .gamma = i->gamma};
+        Named n{.name = name_of(i->name), .path = i->path, .encoding = i->encoding, .gamma = i->gamma};
         self(c).images.push_back(std::move(n));
         return handle(self(c).images);
     };
     w.texture = [](void* c, const RestageTexture* t) {
-        Named n{.name = t->text.name,
+        Named n{.name = name_of(t->name),
                 .type = t->type,
-                .verbatim = t->text.verbatim,
+                .verbatim = lines_of(t->origin),
                 .values = copy(t->values, t->value_count),
                 .image = t->image,
                 .is_float = t->is_float != 0};
@@ -61,34 +71,34 @@ RestageSceneWriter1 Recorder::table() {
         return handle(self(c).textures);
     };
     w.material = [](void* c, const RestageMaterialDesc* m) {
-        Named n{.name = m->text.name,
+        Named n{.name = name_of(m->name),
                 .type = m->type,
-                .verbatim = m->text.verbatim,
+                .verbatim = lines_of(m->origin),
                 .values = copy(m->values, m->value_count)};
         self(c).materials.push_back(std::move(n));
         return handle(self(c).materials);
     };
     w.medium = [](void* c, const RestageMedium* m) {
-        self(c).media.push_back({.name = m->text.name, .verbatim = m->text.verbatim});
+        self(c).media.push_back({.name = name_of(m->name), .verbatim = lines_of(m->origin)});
         self(c).raw_media.push_back(*m);
         return handle(self(c).media);
     };
     w.group = [](void* c, const RestageGroup* g) {
-        self(c).groups.push_back({.name = g->text.name});
+        self(c).groups.push_back({.name = name_of(g->name)});
         return handle(self(c).groups);
     };
     w.instance = [](void* c, const RestageInstance* i) {
-        self(c).instances.push_back({i->text.name, i->text.verbatim, *i});
+        self(c).instances.push_back({name_of(i->name), lines_of(i->origin), *i});
         return handle(self(c).instances);
     };
     w.light = [](void* c, const RestageLight* l) {
-        self(c).lights.push_back({.name = l->text.name, .verbatim = l->text.verbatim});
+        self(c).lights.push_back({.name = name_of(l->name), .verbatim = lines_of(l->origin)});
         self(c).raw_lights.push_back(*l);
         return handle(self(c).lights);
     };
     w.environment = [](void* c, const RestageEnvironment* e) { self(c).environments.push_back(*e); };
     w.camera = [](void* c, const RestageCamera* k) {
-        self(c).cameras.push_back({.name = k->text.name, .verbatim = k->text.verbatim});
+        self(c).cameras.push_back({.name = name_of(k->name), .verbatim = lines_of(k->origin)});
         self(c).raw_cameras.push_back(*k);
         return handle(self(c).cameras);
     };
@@ -100,7 +110,7 @@ RestageSceneWriter1 Recorder::table() {
     };
     w.settings = [](void* c, const RestageSettings* s) {
         self(c).settings = *s;
-        self(c).settings_text = s->text.verbatim;
+        self(c).settings_text = lines_of(s->origin);
     };
     w.report = [](void* c, int fate, const char* file, std::uint32_t line, const char* what, const char* note) {
         self(c).lines.push_back({fate, file, line, what, note});

@@ -112,7 +112,10 @@ class Monkey {
         return glm::translate(glm::dmat4(1), glm::dvec3(x(), double(x()) / 3, 7)) *
                glm::rotate(glm::dmat4(1), double(x()), glm::normalize(glm::dvec3(x(), x(), 1)));
     }
-    Origin origin() { return pick(2) ? Origin{} : Origin{name() + "\n=* more", "pbrt-v4"}; }
+    Origin origin() {
+        if (pick(2)) return {};
+        return {name() + "\n", "pbrt-v4", pick(2) ? std::vector<OriginValue>{} : std::vector<OriginValue>{{"*", "more"}, {name(), name()}}};
+    }
     template <class T>
     Id<T> any(const Scene& s) {
         std::vector<Id<T>> all;

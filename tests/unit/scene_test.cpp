@@ -135,21 +135,21 @@ TEST_CASE("builders refuse what cannot be", "[scene]") {
 
 TEST_CASE("what stood for a value goes when the value is edited", "[scene]") {
     Room r;
-    const std::string kept =
-        "\"float x\" [ 1 ]\n=eta \"spectrum eta\" [ \"metal-Au-eta\" ]\n=k \"spectrum k\" [ \"metal-Au-k\" ]\n";
-    apply(r.scene, *modify(r.scene, r.steel, "", [&](Material& m) { m.origin = {kept, "pbrt-v4"}; }));
+    const OriginValue eta{"eta", "\"spectrum eta\" [ \"metal-Au-eta\" ]"}, k{"k", "\"spectrum k\" [ \"metal-Au-k\" ]"};
+    const Origin kept{"\"float x\" [ 1 ]\n", "pbrt-v4", {eta, k}};
+    apply(r.scene, *modify(r.scene, r.steel, "", [&](Material& m) { m.origin = kept; }));
     History history;
     history.push(r.scene, *set_param(r.scene, r.steel, "roughness", Value::number(1)));
-    CHECK(r.scene.materials[r.steel].origin.verbatim == kept);
+    CHECK(r.scene.materials[r.steel].origin == kept);
     history.push(r.scene, *set_param(r.scene, r.steel, "eta", Value::color(1, 1, 1)));
-    CHECK(r.scene.materials[r.steel].origin.verbatim == "\"float x\" [ 1 ]\n=k \"spectrum k\" [ \"metal-Au-k\" ]\n");
+    CHECK(r.scene.materials[r.steel].origin == Origin{kept.verbatim, kept.format, {k}});
     history.undo(r.scene);
-    CHECK(r.scene.materials[r.steel].origin.verbatim == kept);
+    CHECK(r.scene.materials[r.steel].origin == kept);
     history.push(r.scene, *set_material_type(r.scene, r.steel, "diffuse"));
-    CHECK(r.scene.materials[r.steel].origin.verbatim == "\"float x\" [ 1 ]\n");
-    Origin whole{"=* \"string type\" [ \"hair\" ]\n\"float y\" [ 2 ]", "pbrt-v4"};
+    CHECK(r.scene.materials[r.steel].origin == Origin{kept.verbatim, kept.format, {}});
+    Origin whole{"\"float y\" [ 2 ]", "pbrt-v4", {{"*", "\"string type\" [ \"hair\" ]"}, {"*", "\"float x\" [ 1 ]"}}};
     forget_edited(whole, "anything");
-    CHECK(whole.verbatim == "\"float y\" [ 2 ]\n");
+    CHECK(whole == Origin{"\"float y\" [ 2 ]", "pbrt-v4", {}});
 }
 
 TEST_CASE("bounds follow the transform", "[scene]") {

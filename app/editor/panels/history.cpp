@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <algorithm>
 
 namespace restage::editor {
 
@@ -35,7 +36,28 @@ void draw_history(PanelContext& e) {
             ImGui::TextColored(colors::good, "saved");
         }
     };
-    row(0, e.session().path().empty() ? "New scene" : "Opened");
+    // What it holds, and may hold.
+    constexpr double mib = 1 << 20;
+    ImGui::TextDisabled("%s",
+                        fmt::format("{} steps, {:.3g} of", history.size(), double(history.bytes()) / mib).c_str());
+    e.mark("history.bytes");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+    if (ImGui::InputInt("MiB##history_mib", &e.preferences.history_mib, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        e.preferences.history_mib = std::clamp(e.preferences.history_mib, 16, 65536);
+        e.change([bytes = std::size_t(e.preferences.history_mib) << 20](document::Session& s) {
+            s.set_history_budget(bytes);
+        });
+    }
+    tip("How much memory undo may take; beyond it the oldest steps are dropped. Geometry and pictures count once");
+    e.mark("history.budget");
+    if (history.dropped() > 0)
+        ImGui::TextDisabled(
+            "%s",
+            fmt::format("{} older steps were dropped: they cannot be undone any more", history.dropped()).c_str());
+    row(0, history.dropped() > 0        ? "The oldest state that is kept"
+           : e.session().path().empty() ? "New scene"
+                                        : "Opened");
     ImGuiListClipper clipper;
     clipper.Begin(int(history.size()));
     while (clipper.Step())

@@ -3,11 +3,8 @@
  *
  * Handles are 1-based and per kind; 0 is none. Matrices are column-major double[16], object to world, right-handed or
  * mirrored as they come. Lengths are in the scene's own unit. Colours are linear sRGB primaries; radiometric values are
- * relative as in pbrt. `verbatim` holds what the importer did not understand, one "key value" line each, written back
- * by the exporter of the same format. A line "=id text" holds what the value `id` was before it was reduced (a spectrum
- * that became a colour), "=* text" what the whole thing was before it was approximated: the exporter writes it instead,
- * and the host drops it once that value, or any, is edited. Strings are UTF-8, never NULL ("" instead) in what the host
- * gives. */
+ * relative as in pbrt. Strings are UTF-8; in what the host gives they are never NULL ("" instead), nor is `origin`. In
+ * what an importer gives, NULL is "" and an origin of nothing. */
 #ifndef RESTAGE_SCENE_IO_H
 #define RESTAGE_SCENE_IO_H
 
@@ -20,14 +17,28 @@ extern "C" {
 
 typedef uint32_t RestageHandle;
 
-typedef struct RestageText { /* where a thing came from, and what was not understood of it */
-    const char* name;        /* "" = the host invents one */
-    const char* verbatim;    /* '\n'-separated lines, "" = none */
-    const char* verbatim_format; /* "pbrt-v3", "pbrt-v4", "gltf", ... */
-} RestageText;
+/* What a value was before it was reduced to what the scene can hold: a spectrum that became a colour. */
+typedef struct RestageOriginValue {
+    RESTAGE_SIZE(RestageOriginValue);
+    uint32_t reserved; /* 0 */
+    const char* id;    /* of the value; "*": of the whole thing, of which there may be several lines */
+    const char* text;  /* in the words of the format */
+} RestageOriginValue;
+
+/* Where a thing came from, for exporters of the same format. The host looks at none of it but the ids: once a value is
+ * edited, what has its id goes; once any is, what has "*" goes. */
+typedef struct RestageOrigin {
+    RESTAGE_SIZE(RestageOrigin);
+    uint32_t value_count;
+    const char* format;   /* "pbrt-v3", "pbrt-v4", "gltf", ...; "" = made here */
+    const char* verbatim; /* what the importer did not understand of it, one "key value" line each; "" = nothing */
+    const RestageOriginValue* values;
+} RestageOrigin;
 
 typedef struct RestageMesh {
-    RestageText text;
+    RESTAGE_SIZE(RestageMesh);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     uint32_t vertex_count, triangle_count;
     const float* positions;   /* 3 a vertex */
     const float* normals;     /* 3 a vertex, or NULL */
@@ -46,7 +57,9 @@ typedef struct RestageMesh {
 
 typedef enum RestageEncoding { RESTAGE_LINEAR = 0, RESTAGE_SRGB = 1, RESTAGE_GAMMA = 2 } RestageEncoding;
 typedef struct RestageImage { /* an image file, read by the host; or pixels, when `path` is "" */
-    RestageText text;
+    RESTAGE_SIZE(RestageImage);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     const char* path; /* absolute */
     uint32_t encoding; /* RestageEncoding of 8-bit files; float files are linear */
     float gamma; /* for RESTAGE_GAMMA */
@@ -63,7 +76,9 @@ typedef struct RestageImage { /* an image file, read by the host; or pixels, whe
  * v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it has one. Other types are
  * kept, written back, and shade as their `average` (COLOR). */
 typedef struct RestageTexture {
-    RestageText text;
+    RESTAGE_SIZE(RestageTexture);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     const char* type;
     uint32_t is_float; /* 1: a scalar texture, 0: colour */
     RestageHandle image;
@@ -72,7 +87,9 @@ typedef struct RestageTexture {
 } RestageTexture;
 
 typedef struct RestageMaterialDesc {
-    RestageText text;
+    RESTAGE_SIZE(RestageMaterialDesc);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     const char* type; /* of a material plugin */
     /* Of its table; unset ones have the default. Besides, for any material: `bump` and `normalmap` (TEXTURE). */
     const RestageValue* values;
@@ -80,7 +97,9 @@ typedef struct RestageMaterialDesc {
 } RestageMaterialDesc;
 
 typedef struct RestageMedium { /* homogeneous; only absorption is rendered (Beer-Lambert) */
-    RestageText text;
+    RESTAGE_SIZE(RestageMedium);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     float sigma_a[3], sigma_s[3]; /* [1/unit], scale applied */
     float g;
 } RestageMedium;
@@ -100,7 +119,9 @@ enum {
     RESTAGE_INSTANCE_EMITS_UNSEEN = 64u
 };
 typedef struct RestageInstance {
-    RestageText text;
+    RESTAGE_SIZE(RestageInstance);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     RestageHandle mesh, material, group;
     RestageHandle alpha_texture; /* scalar, or 0 */
     RestageHandle interior, exterior; /* media, 0 = vacuum; used where `has_medium_interface` */
@@ -112,7 +133,9 @@ typedef struct RestageInstance {
 } RestageInstance;
 
 typedef struct RestageGroup { /* something a user selects as one: an ObjectInstance, an imported node */
-    RestageText text;
+    RESTAGE_SIZE(RestageGroup);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     RestageHandle parent;
 } RestageGroup;
 
@@ -128,7 +151,9 @@ typedef enum RestageFalloff {
 } RestageFalloff;
 enum { RESTAGE_LIGHT_HIDDEN = 1u }; /* switched off: it is in the scene, and lights nothing */
 typedef struct RestageLight {
-    RestageText text;
+    RESTAGE_SIZE(RestageLight);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     uint32_t kind;
     float value[3]; /* point, spot: radiant intensity [W/sr]; distant: irradiance at normal incidence [W/m^2] */
     double light_to_world[16]; /* at the origin; spot and distant light travels along +z */
@@ -140,7 +165,9 @@ typedef struct RestageLight {
 
 typedef enum RestageMapping { RESTAGE_EQUIRECT = 0, RESTAGE_OCTAHEDRAL = 1 } RestageMapping;
 typedef struct RestageEnvironment {
-    RestageText text;
+    RESTAGE_SIZE(RestageEnvironment);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     RestageHandle image; /* 0 = constant */
     /* RestageMapping. EQUIRECT: pbrt-v3, z up, u = phi/2pi, v = theta/pi, row 0 = +z.
      * OCTAHEDRAL: equal-area, Clarberg 2008 as in pbrt-v4. */
@@ -161,7 +188,9 @@ typedef enum RestageProjection {
     RESTAGE_SPHERICAL_EQUAL_AREA = 3 /* the same by Clarberg's octahedral map, as in pbrt-v4 */
 } RestageProjection;
 typedef struct RestageCamera {
-    RestageText text;
+    RESTAGE_SIZE(RestageCamera);
+    const char* name; /* "" = the host invents one */
+    const RestageOrigin* origin;
     double camera_to_world[16]; /* pbrt: looks along +z, +y up, +x right */
     float fov; /* [deg], of the shorter image side */
     float screen_window[4]; /* x0 x1 y0 y1; all 0 = from the aspect ratio */
@@ -175,6 +204,7 @@ typedef struct RestageCamera {
 } RestageCamera;
 
 typedef struct RestageFilm {
+    RESTAGE_SIZE(RestageFilm);
     uint32_t width, height;
     float crop[4]; /* x0 x1 y0 y1 in [0,1] */
     const char* filter; /* box triangle gaussian mitchell sinc */
@@ -186,9 +216,10 @@ typedef struct RestageFilm {
 } RestageFilm;
 
 typedef struct RestageSettings {
+    RESTAGE_SIZE(RestageSettings);
     uint32_t max_depth; /* path vertices beyond the camera, pbrt's maxdepth: 0 = emission only */
     uint32_t samples; /* a pixel, as the file says; 0 = not said */
-    RestageText text; /* integrator, sampler, options not understood */
+    const RestageOrigin* origin; /* integrator, sampler, options not understood */
 } RestageSettings;
 
 typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_DROPPED = 2 } RestageFate;
@@ -196,6 +227,7 @@ typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_D
 /* A picture decoded by the host, for an importer that must look inside one: a channel of it, its alpha, its mean, or a
  * picture that is no file. Where the picture is a file and all of it is used, RestageImage.path is better. */
 typedef struct RestageDecodedImage {
+    RESTAGE_SIZE(RestageDecodedImage);
     uint32_t width, height; /* row 0 is the top */
     uint32_t channels; /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha */
     uint32_t bits; /* of a number: 8 (uint8_t), 16 (uint16_t) as stored, not linear; 32 (float): linear */
@@ -255,8 +287,8 @@ typedef struct RestageImporter1 {
     int (*load)(const char* path, const RestageSceneWriter1* out);
 } RestageImporter1;
 
-/* Where an exporter reads. [worker]; handles are 1..count(kind), holes (removed things) give 0 from the getter.
- * Pointers live until the export ends. */
+/* Where an exporter reads. [worker]; handles are 1..count(kind), holes (removed things) give 0 from the getter. `size`
+ * of what a getter fills is the caller's to set, in C. Pointers live until the export ends. */
 typedef enum RestageKind {
     RESTAGE_KIND_MESH = 1,
     RESTAGE_KIND_IMAGE,

@@ -120,9 +120,8 @@ std::string Exporter::environment_file(const RestageEnvironment& e, const std::a
     OwnPicture picture = resampled(image, to_octahedral, 2);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         picture.pixels[i] *= tint[i % 3];
-    const std::string file =
-        own_picture(picture, std::string(e.text.name) + (to_octahedral ? "_octahedral" : "_equirect"));
-    approximated(std::string("environment \"") + e.text.name + "\"",
+    const std::string file = own_picture(picture, std::string(e.name) + (to_octahedral ? "_octahedral" : "_equirect"));
+    approximated(std::string("environment \"") + e.name + "\"",
                  std::string("its picture was resampled to ") +
                      (to_octahedral ? "pbrt-v4's octahedral" : "pbrt-v3's equirectangular") + " mapping");
     return file;

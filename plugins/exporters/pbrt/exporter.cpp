@@ -47,23 +47,23 @@ void Exporter::report(RestageFate fate, const std::string& what, const std::stri
         in_.report(in_.ctx, fate, what.c_str(), note.c_str());
 }
 
-Kept Exporter::kept(const RestageText& text, const std::string& what) {
+Kept Exporter::kept(const RestageOrigin& origin, const std::string& what) {
     Kept out;
-    const bool ours = std::string_view(text.verbatim_format) == format();
-    const bool of_pbrt = std::string_view(text.verbatim_format).starts_with("pbrt-"); // the other version
-    for (const std::string& line : lines(text.verbatim)) {
-        if (line[0] == '=') { // "=eta ...": only where it is understood; elsewhere the value itself is written
-            const std::size_t space = std::min(line.find(' '), line.size());
-            const std::string id = line.substr(1, space - 1), rest = line.substr(std::min(space + 1, line.size()));
-            if (ours && id == "*")
-                out.whole.push_back(rest);
-            else if (ours)
-                out.for_values[id] = rest;
-            else
-                approximated(what, std::string("what ") + text.verbatim_format +
-                                       " had as spectra, or in its own way, is written as this scene shows it");
-            continue;
-        }
+    const bool ours = std::string_view(origin.format) == format();
+    const bool of_pbrt = std::string_view(origin.format).starts_with("pbrt-"); // the other version
+    for (std::uint32_t i = 0; i < origin.value_count; ++i) { // where it is understood; elsewhere the value is written
+        const RestageOriginValue& value = RESTAGE_AT(RestageOriginValue, origin.values, i);
+        const std::string_view id = value.id;
+        if (id == whole_light) continue; // picture_light's
+        if (ours && id == "*")
+            out.whole.emplace_back(value.text);
+        else if (ours)
+            out.for_values[std::string(id)] = value.text;
+        else
+            approximated(what, std::string("what ") + origin.format +
+                                   " had as spectra, or in its own way, is written as this scene shows it");
+    }
+    for (const std::string& line : lines(origin.verbatim)) {
         if (ours) {
             out.lines.push_back(line);
             continue;
@@ -73,8 +73,8 @@ Kept Exporter::kept(const RestageText& text, const std::string& what) {
         if (same && !same->empty()) out.lines.push_back(*same);
     }
     for (const std::string& line : out.foreign)
-        dropped(what, line + " of " + text.verbatim_format + " has no meaning in " + format() +
-                          "; it is written as a comment");
+        dropped(what,
+                line + " of " + origin.format + " has no meaning in " + format() + "; it is written as a comment");
     return out;
 }
 

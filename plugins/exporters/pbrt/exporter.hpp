@@ -40,11 +40,14 @@ class Values {
     std::uint32_t count_;
 };
 
+// The id of what keeps all of a light with a picture: its value, then the directive.
+inline constexpr std::string_view whole_light = "whole";
+
 // What was kept of an imported thing, sorted out. Lines of another version are not usable.
 struct Kept {
     std::vector<std::string> lines;                // written back as they are
-    std::map<std::string, std::string> for_values; // "=eta ..." : instead of what would be written for that value
-    std::vector<std::string> whole;                // "=* ..." : instead of everything
+    std::map<std::string, std::string> for_values; // instead of what would be written for that value
+    std::vector<std::string> whole;                // instead of everything
     std::vector<std::string> foreign;              // of another format: comments
 };
 
@@ -73,7 +76,7 @@ class Exporter {
     void report(RestageFate fate, const std::string& what, const std::string& note);
     void approximated(const std::string& what, const std::string& note) { report(RESTAGE_APPROXIMATED, what, note); }
     void dropped(const std::string& what, const std::string& note) { report(RESTAGE_DROPPED, what, note); }
-    Kept kept(const RestageText& text, const std::string& what);
+    Kept kept(const RestageOrigin& text, const std::string& what);
     void comment(const std::vector<std::string>& lines, const char* indent = "");
     std::string unique_name(const char* kind, const std::string& name);
     // The name of what a missing Include may define, and nobody has edited: it is named, not written. "" = another.

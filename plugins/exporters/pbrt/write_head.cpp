@@ -28,7 +28,7 @@ void add_kept_params(Params& params, const Kept& kept, std::string_view word) { 
 void Exporter::head() {
     RestageSettings settings{};
     in_.settings(in_.ctx, &settings);
-    const Kept kept_settings = kept(settings.text, "settings");
+    const Kept kept_settings = kept(*settings.origin, "settings");
     comment(kept_settings.foreign);
     for (const std::string& line : kept_settings.lines) {
         const std::string word = split_directive(line).word;
@@ -50,10 +50,10 @@ double Exporter::shutter_time() const {
     RestageCamera camera{};
     const RestageHandle active = in_.active_camera(in_.ctx);
     if (v3() || !active || !in_.camera(in_.ctx, active, &camera) ||
-        !std::string_view(camera.text.verbatim_format).starts_with("pbrt-"))
+        !std::string_view(camera.origin->format).starts_with("pbrt-"))
         return 1;
     Params params;
-    for (const std::string& line : lines(camera.text.verbatim))
+    for (const std::string& line : lines(camera.origin->verbatim))
         params.add_raw(line[0] == '"' ? line : split_directive(line).rest);
     const auto number_of = [&](const char* name, double otherwise) {
         if (!params.has(name)) return otherwise;
@@ -69,8 +69,8 @@ double Exporter::shutter_time() const {
 void Exporter::camera(RestageHandle handle, bool active) {
     RestageCamera camera{};
     if (!in_.camera(in_.ctx, handle, &camera)) return;
-    const std::string what = std::string("camera \"") + camera.text.name + "\"";
-    const Kept k = kept(camera.text, what);
+    const std::string what = std::string("camera \"") + camera.name + "\"";
+    const Kept k = kept(*camera.origin, what);
     const std::size_t start = text_.size();
     const char* indent = active ? "" : "    ";
     const auto to_camera = inverse(camera.camera_to_world);
@@ -81,7 +81,7 @@ void Exporter::camera(RestageHandle handle, bool active) {
         text_ += "MediumInterface \"\" " + quote(name) + "\n";
     }
     if (!active) text_ += "AttributeBegin\n    Identity\n";
-    mark(indent, "name", {camera.text.name});
+    mark(indent, "name", {camera.name});
     comment(k.foreign, indent);
     transform(to_camera->data(), indent);
     Params params;

@@ -104,7 +104,7 @@ void Exporter::put_for_plugin(const std::string& name, const RestageMaterialDesc
         if ((v->type == RESTAGE_ENUM || v->type == RESTAGE_TABLE) && v->text && *v->text)
             params.add_string(v->id, v->text);
     }
-    const std::string what = std::string("material \"") + m.text.name + "\"";
+    const std::string what = std::string("material \"") + m.name + "\"";
     put_common(params, values, what);
     const std::string text = "MakeNamedMaterial " + quote(name) + " " + finished(params, what) + "\n";
     const std::size_t start = text_.size();
@@ -117,8 +117,8 @@ std::string Exporter::material(RestageHandle handle) {
     RestageMaterialDesc m{};
     if (!in_.material(in_.ctx, handle, &m)) return "";
     materials_[handle] = ""; // a circle finds nothing
-    const std::string what = std::string("material \"") + m.text.name + "\"";
-    const Kept k = kept(m.text, what);
+    const std::string what = std::string("material \"") + m.name + "\"";
+    const Kept k = kept(*m.origin, what);
     const Values values(m.values, m.value_count);
     if (const std::string name = extern_name("material", k); !name.empty()) return materials_[handle] = name;
     Params params;
@@ -148,7 +148,7 @@ std::string Exporter::material(RestageHandle handle) {
     for (const std::string& line : k.lines)
         params.add_raw(line);
     comment(k.foreign);
-    const std::string name = unique_name("material", m.text.name);
+    const std::string name = unique_name("material", m.name);
     if (stands_in) put_for_plugin(name, m);
     lossy_ = lossy_ || outside;
     text_ += "MakeNamedMaterial " + quote(name) + " " + finished(params, what) + "\n";

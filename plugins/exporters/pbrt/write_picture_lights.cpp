@@ -60,7 +60,7 @@ RestageHandle Exporter::picture_named(const std::string& file) {
         RestageImage image{};
         if (!in_.image(in_.ctx, h, &image)) continue;
         Params as_written; // what the importer kept of a file it did not find
-        for (const std::string& line : lines(image.text.verbatim))
+        for (const std::string& line : lines(image.origin->verbatim))
             as_written.add_raw(line);
         if (image.path == file || as_written.string("filename") == file) return h;
     }
@@ -68,11 +68,11 @@ RestageHandle Exporter::picture_named(const std::string& file) {
 }
 
 bool Exporter::picture_light(const RestageLight& light, const std::string& what, std::string& type, Params& params) {
-    const auto all = lines(light.text.verbatim);
-    const auto whole =
-        std::find_if(all.begin(), all.end(), [](const std::string& line) { return line.starts_with("=whole "); });
-    if (whole == all.end()) return false;
-    std::string_view rest = std::string_view(*whole).substr(std::string_view("=whole").size());
+    std::string_view rest;
+    for (std::uint32_t i = 0; i < light.origin->value_count; ++i)
+        if (const auto& value = RESTAGE_AT(RestageOriginValue, light.origin->values, i); value.id == whole_light)
+            rest = value.text;
+    if (rest.empty()) return false;
     bool is_edited = false;
     for (const float x : light.value) {
         const auto kept = read_number(rest);
@@ -80,7 +80,7 @@ bool Exporter::picture_light(const RestageLight& light, const std::string& what,
     }
     const KeptLine line = split_directive(rest);
     if (line.name != "goniometric" && line.name != "projection") return false;
-    PictureLight p{light, what, std::string_view(light.text.verbatim_format) == "pbrt-v3", {}, false, 0, {}};
+    PictureLight p{light, what, std::string_view(light.origin->format) == "pbrt-v3", {}, false, 0, {}};
     p.given.add_raw(line.rest);
     for (const char* placed : {"from", "to"}) // are in the transform already
         p.given.remove(placed);
@@ -141,7 +141,7 @@ void Exporter::goniometric(PictureLight& p, std::string& type, Params& params) {
     bool coloured = false;
     for (std::size_t i = 0; i < picture.pixels.size(); i += 3)
         coloured = coloured || !is_grey({picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]});
-    params.add_string(v3() ? "mapname" : "filename", own_picture(picture, p.light.text.name));
+    params.add_string(v3() ? "mapname" : "filename", own_picture(picture, p.light.name));
     approximated(p.what, std::string("its distribution was resampled to ") +
                              (v3() ? "pbrt-v3's equirectangular" : "pbrt-v4's octahedral") + " mapping");
     if (coloured) approximated(p.what, "pbrt-v4's distributions are grey: the mean of its colours is read");
@@ -197,7 +197,7 @@ void Exporter::projection(PictureLight& p, Params& params) {
         return; // an even one
     }
     params.remove(name);
-    params.add_string(name, own_picture(picture, p.light.text.name));
+    params.add_string(name, own_picture(picture, p.light.name));
 }
 
 } // namespace restage::pbrt_out

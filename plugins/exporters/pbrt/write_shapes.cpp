@@ -21,7 +21,7 @@ std::string signature(const RestageInstance& i) {
     std::string key = std::to_string(i.mesh) + " " + std::to_string(i.material) + " " +
                       std::to_string(i.alpha_texture) + " " + number(i.alpha) + " " + std::to_string(i.flags);
     if (i.has_medium_interface) key += " " + std::to_string(i.interior) + "|" + std::to_string(i.exterior);
-    return key + " " + i.text.verbatim_format + i.text.verbatim;
+    return key + " " + i.origin->format + i.origin->verbatim;
 }
 
 bool shareable(const RestageInstance& i) { return !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_HIDDEN)); }
@@ -64,7 +64,7 @@ void Exporter::plan_objects() {
     // pbrt's objects are one level deep: a group of groups is written as comments alone.
     for (RestageHandle g = 1; g <= groups; ++g)
         if (RestageGroup group{}; in_.group(in_.ctx, g, &group)) {
-            group_names_[g] = unique_name("group", group.text.name);
+            group_names_[g] = unique_name("group", group.name);
             if (group.parent) unfit.insert(group.parent);
         }
 
@@ -97,7 +97,7 @@ void Exporter::plan_objects() {
         }
         RestageGroup g{};
         in_.group(in_.ctx, group, &g);
-        const std::string name = unique_name("object", g.text.name);
+        const std::string name = unique_name("object", g.name);
         alike.push_back({name, std::move(relative)});
         objects_[name] = handles;
         object_of_[group] = name;
@@ -116,7 +116,7 @@ void Exporter::plan_objects() {
         if (handles.size() > 1) in_order[handles[0]] = &handles;
     for (const auto& [first, handles] : in_order) {
         in_.instance(in_.ctx, first, &i);
-        const std::string name = unique_name("object", i.text.name);
+        const std::string name = unique_name("object", i.name);
         objects_[name] = {first};
         for (const RestageHandle h : *handles)
             object_of_instance_[h] = name;
@@ -191,12 +191,12 @@ void Exporter::shapes() {
             const auto names = [&](const std::vector<RestageHandle>& handles) {
                 std::vector<std::string> out;
                 for (const RestageHandle member : handles)
-                    if (RestageInstance m{}; in_.instance(in_.ctx, member, &m)) out.emplace_back(m.text.name);
+                    if (RestageInstance m{}; in_.instance(in_.ctx, member, &m)) out.emplace_back(m.name);
                 return out;
             };
             if (const auto own = names(members_[i.group]); own != names(objects_[object])) mark("    ", "names", own);
         } else {
-            mark("    ", "alone", {i.text.name});
+            mark("    ", "alone", {i.name});
             if (i.group) mark("    ", "group", group_path(i.group));
         }
         transform(i.object_to_world, "    ");
@@ -218,8 +218,8 @@ void Exporter::write_object(const std::string& name, const std::vector<RestageHa
 void Exporter::write_instance(RestageHandle handle, const char* indent, const double* relative_to) {
     RestageInstance i{};
     in_.instance(in_.ctx, handle, &i);
-    const std::string what = std::string("instance \"") + i.text.name + "\"", deep = std::string(indent) + "    ";
-    const Kept k = kept(i.text, what);
+    const std::string what = std::string("instance \"") + i.name + "\"", deep = std::string(indent) + "    ";
+    const Kept k = kept(*i.origin, what);
     RestageMaterialDesc surface{};
     const bool none = in_.material(in_.ctx, i.material, &surface) && std::string_view(surface.type) == "interface";
     // pbrt-v4 lets surfaces without a material not emit, but those of alpha 0 do, which let rays pass as well.
@@ -229,13 +229,13 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
         i.alpha_texture = 0;
         i.flags = (i.flags | RESTAGE_INSTANCE_EMITS_UNSEEN) & ~std::uint32_t{RESTAGE_INSTANCE_ALPHA_MASK};
         approximated(
-            std::string("the light of \"") + i.text.name + "\"",
+            std::string("the light of \"") + i.name + "\"",
             "pbrt-v4 lets surfaces without a material not emit: one of alpha 0 is written, which shines, and is "
             "not seen");
     }
     const auto shape_text = shape_lines(i.mesh, i, k); // may write files and textures first
     const bool many = shape_text.size() > 1; // then the name is the block's
-    if (many) mark(indent, "name", {i.text.name});
+    if (many) mark(indent, "name", {i.name});
     RestageMesh mesh{};
     in_.mesh(in_.ctx, i.mesh, &mesh);
     // v3 scopes names to attribute blocks: what a file that is missing here defines must outlive its block.
@@ -244,11 +244,11 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
                       !i.has_medium_interface && !relative_to;
     const char* block = open ? "Transform" : "Attribute";
     text_ += std::string(indent) + block + "Begin\n";
-    if (!many) mark(deep.c_str(), "name", {i.text.name});
+    if (!many) mark(deep.c_str(), "name", {i.name});
     if (i.group && !relative_to) mark(deep.c_str(), "group", group_path(i.group));
     const auto file = meshes_.find(i.mesh);
-    const std::string implied = file == meshes_.end() ? i.text.name : mesh_name_of(file->second);
-    if (mesh.text.name != implied) mark(deep.c_str(), "mesh", {mesh.text.name});
+    const std::string implied = file == meshes_.end() ? i.name : mesh_name_of(file->second);
+    if (mesh.name != implied) mark(deep.c_str(), "mesh", {mesh.name});
     comment(k.foreign, deep.c_str());
     if (i.flags & RESTAGE_INSTANCE_REVERSE_ORIENTATION) text_ += deep + "ReverseOrientation\n";
     if (!relative_to) {
@@ -260,7 +260,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
         text_ += deep + "MediumInterface " + quote(medium(i.interior)) + " " + quote(medium(i.exterior)) + "\n";
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
         if (!v3() && none && !lamp_of_nothing)
-            report(RESTAGE_DROPPED, std::string("the light of \"") + i.text.name + "\"",
+            report(RESTAGE_DROPPED, std::string("the light of \"") + i.name + "\"",
                    "pbrt-v4 lets surfaces without a material not emit");
         Params light;
         light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
@@ -295,7 +295,7 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
             return file = file.empty() ? source.generic_string() : file;
         }
     }
-    file = out_.unique_file("models", plain_name(mesh.text.name), ".ply");
+    file = out_.unique_file("models", plain_name(mesh.name), ".ply");
     out_.write(file, ply_bytes(mesh));
     return file;
 }
@@ -304,7 +304,7 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
 // is the share of rays that is stopped, and of lamps what shines, unless it is 0 everywhere.
 void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
     if (!i.alpha_texture && i.alpha >= 1) return;
-    const std::string what = std::string("alpha of \"") + i.text.name + "\"";
+    const std::string what = std::string("alpha of \"") + i.name + "\"";
     const bool mask = (i.flags & RESTAGE_INSTANCE_ALPHA_MASK) != 0, whole = !i.alpha_texture && i.alpha > 0;
     const bool lamp = (i.flags & RESTAGE_INSTANCE_EMITS) != 0;
     const bool unseen = (i.flags & RESTAGE_INSTANCE_EMITS_UNSEEN) != 0;
@@ -331,15 +331,14 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
 
 // What could not be read, as it was. Shapes take what the instance says of them; Include and ObjectInstance do not.
 std::vector<std::string> Exporter::missing_lines(const RestageMesh& mesh, const RestageInstance& i, const Kept& k) {
-    const std::string what = std::string("instance \"") + i.text.name + "\"";
-    const bool ours = std::string_view(mesh.text.verbatim_format) == format();
+    const std::string what = std::string("instance \"") + i.name + "\"";
+    const bool ours = std::string_view(mesh.origin->format) == format();
     std::vector<std::string> out;
     for (const std::string& line : lines(std::string_view(mesh.primitive).substr(missing.size()))) {
         const KeptLine l = split_directive(line);
         const bool is_shape = l.word == "Shape";
         if (!ours && !(is_shape && l.name == "plymesh") && l.word != "ObjectInstance") {
-            dropped(what,
-                    std::string("a placeholder of ") + mesh.text.verbatim_format + ", written as a comment: " + line);
+            dropped(what, std::string("a placeholder of ") + mesh.origin->format + ", written as a comment: " + line);
             out.push_back("# " + line);
             continue;
         }
@@ -374,7 +373,7 @@ std::string Exporter::shape_line(const std::string& type, Params& params, const 
 std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const RestageInstance& i, const Kept& k) {
     RestageMesh mesh{};
     if (!in_.mesh(in_.ctx, handle, &mesh))
-        throw ExportError("", std::string("instance \"") + i.text.name + "\" has no mesh");
+        throw ExportError("", std::string("instance \"") + i.name + "\" has no mesh");
     if (is_missing(mesh)) return missing_lines(mesh, i, k);
     const auto finish = [&](const std::string& type, Params& params) { return shape_line(type, params, i, k); };
     std::vector<std::string> out; // the shapes that the triangles stand for: one, or many curves
@@ -395,7 +394,7 @@ std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const Resta
         for (std::uint32_t t = 0; t < mesh.triangle_count; ++t)
             mirrored += mesh.tangents[4 * std::size_t{mesh.indices[3 * std::size_t{t}]} + 3] < 0;
         if (mirrored > 0)
-            approximated(std::string("mesh \"") + mesh.text.name + "\"",
+            approximated(std::string("mesh \"") + mesh.name + "\"",
                          "texture coordinates of " + std::to_string(mirrored) + " of its " +
                              std::to_string(mesh.triangle_count) +
                              " triangles are mirrored; pbrt turns a normal map's y over there, as it has no tangents");

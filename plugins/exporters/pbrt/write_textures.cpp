@@ -56,14 +56,14 @@ std::string Exporter::image_file(RestageHandle handle) {
     std::error_code code;
     if (*image.path && fs::exists(image.path, code)) return file = place_file(image.path);
     if (image.pixels) {
-        file = out_.unique_file("textures", plain_name(fs::path(image.text.name).stem().string()), ".pfm");
+        file = out_.unique_file("textures", plain_name(fs::path(image.name).stem().string()), ".pfm");
         out_.write(file, pfm_bytes(image));
         return file;
     }
-    dropped(std::string("image \"") + image.text.name + "\"",
+    dropped(std::string("image \"") + image.name + "\"",
             std::string("its file is not there, it is named as it was: ") + image.path);
     Params as_written; // what the importer kept of a file it did not find
-    for (const std::string& line : lines(image.text.verbatim))
+    for (const std::string& line : lines(image.origin->verbatim))
         as_written.add_raw(line);
     as_written.map_strings([&](const std::string& name) { return file = name; });
     if (file.empty()) file = image.path;
@@ -249,11 +249,15 @@ std::string Exporter::texture(RestageHandle handle) {
     RestageTexture t{};
     if (!in_.texture(in_.ctx, handle, &t)) return "";
     textures_[handle] = ""; // a circle finds nothing
-    const std::string what = std::string("texture \"") + t.text.name + "\"", type = t.type;
+    const std::string what = std::string("texture \"") + t.name + "\"", type = t.type;
     std::string place, rest; // the transform it is defined in means the same to both versions
-    for (const std::string& line : lines(t.text.verbatim))
+    for (const std::string& line : lines(t.origin->verbatim))
         (line.starts_with("Transform [") ? place : rest) += line + "\n";
-    const Kept k = kept({t.text.name, rest.c_str(), t.text.verbatim_format}, what);
+    const Kept k = kept({.value_count = t.origin->value_count,
+                         .format = t.origin->format,
+                         .verbatim = rest.c_str(),
+                         .values = t.origin->values},
+                        what);
     const Values values(t.values, t.value_count);
     const bool is_float = t.is_float != 0;
     Params params;
@@ -274,7 +278,7 @@ std::string Exporter::texture(RestageHandle handle) {
         put_argument(params, values, "tex2", "tex2", is_float, 0);
         put_mapping(params, values, what);
     } else if (!put_procedural(params, t, values, what, written) && k.lines.empty() &&
-               std::string_view(t.text.verbatim_format) != format()) {
+               std::string_view(t.origin->format) != format()) {
         written = "constant"; // of the other version: its average is the best there is
         approximated(what + " (" + type + ")", std::string(format()) + " has no such texture; its average is written");
         put_argument(params, values, "average", "value", is_float, 0.5f);
@@ -282,7 +286,7 @@ std::string Exporter::texture(RestageHandle handle) {
     for (const std::string& line : k.lines)
         params.add_raw(line);
     comment(k.foreign);
-    const std::string name = unique_name("texture", t.text.name);
+    const std::string name = unique_name("texture", t.name);
     const char* block = v3() ? "Transform" : "Attribute"; // v3 scopes names to attribute blocks
     if (!place.empty()) text_ += std::string(block) + "Begin\n" + place;
     const bool only_scalar = !v3() && !is_float && (written == "fbm" || written == "wrinkled" || written == "windy");

@@ -8,14 +8,14 @@ std::string Exporter::medium(RestageHandle handle) {
     if (const auto it = media_.find(handle); it != media_.end()) return it->second;
     RestageMedium m{};
     if (!in_.medium(in_.ctx, handle, &m)) return "";
-    const std::string what = std::string("medium \"") + m.text.name + "\"";
-    const Kept k = kept(m.text, what);
+    const std::string what = std::string("medium \"") + m.name + "\"";
+    const Kept k = kept(*m.origin, what);
     if (const std::string name = extern_name("medium", k); !name.empty()) return media_[handle] = name;
     Params params;
     for (const std::string& line : k.whole) // a kind that is not rendered
         params.add_raw(line);
     if (!k.whole.empty()) {
-        const std::string name = media_[handle] = unique_name("medium", m.text.name);
+        const std::string name = media_[handle] = unique_name("medium", m.name);
         text_ += "MakeNamedMedium " + quote(name) + " " + finished(params, what) + "\n";
         return name;
     }
@@ -30,7 +30,7 @@ std::string Exporter::medium(RestageHandle handle) {
             params.add_raw(line);
     }
     comment(k.foreign);
-    const std::string name = media_[handle] = unique_name("medium", m.text.name);
+    const std::string name = media_[handle] = unique_name("medium", m.name);
     text_ += "MakeNamedMedium " + quote(name) + " " + params.text() + "\n";
     return name;
 }
@@ -38,8 +38,8 @@ std::string Exporter::medium(RestageHandle handle) {
 void Exporter::environment() {
     RestageEnvironment e{};
     if (!in_.environment(in_.ctx, &e)) return;
-    const std::string what = std::string("environment \"") + e.text.name + "\"";
-    const Kept k = kept(e.text, what);
+    const std::string what = std::string("environment \"") + e.name + "\"";
+    const Kept k = kept(*e.origin, what);
     if (e.hidden_from_camera)
         approximated(what, "pbrt has no sky that shines but is not seen by the camera: there it is seen");
     std::array<float, 3> scale{e.scale[0], e.scale[1], e.scale[2]};
@@ -76,7 +76,7 @@ void Exporter::environment() {
     for (const std::string& line : k.lines)
         params.add_raw(line);
     text_ += "\nAttributeBegin\n";
-    mark("    ", "name", {e.text.name});
+    mark("    ", "name", {e.name});
     comment(k.foreign, "    ");
     transform(e.light_to_world, "    ");
     text_ += "    LightSource \"infinite\" " + finished(params, what) + "\nAttributeEnd\n";
@@ -90,13 +90,11 @@ void Exporter::lights() {
 void Exporter::light(RestageHandle handle) {
     RestageLight light{};
     if (!in_.light(in_.ctx, handle, &light)) return;
-    const std::string what = std::string("light \"") + light.text.name + "\"";
-    std::string type, rest;
+    const std::string what = std::string("light \"") + light.name + "\"";
+    std::string type;
     Params params;
     const bool has_picture = picture_light(light, what, type, params);
-    for (const std::string& line : lines(light.text.verbatim))
-        if (!line.starts_with("=whole ")) rest += line + "\n";
-    const Kept k = kept({light.text.name, rest.c_str(), light.text.verbatim_format}, what);
+    const Kept k = kept(*light.origin, what);
     if (!has_picture) {
         const std::array<float, 3> value{light.value[0], light.value[1], light.value[2]};
         const char* point_type = v3() ? "point" : "point3";
@@ -132,7 +130,7 @@ void Exporter::light(RestageHandle handle) {
     text_ += "\n";
     const std::size_t start = text_.size();
     text_ += "AttributeBegin\n";
-    mark("    ", "name", {light.text.name});
+    mark("    ", "name", {light.name});
     comment(k.foreign, "    ");
     transform(light.light_to_world, "    ");
     text_ += "    LightSource " + quote(type) + " " + finished(params, what) + "\nAttributeEnd\n";

@@ -26,7 +26,7 @@ struct MeshBuffer {
         return box;
     }
     RestageHandle push(const RestageSceneWriter1& out, const std::string& name, const std::string& source_file) const {
-        const RestageMesh mesh = {.text = {name.c_str(), "", ""},
+        const RestageMesh mesh = {.name = name.c_str(),
                                   .vertex_count = vertex_count(),
                                   .triangle_count = triangle_count(),
                                   .positions = positions.data(),

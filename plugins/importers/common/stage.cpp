@@ -74,7 +74,7 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
     const double filled = std::max(half_x / tan_x, half_y / tan_y); // the rest is margin
     half_x = filled > 0 ? std::max(half_x / filled, 0.01 * tan_x) : tan_x;
     half_y = filled > 0 ? std::max(half_y / filled, 0.01 * tan_y) : tan_y;
-    RestageCamera camera{.text = {"camera", "", ""},
+    RestageCamera camera{.name = "camera",
                          .camera_to_world = {},
                          .fov = static_cast<float>(2 * std::atan(std::min(half_x, half_y)) * 180 / std::numbers::pi),
                          .screen_window = {},
@@ -115,7 +115,7 @@ void add_studio(const RestageSceneWriter1& out, Report& report, Up up) {
     std::vector<float> rgb;
     for (const float value : pixels)
         rgb.insert(rgb.end(), 3, value);
-    const RestageImage image = {.text = {"studio", "", ""},
+    const RestageImage image = {.name = "studio",
                                 .path = "",
                                 .encoding = RESTAGE_LINEAR,
                                 .gamma = 1,
@@ -123,7 +123,7 @@ void add_studio(const RestageSceneWriter1& out, Report& report, Up up) {
                                 .height = height,
                                 .channels = 3,
                                 .pixels = rgb.data()};
-    RestageEnvironment environment{.text = {"studio", "", ""},
+    RestageEnvironment environment{.name = "studio",
                                    .image = out.image(out.ctx, &image),
                                    .mapping = RESTAGE_EQUIRECT,
                                    .scale = {1, 1, 1},

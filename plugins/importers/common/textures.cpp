@@ -6,7 +6,7 @@
 namespace restage::importing {
 
 RestageHandle add_image_file(const RestageSceneWriter1& out, const std::string& path, RestageEncoding encoding) {
-    const RestageImage image = {.text = {"", "", ""},
+    const RestageImage image = {.name = "",
                                 .path = path.c_str(),
                                 .encoding = static_cast<std::uint32_t>(encoding),
                                 .gamma = 2.2f,
@@ -26,7 +26,7 @@ RestageHandle add_pixels(const RestageSceneWriter1& out, const std::string& name
     for (std::size_t i = 0; i < count; ++i)
         for (unsigned c = 0; c < channels; ++c)
             pixels.push_back(static_cast<float>(value(i, c)));
-    const RestageImage image = {.text = {name.c_str(), "", ""},
+    const RestageImage image = {.name = name.c_str(),
                                 .path = "",
                                 .encoding = RESTAGE_LINEAR,
                                 .gamma = 1,
@@ -50,7 +50,7 @@ RestageHandle add_imagemap(const RestageSceneWriter1& out, const std::string& na
     if (std::string_view(mapping.wrap) != "repeat") values.choice("wrap", mapping.wrap);
     if (factor != 1) values.number("scale", factor);
     if (invert) values.boolean("invert", true);
-    const RestageTexture texture = {.text = {name.c_str(), "", ""},
+    const RestageTexture texture = {.name = name.c_str(),
                                     .type = "imagemap",
                                     .is_float = is_float,
                                     .image = image,
@@ -66,7 +66,7 @@ RestageHandle add_product(const RestageSceneWriter1& out, const std::string& nam
     Values values;
     values.texture("tex", type, a);
     values.texture("scale", type, b);
-    const RestageTexture product = {.text = {name.c_str(), "", ""},
+    const RestageTexture product = {.name = name.c_str(),
                                     .type = "scale",
                                     .is_float = is_float,
                                     .image = 0,
@@ -81,7 +81,7 @@ RestageHandle add_scaled(const RestageSceneWriter1& out, const std::string& name
     Values values;
     values.texture("tex", RESTAGE_COLOR, texture);
     values.color("scale", factor);
-    const RestageTexture scaled = {.text = {name.c_str(), "", ""},
+    const RestageTexture scaled = {.name = name.c_str(),
                                    .type = "scale",
                                    .is_float = is_float,
                                    .image = 0,

@@ -38,7 +38,7 @@ void Importer::camera(int index) {
     const Matrix placed = turned_forward(directions(world_[static_cast<std::size_t>(index)]));
     double aspect = 16.0 / 9, yfov = 45 / degrees;
     RestageCamera camera{};
-    camera.text = {name.c_str(), "", ""};
+    camera.name = name.c_str();
     const double away = std::max(dot(bounds_.center() - placed.column(3), placed.column(2)), 1e-3);
     if (in.type == "orthographic") {
         const auto& o = in.orthographic;
@@ -73,7 +73,7 @@ void Importer::camera(int index) {
 void Importer::light(int index, int light_index) {
     const auto& in = at(model_.lights, light_index, "light", "node " + std::to_string(index));
     const std::string name = !in.name.empty() ? in.name : node_name(index), what = "light " + quote(name);
-    RestageLight light{.text = {name.c_str(), "", ""},
+    RestageLight light{.name = name.c_str(),
                        .kind = RESTAGE_LIGHT_POINT,
                        .value = {},
                        .light_to_world = {},

@@ -16,7 +16,7 @@ void Importer::volume(const tinygltf::Value& v, const std::string& name, MadeMat
     const double distance = number_of(v, "attenuationDistance", 0);
     const Rgb color = color_of(v, "attenuationColor", {1, 1, 1});
     if (distance <= 0 || color == Rgb{1, 1, 1}) return;
-    RestageMedium medium{.text = {name.c_str(), "", ""}, .sigma_a = {}, .sigma_s = {}, .g = 0};
+    RestageMedium medium{.name = name.c_str(), .sigma_a = {}, .sigma_s = {}, .g = 0};
     for (std::size_t i = 0; i < 3; ++i) // transmittance after `distance` is the colour (Beer and Lambert)
         medium.sigma_a[i] = static_cast<float>(-std::log(std::clamp(color[i], 1e-4, 1.0)) / distance);
     made.interior = out_.medium(out_.ctx, &medium);
@@ -52,7 +52,7 @@ void Importer::iridescence(const tinygltf::Value& v, MadeMaterial& made, Values&
     mix.number("tex2", most);
     mix.texture("amount", RESTAGE_FLOAT, amount);
     const std::string film = made.name + " film";
-    const RestageTexture between = {.text = {film.c_str(), "", ""},
+    const RestageTexture between = {.name = film.c_str(),
                                     .type = "mix",
                                     .is_float = 1,
                                     .image = 0,

@@ -241,7 +241,7 @@ MadeMaterial Importer::make_material(int index, const VertexColor& color) {
         extensions(m, base, made, values);
     }
     const RestageMaterialDesc desc = {
-        .text = {m.name.c_str(), "", ""}, .type = type, .values = values.data(), .value_count = values.size()};
+        .name = m.name.c_str(), .type = type, .values = values.data(), .value_count = values.size()};
     made.material = out_.material(out_.ctx, &desc);
     return made;
 }

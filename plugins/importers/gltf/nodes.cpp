@@ -151,7 +151,7 @@ void Importer::mesh_node(int index, RestageHandle group, const std::string& name
     const bool hidden = hidden_[static_cast<std::size_t>(index)] != 0;
     const auto places = placements(index);
     if (pieces.size() * places.size() > 1) {
-        const RestageGroup g = {.text = {name.c_str(), "", ""}, .parent = group};
+        const RestageGroup g = {.name = name.c_str(), .parent = group};
         group = out_.group(out_.ctx, &g);
     }
     for (Matrix place : places) {
@@ -166,7 +166,7 @@ void Importer::mesh_node(int index, RestageHandle group, const std::string& name
             if (!piece.mesh || !piece.material || !piece.material->material) continue; // the host has said why
             const MadeMaterial& m = *piece.material;
             RestageInstance instance{};
-            instance.text = {name.c_str(), "", ""};
+            instance.name = name.c_str();
             instance.mesh = piece.mesh;
             instance.material = m.material;
             instance.group = group;
@@ -200,7 +200,7 @@ void Importer::node(int index, RestageHandle group) {
     const auto visible =
         std::count_if(node.children.begin(), node.children.end(), [&](int c) { return shows_something(c); });
     if (visible > 0 && (visible > 1 || node.mesh >= 0 || !node.name.empty())) {
-        const RestageGroup g = {.text = {name.c_str(), "", ""}, .parent = group};
+        const RestageGroup g = {.name = name.c_str(), .parent = group};
         group = out_.group(out_.ctx, &g);
     }
     if (node.mesh >= 0) mesh_node(index, group, name);

@@ -107,7 +107,7 @@ class Maker {
         else
             values.color("reflectance", color);
         const RestageMaterialDesc desc = {
-            .text = {name.c_str(), "", ""}, .type = "diffuse", .values = values.data(), .value_count = values.size()};
+            .name = name.c_str(), .type = "diffuse", .values = values.data(), .value_count = values.size()};
         return out_.material(out_.ctx, &desc);
     }
 
@@ -115,7 +115,7 @@ class Maker {
     void object(const MeshBuffer& mesh, const std::string& name, RestageHandle material, const std::string& source) {
         const Matrix to_world = translation(in_.origin);
         RestageInstance instance{};
-        instance.text = {name.c_str(), "", ""};
+        instance.name = name.c_str();
         instance.mesh = mesh.push(out_, name, source);
         instance.material = material;
         instance.alpha = 1;

@@ -116,7 +116,7 @@ const MadeMaterial& Importer::material(int id) {
     Values values;
     values.color("reflectance", {0.5, 0.5, 0.5});
     const RestageMaterialDesc grey = {
-        .text = {"grey", "", ""}, .type = "diffuse", .values = values.data(), .value_count = values.size()};
+        .name = "grey", .type = "diffuse", .values = values.data(), .value_count = values.size()};
     MadeMaterial made;
     made.material = out_.material(out_.ctx, &grey);
     return made_[id] = made;
@@ -243,7 +243,7 @@ MadeMaterial Importer::make_material(const Mtl& m, RestageHandle baked) {
 
     const std::string name = m.name.empty() ? "material" : m.name;
     const RestageMaterialDesc desc = {
-        .text = {name.c_str(), "", ""}, .type = type, .values = values.data(), .value_count = values.size()};
+        .name = name.c_str(), .type = type, .values = values.data(), .value_count = values.size()};
     made.material = out_.material(out_.ctx, &desc);
     return made;
 }

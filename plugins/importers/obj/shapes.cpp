@@ -147,7 +147,7 @@ void Importer::object(const MeshBuffer& buffer, const MadeMaterial& made, const 
     const RestageHandle handle = buffer.push(out_, what.name, "");
     if (!handle || !made.material) return; // the host has said why
     RestageInstance instance{};
-    instance.text = {what.name.c_str(), "", ""};
+    instance.name = what.name.c_str();
     instance.mesh = handle;
     instance.material = made.material;
     instance.group = what.group;
@@ -169,7 +169,7 @@ void Importer::shape(const Shape& shape) {
     const std::string name = shape.name.empty() ? path_.stem().string() : shape.name;
     RestageHandle group = 0;
     if (used.size() > 1) {
-        const RestageGroup g = {.text = {name.c_str(), "", ""}, .parent = 0};
+        const RestageGroup g = {.name = name.c_str(), .parent = 0};
         group = out_.group(out_.ctx, &g);
     }
     for (const int id : used) {

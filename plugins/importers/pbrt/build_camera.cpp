@@ -75,7 +75,8 @@ void Builder::camera(const Directive& d) {
         if (d.params.has(name)) (verbatim += to_text(*d.params.find(name))) += '\n';
     verbatim += import_.keep_unused(d.params, what);
     const std::string name = take_name({"camera"});
-    out.text = import_.text(name.c_str(), verbatim.c_str());
+    out.name = name.c_str();
+    out.origin = import_.origin(verbatim);
     import_.out.camera(import_.out.ctx, &out);
 }
 
@@ -225,7 +226,7 @@ void Builder::film_and_settings() {
     }
     for (const Directive* part : {integrator_, sampler_})
         if (part) import_.keep_unused(part->params, part->word, true); // all of it is written back
-    settings.text = import_.text("", kept.c_str());
+    settings.origin = import_.origin(kept);
     import_.out.settings(import_.out.ctx, &settings);
     if (!camera_exterior_.empty() && camera_)
         if (const RestageHandle around = medium_named(camera_exterior_, *camera_))
@@ -237,7 +238,8 @@ void Builder::film_and_settings() {
             camera.camera_to_world[5 * i] = 1;
         camera.fov = 90;
         camera.focal_distance = 1e6f;
-        camera.text = import_.text("camera", "");
+        camera.name = "camera";
+        camera.origin = import_.origin();
         import_.out.camera(import_.out.ctx, &camera);
     }
 }

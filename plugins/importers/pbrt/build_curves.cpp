@@ -76,7 +76,8 @@ void Builder::flush_curves() {
         if (const std::size_t n = group.batch.coincident())
             note += "; " + std::to_string(n) + " that lie exactly on others are not traced";
         import_.approximated(group.at, "Shape \"curve\"", note);
-        const RestageMesh out{.text = import_.text(group.mesh_name.c_str(), ""),
+        const RestageMesh out{.name = group.mesh_name.c_str(),
+                              .origin = import_.origin(),
                               .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                               .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
                               .positions = mesh.positions.data(),

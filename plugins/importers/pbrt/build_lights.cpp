@@ -119,7 +119,8 @@ void Builder::light(const Directive& d) {
         verbatim += exact_light(d, "value", is_distant ? "L" : "I", out.value, scale);
     }
     const std::string name = take_name({std::string(next_.label), state_.label, d.name + " light"});
-    out.text = import_.text(name.c_str(), verbatim.c_str());
+    out.name = name.c_str();
+    out.origin = import_.origin(verbatim);
     if (d.ours) out.flags |= RESTAGE_LIGHT_HIDDEN; // pbrt does not see it
     import_.out.light(import_.out.ctx, &out);
 }
@@ -203,7 +204,8 @@ void Builder::displace_environment(const std::string& why) {
 
 void Builder::flush_environment() {
     if (!environment_.set) return;
-    environment_.value.text = import_.text(environment_.name.c_str(), environment_.verbatim.c_str());
+    environment_.value.name = environment_.name.c_str();
+    environment_.value.origin = import_.origin(environment_.verbatim);
     import_.out.environment(import_.out.ctx, &environment_.value);
 }
 

@@ -13,8 +13,11 @@ RestageHandle Builder::default_material(const Directive&) {
     Values values; // pbrt-v3: matte; v4: diffuse; both 0.5
     values.color("reflectance", {0.5, 0.5, 0.5});
     values.number("sigma", 0);
-    const RestageMaterialDesc desc{
-        .text = import_.text("default", ""), .type = "diffuse", .values = values.data(), .value_count = values.size()};
+    const RestageMaterialDesc desc{.name = "default",
+                                   .origin = import_.origin(),
+                                   .type = "diffuse",
+                                   .values = values.data(),
+                                   .value_count = values.size()};
     default_material_ = import_.out.material(import_.out.ctx, &desc);
     return default_material_;
 }
@@ -53,7 +56,8 @@ void Builder::put_common(Values& values, const Directive& d) {
                          "where it turns a normal away from the viewer it is bent back until it faces them; "
                          "pbrt's surface is black there");
     if (const RestageHandle pixels = image(d, file, RESTAGE_LINEAR, 1, true)) {
-        const RestageTexture texture{.text = import_.text("", ""), .type = "imagemap", .is_float = 0, .image = pixels};
+        const RestageTexture texture{
+            .name = "", .origin = import_.origin(), .type = "imagemap", .is_float = 0, .image = pixels};
         if (const RestageHandle handle = import_.out.texture(import_.out.ctx, &texture))
             values.texture("normalmap", RESTAGE_TEXTURE, handle);
     }
@@ -205,7 +209,8 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     exact_.clear();
     std::string label = name.empty() ? wanted_label : name;
     if (label.empty()) label = type.empty() ? "interface" : type;
-    const RestageMaterialDesc desc{.text = import_.text(label.c_str(), verbatim.c_str()),
+    const RestageMaterialDesc desc{.name = label.c_str(),
+                                   .origin = import_.origin(verbatim),
                                    .type = plugin.c_str(),
                                    .values = values.data(),
                                    .value_count = values.size()};
@@ -302,7 +307,8 @@ RestageHandle Builder::named_material(const Directive& directive, const std::str
     values.color("reflectance", {0.5, 0.5, 0.5});
     values.number("sigma", 0);
     const std::string verbatim = "=* extern " + quote(name) + "\n";
-    const RestageMaterialDesc desc{.text = import_.text(name.c_str(), verbatim.c_str()),
+    const RestageMaterialDesc desc{.name = name.c_str(),
+                                   .origin = import_.origin(verbatim),
                                    .type = "diffuse",
                                    .values = values.data(),
                                    .value_count = values.size()};

@@ -24,7 +24,7 @@ void Builder::medium(const Directive& d) {
         std::string whole;
         for (const Param& param : d.params.params)
             whole += "=* " + to_text(param) + "\n";
-        const RestageMedium clear{.text = import_.text(d.name.c_str(), whole.c_str())};
+        const RestageMedium clear{.name = d.name.c_str(), .origin = import_.origin(whole)};
         media_[d.name] = import_.out.medium(import_.out.ctx, &clear);
         import_.dropped(d.at, what + " (" + type + ")",
                         "only homogeneous media are rendered; it is clear, and written back as it is");
@@ -64,7 +64,8 @@ void Builder::medium(const Directive& d) {
     for (const char* name : {"preset", "Le", "Lescale"})
         if (d.params.has(name)) (verbatim += to_text(*d.params.find(name))) += '\n';
     verbatim += import_.keep_unused(d.params, what);
-    out.text = import_.text(d.name.c_str(), verbatim.c_str());
+    out.name = d.name.c_str();
+    out.origin = import_.origin(verbatim);
     media_[d.name] = import_.out.medium(import_.out.ctx, &out);
 }
 
@@ -82,7 +83,7 @@ RestageHandle Builder::medium_named(const std::string& name, const Directive& di
                  "no medium has that name; vacuum stands for it");
     if (!files_are_missing_) return 0;
     const std::string verbatim = "=* extern " + quote(name) + "\n"; // a missing file may define it
-    const RestageMedium clear{.text = import_.text(name.c_str(), verbatim.c_str())};
+    const RestageMedium clear{.name = name.c_str(), .origin = import_.origin(verbatim)};
     return media_[name] = import_.out.medium(import_.out.ctx, &clear);
 }
 

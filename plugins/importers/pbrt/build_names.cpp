@@ -99,7 +99,7 @@ RestageHandle Builder::group_at(const std::vector<std::string>& path) {
         (key += name) += '\n';
         RestageHandle& known = groups_[key];
         if (known == 0) {
-            const RestageGroup made{.text = import_.text(name.c_str(), ""), .parent = group};
+            const RestageGroup made{.name = name.c_str(), .origin = import_.origin(), .parent = group};
             known = import_.out.group(import_.out.ctx, &made);
         }
         group = known;

@@ -49,7 +49,8 @@ RestageHandle Builder::missing_mesh(const std::string& name, const std::string& 
     const float positions[9] = {};
     const std::uint32_t indices[3] = {0, 1, 2};
     const std::string primitive = "missing " + line;
-    const RestageMesh out{.text = import_.text(name.c_str(), ""),
+    const RestageMesh out{.name = name.c_str(),
+                          .origin = import_.origin(),
                           .vertex_count = 3,
                           .triangle_count = 1,
                           .positions = positions,
@@ -100,7 +101,8 @@ RestageHandle Builder::ply_mesh(const Directive& d, const std::string& name, con
                              std::to_string(repaired) + " normals without a direction are replaced by the faces'");
     RestageHandle& handle = mesh_cache_[path];
     if (handle == 0) {
-        const RestageMesh out{.text = import_.text(name.c_str(), ""),
+        const RestageMesh out{.name = name.c_str(),
+                              .origin = import_.origin(),
                               .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                               .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
                               .positions = mesh.positions.data(),
@@ -173,7 +175,8 @@ RestageHandle Builder::mesh(const Directive& d, const std::string& name, const M
     const std::string primitive = is_triangles ? "" : line(false);
     for (const Param& param : d.params.params) // what does not count goes with the instance
         if (is_own(param) && (!param.used || param.misfit)) odd_parameters_[key][param.name] = param.misfit;
-    const RestageMesh out{.text = import_.text(name.c_str(), ""),
+    const RestageMesh out{.name = name.c_str(),
+                          .origin = import_.origin(),
                           .vertex_count = static_cast<std::uint32_t>(mesh.vertex_count()),
                           .triangle_count = static_cast<std::uint32_t>(mesh.triangle_count()),
                           .positions = mesh.positions.data(),
@@ -273,14 +276,14 @@ RestageInstance Builder::instance_of(const Directive& d, const Matrix& to_world)
 }
 
 void Builder::place(RestageInstance instance, const std::string& name, const std::string& verbatim) {
-    instance.text = import_.text(name.c_str(), verbatim.c_str());
+    instance.name = name.c_str();
+    instance.origin = import_.origin(verbatim);
     if (open_object_.empty()) {
         import_.out.instance(import_.out.ctx, &instance);
         return;
     }
     Object& object = objects_[open_object_];
-    instance.text.name = object.names.emplace_back(name).c_str();
-    instance.text.verbatim = object.names.emplace_back(verbatim).c_str();
+    instance.name = object.names.emplace_back(name).c_str(); // its origin lives as long as the import
     object.instances.push_back(instance);
     object.named_by_itself = own_name_;
 }
@@ -290,7 +293,7 @@ void Builder::end_object() {
     flush_curves();
     Object& object = objects_[open_object_];
     if (object.instances.size() == 1 && !object.named_by_itself && !is_generic_name(open_object_))
-        object.instances[0].text.name = object.names.emplace_back(open_object_).c_str();
+        object.instances[0].name = object.names.emplace_back(open_object_).c_str();
     open_object_.clear();
 }
 
@@ -395,15 +398,15 @@ void Builder::object_instance(const Directive& d) {
     const std::string name = take_name({std::string(next_.label), d.name, state_.label, "object"});
     RestageHandle handle = state_.group;
     if (!alone) {
-        const RestageGroup group{.text = import_.text(name.c_str(), ""), .parent = state_.group};
+        const RestageGroup group{.name = name.c_str(), .origin = import_.origin(), .parent = state_.group};
         handle = import_.out.group(import_.out.ctx, &group);
     }
     for (std::size_t i = 0; i < members.size(); ++i) {
         RestageInstance instance = members[i];
         if (alone)
-            instance.text.name = name.c_str();
+            instance.name = name.c_str();
         else if (names.size() == members.size())
-            instance.text.name = names[i].c_str();
+            instance.name = names[i].c_str();
         Matrix own;
         std::memcpy(own.m.data(), instance.object_to_world, sizeof instance.object_to_world);
         const Matrix to_world = placed * own;

@@ -126,7 +126,8 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
     RestageHandle& handle = images_[path + '\n' + std::to_string(encoding) + '\n' + std::to_string(gamma)];
     if (handle) return handle;
     const std::string name = std::filesystem::path(path).stem().string();
-    RestageImage image{.text = import_.text(name.c_str(), as_written.c_str()),
+    RestageImage image{.name = name.c_str(),
+                       .origin = import_.origin(as_written),
                        .path = path.c_str(),
                        .encoding = static_cast<std::uint32_t>(encoding),
                        .gamma = gamma};
@@ -335,7 +336,8 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         kept += " ]\n";
     }
     kept += import_.keep_unused(d.params, what);
-    out.text = import_.text(d.name.c_str(), kept.c_str());
+    out.name = d.name.c_str();
+    out.origin = import_.origin(kept);
     out.values = values.data();
     out.value_count = values.size();
     const RestageHandle made = import_.out.texture(import_.out.ctx, &out);
@@ -355,7 +357,8 @@ RestageHandle Builder::scaled_texture(RestageHandle texture, double scale, bool 
     Values values;
     values.texture("tex", RESTAGE_COLOR, texture);
     values.color("scale", {scale, scale, scale});
-    RestageTexture out{.text = import_.text("", ""),
+    RestageTexture out{.name = "",
+                       .origin = import_.origin(),
                        .type = "scale",
                        .is_float = is_float ? 1u : 0u,
                        .values = values.data(),

@@ -59,6 +59,30 @@ void Import::flush_report() {
     folded_.clear();
 }
 
+const RestageOrigin* Import::origin(const std::string& lines) {
+    const auto [it, is_new] = origins_.try_emplace(lines);
+    OriginLines& made = it->second;
+    if (!is_new) return &made.given;
+    for (std::string_view rest = lines; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (!line.starts_with('=')) {
+            made.verbatim.append(line).append("\n");
+            continue;
+        }
+        const std::size_t space = std::min(line.find(' '), line.size());
+        const char* id = made.strings.emplace_back(line.substr(1, space - 1)).c_str();
+        const char* text = made.strings.emplace_back(line.substr(std::min(space + 1, line.size()))).c_str();
+        made.values.push_back({.id = id, .text = text});
+    }
+    made.given = {.value_count = static_cast<std::uint32_t>(made.values.size()),
+                 .format = format(),
+                 .verbatim = made.verbatim.c_str(),
+                 .values = made.values.data()};
+    return &made.given;
+}
+
 std::string Import::keep_unused(const ParamList& params, const std::string& what, bool quiet) {
     std::string verbatim;
     params.each_unused([&](const Param& param) {

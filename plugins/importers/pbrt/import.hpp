@@ -78,14 +78,23 @@ class Import {
     // The spectrum of a parameter of type "spectrum"; nullopt if it is of another type, absent or unreadable.
     std::optional<Spectrum> spectrum(const ParamList& params, std::string_view name);
 
-    // Pointers, not strings: what they point to must outlive the call to the host.
-    RestageText text(const char* name, const char* verbatim) const { return {name, verbatim, format()}; }
+    // Of this format. `lines`: kept verbatim, but for "=id text", what the value `id` was before it was reduced, and
+    // "=* text", a line of what the whole thing was. Lives as long as this.
+    const RestageOrigin* origin(const std::string& lines = "");
 
   private:
     std::optional<Spectrum> spectrum(const Param& param);
     void mend_pairs(Location at, const std::string& what, std::vector<double>& numbers);
     std::optional<Spectrum> read_spectrum(const std::string& name, Location at);
     Rgb limited(Rgb color, const Param& param, Role role);
+
+    struct OriginLines {
+        std::string verbatim;
+        std::deque<std::string> strings;
+        std::vector<RestageOriginValue> values;
+        RestageOrigin given;
+    };
+    std::map<std::string, OriginLines> origins_; // by the lines they were made of
 
     struct Line {
         RestageFate fate;
