@@ -50,8 +50,8 @@ class Describer {
         const Mesh* m = scene_.meshes.find(id);
         if (text.empty() && m && m->data) {
             const MeshData& d = *m->data;
-            const std::uint64_t hash =
-                hash_of(d.positions, hash_of(d.normals, hash_of(d.uvs, hash_of(d.triangles, 1))));
+            std::uint64_t hash = hash_of(d.positions, hash_of(d.normals, hash_of(d.uvs, hash_of(d.triangles, 1))));
+            hash = hash_of(d.tangents, hash_of(d.uvs2, hash));
             text = "mesh of " + std::to_string(d.triangles.size()) + " triangles, hash " + std::to_string(hash);
         }
         return text.empty() ? "no mesh" : text;
@@ -156,7 +156,7 @@ class Describer {
             case model::ParamType::texture:
                 return "none";
             default:
-                return shown(v.v[0]);
+                return v.is_whole() ? std::to_string(v.i) : shown(v.v[0]);
         }
     }
     static std::string list(const std::map<std::string, std::string>& params) {
