@@ -109,16 +109,16 @@ TEST_CASE("world positions are the scene's wherever the camera was at first, and
 
     Wall two("object");
     const auto more = two.instance(two.scene.instances[two.wall].mesh, two.scene.instances[two.wall].material,
-                                   glm::translate(glm::dmat4(1), {0.5, 0, 0.5}));
+                                   glm::translate(glm::dmat4(1), {2.2, 0, 0.5})); // before the left half
     const auto before = dots.image(two.scene, tracer);
-    const glm::vec3 near_one = at(before, 80, 32), far_one = at(before, 3, 32);
+    const glm::vec3 near_one = at(before, 3, 32), far_one = at(before, 80, 32);
     CHECK(near_one.x != far_one.x);
     auto moved = two.scene.instances[more];
-    moved.object_to_world = glm::translate(glm::dmat4(1), {0.4, 0.1, 0.6});
+    moved.object_to_world = glm::translate(glm::dmat4(1), {2.1, 0.1, 0.6});
     two.scene.instances.set(more, moved, ++two.scene.clock);
     const auto after = dots.image(two.scene, tracer);
-    CHECK(at(after, 80, 32) == near_one);
-    CHECK(at(after, 3, 32) == far_one);
+    CHECK(at(after, 3, 32) == near_one);
+    CHECK(at(after, 80, 32) == far_one);
 }
 
 TEST_CASE("both tracers show the same procedural", "[site]") {
