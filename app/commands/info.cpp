@@ -41,14 +41,11 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     });
     nlohmann::json lights = {
         {"area", emitters},
-        {"point", 0},
-        {"spot", 0},
-        {"distant", 0},
         {"environment", s.environment.value ? (s.environment.value->image ? "image" : "constant") : "none"}};
+    for (const scene::LightKindRow& row : scene::light_kinds)
+        lights[row.id] = 0;
     s.lights.each([&](auto, const scene::Light& l) {
-        auto& n = lights[l.kind == scene::LightKind::point  ? "point"
-                         : l.kind == scene::LightKind::spot ? "spot"
-                                                            : "distant"];
+        auto& n = lights[scene::light_row(l.kind).id];
         n = n.get<int>() + 1;
     });
     nlohmann::json cameras = nlohmann::json::array();
@@ -104,9 +101,10 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
                     name.get<std::string>().c_str());
     std::printf("textures    %zu, images %zu, media %zu\n", n("textures"), n("images"), n("media"));
     const auto& l = d["lights"];
-    std::printf("lights      %d area, %d point, %d spot, %d distant, environment: %s\n", l["area"].get<int>(),
-                l["point"].get<int>(), l["spot"].get<int>(), l["distant"].get<int>(),
-                l["environment"].get<std::string>().c_str());
+    std::printf("lights      %d area", l["area"].get<int>());
+    for (const scene::LightKindRow& row : scene::light_kinds)
+        std::printf(", %d %s", l[row.id].get<int>(), row.id);
+    std::printf(", environment: %s\n", l["environment"].get<std::string>().c_str());
     if (!d["lit"].get<bool>()) std::printf("            %s; `restage render --studio` lights it\n", document::no_light);
     line.clear();
     for (std::size_t i = 0; i < d["camera_list"].size();

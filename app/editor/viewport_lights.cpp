@@ -56,7 +56,7 @@ scene::Id<scene::Light> Viewport::light_at(const PanelContext& e, ImVec2 screen)
     scene::Id<scene::Light> found;
     const float r = 9 * ImGui::GetStyle().FontScaleMain;
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
-        if (light.kind == scene::LightKind::distant) return;
+        if (!scene::light_row(light.kind).placed) return;
         if (const auto c = on_screen(e, *this, glm::dvec3(light.light_to_world[3]));
             c && std::hypot(c->x - screen.x, c->y - screen.y) < r)
             found = id;
@@ -69,7 +69,7 @@ void Viewport::draw_lights(PanelContext& e) {
     const float r = 6 * ImGui::GetStyle().FontScaleMain;
     draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
-        if (light.kind == scene::LightKind::distant) return;
+        if (!scene::light_row(light.kind).placed) return;
         const auto c = on_screen(e, *this, glm::dvec3(light.light_to_world[3]));
         if (!c) return;
         const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::accent
@@ -83,9 +83,9 @@ void Viewport::draw_lights(PanelContext& e) {
         }
     });
     const scene::Light* chosen = e.scene().lights.find(e.selection.light());
-    const bool spot = chosen && chosen->kind == scene::LightKind::spot;
-    if (spot) draw_cone(e, e.selection.light());
-    if (!spot) cone_held_ = false;
+    const bool cone = chosen && scene::light_row(chosen->kind).cone;
+    if (cone) draw_cone(e, e.selection.light());
+    if (!cone) cone_held_ = false;
     draw->PopClipRect();
 }
 

@@ -161,7 +161,8 @@ Result<Edit> light_edit(const Scene& scene, Id<Light> id, const Assignment& a) {
     if (a.field == "value") {
         RESTAGE_TRY(light.value, color(a));
     } else {
-        if (light.kind != scene::LightKind::spot) return fail(a.who + ": only a spot light has a cone");
+        if (!scene::light_row(light.kind).cone)
+            return fail(a.who + ": a " + scene::light_row(light.kind).id + " light has no cone");
         RESTAGE_TRY((a.field == "cone_angle" ? light.cone_angle : light.cone_delta), number(a));
     }
     return set_light(scene, id, std::move(light));

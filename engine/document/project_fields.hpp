@@ -168,8 +168,13 @@ struct Names<scene::Encoding> {
 };
 template <>
 struct Names<scene::LightKind> {
-    static constexpr const char* list[] = {"point", "spot", "distant"};
-    static constexpr int first = static_cast<int>(scene::LightKind::point);
+    static constexpr auto list = [] {
+        std::array<const char*, std::size(scene::light_kinds)> ids{};
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            ids[i] = scene::light_kinds[i].id;
+        return ids;
+    }();
+    static constexpr int first = 0;
 };
 template <>
 struct Names<scene::Falloff> {

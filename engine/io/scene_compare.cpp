@@ -235,11 +235,10 @@ class Comparison {
             std::vector<std::string> all;
             s.lights.each([&](auto, const Light& l) {
                 const glm::dvec3 at(l.light_to_world[3]), along = glm::normalize(glm::dvec3(l.light_to_world[2]));
-                std::string text = "light " + std::to_string(int(l.kind)) + " of " + shown(l.value);
-                if (l.kind != scene::LightKind::distant) text += " at " + shown(glm::vec3(at));
-                if (l.kind != scene::LightKind::point)
-                    text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
-                if (l.kind == scene::LightKind::spot)
+                std::string text = scene::light_row(l.kind).id + std::string(" light of ") + shown(l.value);
+                if (scene::light_row(l.kind).placed) text += " at " + shown(glm::vec3(at));
+                if (scene::light_row(l.kind).aimed) text += " along " + shown(glm::vec3(glm::round(along * 1e6) / 1e6));
+                if (scene::light_row(l.kind).cone)
                     text += " cone " + shown(l.cone_angle) + " " + shown(l.cone_delta) +
                             (l.falloff == scene::Falloff::quartic ? " quartic" : "");
                 if (l.hidden) text += "; hidden";

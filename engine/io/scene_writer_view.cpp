@@ -12,7 +12,7 @@ RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* given) {
         const RestageLight in = plugin::sized(*given);
         const glm::dmat4 to_world = matrix(in.light_to_world);
         const std::string who = "light \"" + text(in.name) + "\"";
-        if (in.kind < RESTAGE_LIGHT_POINT || in.kind > RESTAGE_LIGHT_DISTANT) {
+        if (in.kind - RESTAGE_LIGHT_POINT >= std::size(scene::light_kinds)) {
             w.refuse(who, "a light of unknown kind");
             return 0;
         }

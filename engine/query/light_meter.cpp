@@ -2,6 +2,7 @@
 #include "query/light_meter.hpp"
 
 #include "scene/projection.hpp"
+#include "shared/lamps.h"
 
 #if RESTAGE_EMBREE_MAJOR == 3
 #include <embree3/rtcore.h>
@@ -197,21 +198,13 @@ class Meter {
         double sum = 0;
         scene_.lights.each([&](scene::Id<scene::Light>, const scene::Light& l) {
             if (l.hidden) return;
-            const dvec3 axis = glm::normalize(dvec3(l.light_to_world[2]));
-            dvec3 d = l.kind == scene::LightKind::distant ? -axis : dvec3(l.light_to_world[3]) - origin_ - at.position;
-            const double distance = glm::length(d);
-            if (!(distance > 0)) return;
-            d /= distance;
-            double value = luminance(dvec3(l.value)) * glm::dot(d, at.normal);
-            if (l.kind != scene::LightKind::distant) value /= distance * distance;
-            if (l.kind == scene::LightKind::spot) { // pbrt 4ed, 12.2.1
-                const double total = std::cos(glm::radians(double(l.cone_angle))),
-                             start = std::cos(glm::radians(double(l.cone_angle - l.cone_delta)));
-                const double x = std::clamp((glm::dot(-d, axis) - total) / std::max(start - total, 1e-9), 0.0, 1.0);
-                value *= x * x * (3 - 2 * x);
-            }
-            const double far = l.kind == scene::LightKind::distant ? std::numeric_limits<double>::infinity() : distance;
-            if (value > 0 && sees(at.position, d, far)) sum += value;
+            const scene::Cone cone = scene::cone_of(l);
+            const shared::LampRay ray = shared::lamp_ray(
+                std::uint32_t(l.kind), dvec3(l.light_to_world[3]) - origin_, glm::normalize(dvec3(l.light_to_world[2])),
+                {cone.edge, cone.start, cone.falloff == scene::Falloff::quartic ? 1 : 0}, at.position);
+            const dvec3 d(ray.wi);
+            const double value = luminance(dvec3(l.value)) * double(ray.amount) * glm::dot(d, at.normal);
+            if (value > 0 && sees(at.position, d, double(ray.dist))) sum += value;
         });
         return sum;
     }

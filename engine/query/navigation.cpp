@@ -2,13 +2,13 @@
 #include "query/navigation.hpp"
 
 #include "scene/projection.hpp"
+#include "shared/octahedral.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
-#include <utility>
 
 namespace restage::query {
 
@@ -97,26 +97,6 @@ void frame(scene::Camera& camera, const scene::Bounds& bounds, double aspect) {
     camera.camera_to_world[3] = glm::dvec4(bounds.center() - axis(camera, 2) * distance, 1);
 }
 
-namespace {
-
-// Clarberg 2008; pbrt 4ed, 3.8.3; as shaders/lib/octahedral.glsl.
-glm::dvec3 octahedral_direction(glm::dvec2 p) {
-    const glm::dvec2 uv = 2.0 * p - 1.0;
-    const double d = 1 - (std::abs(uv.x) + std::abs(uv.y)), r = 1 - std::abs(d);
-    const double phi = (r == 0 ? 1 : (std::abs(uv.y) - std::abs(uv.x)) / r + 1) * (pi / 4);
-    const double s = r * std::sqrt(std::max(0.0, 2 - r * r));
-    return {std::copysign(std::cos(phi) * s, uv.x), std::copysign(std::sin(phi) * s, uv.y),
-            std::copysign(1 - r * r, d)};
-}
-glm::dvec2 octahedral_point(const glm::dvec3& w) {
-    const double r = std::sqrt(std::max(0.0, 1 - std::abs(w.z)));
-    double v = std::atan2(std::abs(w.y), std::abs(w.x)) * (2 / pi) * r, u = r - v;
-    if (w.z < 0) u = std::exchange(v, 1 - u), u = 1 - u;
-    return 0.5 * (glm::dvec2(std::copysign(u, w.x), std::copysign(v, w.y)) + 1.0);
-}
-
-} // namespace
-
 ViewRay view_ray(const scene::Camera& camera, glm::dvec2 film, double aspect) {
     const glm::dvec4 window = film_window(camera, aspect);
     glm::dvec3 from(0), local(glm::mix(window.x, window.y, film.x), glm::mix(window.w, window.z, film.y), 1);
@@ -127,7 +107,7 @@ ViewRay view_ray(const scene::Camera& camera, glm::dvec2 film, double aspect) {
         const double theta = film.y * pi, phi = film.x * 2 * pi;
         local = {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
     } else if (camera.projection == scene::Projection::spherical_equal_area) {
-        const glm::dvec3 w = octahedral_direction(film);
+        const glm::dvec3 w = shared::octahedral_to_direction(film);
         local = {w.x, w.z, w.y};
     }
     return {glm::dvec3(camera.camera_to_world * glm::dvec4(from, 1)),
@@ -144,7 +124,7 @@ glm::dvec3 project(const scene::Camera& camera, const glm::dvec3& world, double 
     }
     if (camera.projection == scene::Projection::spherical_equal_area) {
         if (!(away > 0)) return {0.5, 0.5, 0};
-        return {octahedral_point(glm::dvec3(local.x, local.z, local.y) / away), away};
+        return {shared::direction_to_octahedral(glm::dvec3(local.x, local.z, local.y) / away), away};
     }
     const glm::dvec4 window = film_window(camera, aspect);
     const glm::dvec2 p =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/clay.hpp"
 
+#include "shared/octahedral.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,16 +14,6 @@ namespace {
 
 constexpr glm::vec3 ground(0.045f, 0.047f, 0.05f), clay(0.62f, 0.58f, 0.53f), lamp(1.f, 0.93f, 0.78f);
 
-// Clarberg 2008; pbrt 4ed, 3.8.3; as lib/octahedral.glsl
-glm::vec3 octahedral_direction(glm::vec2 film) {
-    const glm::vec2 p = 2.f * film - 1.f, a = glm::abs(p);
-    const float from_edge = 1 - (a.x + a.y), r = 1 - std::abs(from_edge);
-    const float phi = (r == 0 ? 1 : (a.y - a.x) / r + 1) * std::numbers::pi_v<float> / 4;
-    const float side = r * std::sqrt(std::max(0.f, 2 - r * r));
-    return {std::copysign(std::cos(phi), p.x) * side, std::copysign(std::sin(phi), p.y) * side,
-            std::copysign(1 - r * r, from_edge)};
-}
-
 // Through the middle of the lens and of the pixel, as camera_ray() in lib/camera.glsl.
 void aim(const shared::CameraData& camera, std::uint32_t kind, glm::vec2 film, shared::RayHit& ray) {
     glm::vec3 from(0), towards(glm::mix(camera.screen_min, camera.screen_max, film), 1);
@@ -32,7 +24,7 @@ void aim(const shared::CameraData& camera, std::uint32_t kind, glm::vec2 film, s
         const glm::vec2 angle = film * glm::vec2(2, 1) * std::numbers::pi_v<float>;
         towards = {std::sin(angle.y) * std::cos(angle.x), std::cos(angle.y), std::sin(angle.y) * std::sin(angle.x)};
     } else if (kind == CAMERA_EQUAL_AREA) {
-        const glm::vec3 w = octahedral_direction(film);
+        const glm::dvec3 w = shared::octahedral_to_direction(film);
         towards = {w.x, w.z, w.y};
     }
     ray.origin = camera.camera_to_world * glm::vec4(from, 1);

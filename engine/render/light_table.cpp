@@ -160,30 +160,11 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         LightData light{};
         light.value = item.value;
         light.a = glm::dvec3(m[3]) - origin;
-        const glm::dvec3 axis = glm::normalize(glm::dvec3(m[2]));
-        switch (item.kind) {
-            case scene::LightKind::point:
-                light.kind = LIGHT_POINT;
-                power.push_back(4 * pi * luminance(item.value));
-                break;
-            case scene::LightKind::spot: { // pbrt 4ed, 12.2.1
-                light.kind = LIGHT_SPOT;
-                light.b = axis;
-                const double total = std::cos(glm::radians(double(item.cone_angle)));
-                const double start = std::cos(glm::radians(double(item.cone_angle - item.cone_delta)));
-                const bool quartic = item.falloff == scene::Falloff::quartic;
-                light.c = {total, start, quartic ? 1 : 0};
-                // Over the edge the mean of t^2 (3 - 2t) is 1/2, that of t^4 is 1/5.
-                power.push_back(2 * pi * ((1 - start) + (start - total) * (quartic ? 0.2 : 0.5)) *
-                                luminance(item.value));
-                break;
-            }
-            case scene::LightKind::distant:
-                light.kind = LIGHT_DISTANT;
-                light.b = -axis;
-                power.push_back(pi * radius * radius * luminance(item.value));
-                break;
-        }
+        light.b = glm::normalize(glm::dvec3(m[2]));
+        const scene::Cone cone = scene::cone_of(item);
+        light.c = {cone.edge, cone.start, cone.falloff == scene::Falloff::quartic ? 1 : 0};
+        light.kind = LIGHT_LAMP + std::uint32_t(item.kind);
+        power.push_back(scene::light_row(item.kind).power(cone, radius) * luminance(item.value));
         table.lights.push_back(light);
     });
     if (scene.environment.value && luminance(environment_mean) > 0) {

@@ -6,8 +6,10 @@
 #pragma once
 
 #include "scene/id.hpp"
+#include "scene/light_kinds.hpp"
 #include "scene/params.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -132,24 +134,22 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
-enum class LightKind : std::uint8_t { point, spot, distant };
-// How a spot fades over its edge, t = (cos - cos cone) / (cos(cone - delta) - cos cone) in [0,1].
-enum class Falloff : std::uint8_t {
-    smooth, // t^2 (3 - 2t): pbrt-v4
-    quartic // t^4: pbrt-v3
-};
-
 struct Light { // without a surface
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 value{1}; // point, spot: [W/sr]; distant: [W/m^2]
+    glm::vec3 value{1}; // [light_kinds.hpp: unit]
     glm::dmat4 light_to_world{1};
-    float cone_angle = 30, cone_delta = 5; // spot [deg]
+    float cone_angle = 30, cone_delta = 5; // [deg]
     Origin origin;
     Falloff falloff = Falloff::smooth; // of a spot's edge
     bool hidden = false; // switched off
     bool operator==(const Light&) const = default;
 };
+
+inline Cone cone_of(const Light& light) {
+    const auto cosine = [](float degrees) { return std::cos(glm::radians(double(degrees))); };
+    return {cosine(light.cone_angle), cosine(light.cone_angle - light.cone_delta), light.falloff};
+}
 
 enum class Mapping : std::uint8_t {
     equirect, // z up, u = phi/2pi, v = theta/pi, row 0 = +z: pbrt-v3

@@ -183,7 +183,7 @@ std::vector<ValueProblem> value_problems(const Light& light) {
     out.light(called(light), "light", "a value", light.value);
     if (!finite(light.cone_angle, light.cone_delta))
         out.error("light", called(light) + " holds a value that is not a finite number");
-    else if (light.kind == scene::LightKind::spot &&
+    else if (light_row(light.kind).cone &&
              !(light.cone_angle > 0 && light.cone_angle <= 180 && light.cone_delta >= 0 && light.cone_delta <= 180))
         out.warning("cone", fmt::format("{}: a cone of {:g} degrees with an edge of {:g}; more than 0 and 0 or more, "
                                         "up to 180, make sense",

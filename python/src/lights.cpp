@@ -15,10 +15,6 @@ namespace {
 using LightHandle = Handle<Light>;
 using CameraHandle = Handle<Camera>;
 
-const char* kind_of(scene::LightKind kind) {
-    return kind == scene::LightKind::point ? "point" : kind == scene::LightKind::spot ? "spot" : "distant";
-}
-
 // Looks from `from` to `to` along +z with +y near `up`; `mirrored` frames have a negative determinant.
 glm::dmat4 look_at(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& up, bool mirrored) {
     const glm::dvec3 z = to - from;
@@ -78,7 +74,8 @@ void bind_light(nb::module_& m) {
                               "Object with an emission.");
     bind_handle(c, "Light");
     bind_place<Light, &Light::light_to_world>(c, "Move light");
-    c.def_prop_ro("kind", [](const LightHandle& h) { return kind_of(h.get().kind); }, "point, spot or distant.");
+    c.def_prop_ro(
+        "kind", [](const LightHandle& h) { return scene::light_row(h.get().kind).id; }, "point, spot or distant.");
     field<Light>(
         c, "value", "Change light",
         "Linear sRGB; point and spot: intensity [W/sr]; distant: irradiance at normal incidence [W/m^2].",

@@ -104,12 +104,14 @@ Handle<Texture> add_texture(const Shared& w, nb::handle image, const std::option
 
 Handle<Light> add_light(const Shared& w, const std::string& kind, const Three& value, const std::string& name) {
     Light light{.name = name, .value = glm::vec3(vec(value))};
-    if (kind == "spot")
-        light.kind = scene::LightKind::spot;
-    else if (kind == "distant")
-        light.kind = scene::LightKind::distant;
-    else if (kind != "point")
-        throw Failure("there is no kind of light \"" + kind + "\"; there are point, spot and distant");
+    const auto known = scene::light_kind(kind);
+    if (!known) {
+        std::string all;
+        for (const scene::LightKindRow& row : scene::light_kinds)
+            all += (all.empty() ? "" : ", ") + std::string(row.id);
+        throw Failure("there is no kind of light \"" + kind + "\"; there are " + all);
+    }
+    light.kind = *known;
     const Handle<Light> h{w, w->scene().lights.next()};
     w->edit(insert(w->scene(), std::move(light), "Add " + name));
     return h;

@@ -4,7 +4,7 @@
 #ifndef RESTAGE_LIB_CAMERA
 #define RESTAGE_LIB_CAMERA
 #include <restage/v1/bsdf.glsl>
-#include "lib/octahedral.glsl"
+#include "shared/octahedral.h"
 #include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 

@@ -3,13 +3,14 @@
 #ifndef RESTAGE_LIB_LIGHT
 #define RESTAGE_LIB_LIGHT
 #include <restage/v1/bsdf.glsl>
-#include "lib/octahedral.glsl"
+#include "shared/octahedral.h"
 #include "lib/quadric.glsl"
 #include "lib/ray_offset.glsl"
 #include "lib/sampler.glsl"
 #include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
+#include "shared/lamps.h"
 
 struct LightSample {
     vec3 wi;       // unit, towards the light
@@ -60,11 +61,7 @@ uint environment_texel(EnvironmentData env, ivec2 p) {
 }
 // The same for a point of the unit square's plane.
 vec2 environment_wrap(EnvironmentData env, vec2 uv) {
-    if (env.mapping == ENV_OCTAHEDRAL) {
-        if (uv.x < 0.0 || uv.x > 1.0) uv = vec2(uv.x < 0.0 ? -uv.x : 2.0 - uv.x, 1.0 - uv.y);
-        if (uv.y < 0.0 || uv.y > 1.0) uv = vec2(1.0 - uv.x, uv.y < 0.0 ? -uv.y : 2.0 - uv.y);
-        return uv;
-    }
+    if (env.mapping == ENV_OCTAHEDRAL) return octahedral_wrap(uv);
     return vec2(fract(uv.x), uv.y < 0.0 ? -uv.y : uv.y > 1.0 ? 2.0 - uv.y : uv.y);
 }
 // rgb: radiance, without scale. a: density over the unit square.
@@ -156,15 +153,16 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
         s.pdf *= light.pmf;
         return s;
     }
-    if (kind == LIGHT_DISTANT) return LightSample(light.b, 1e30, vec3(0), light.value, light.pmf, true, 0.0);
+    if (kind >= LIGHT_LAMP) {
+        LampRay ray = lamp_ray(kind - LIGHT_LAMP, light.a, light.b, light.c, p);
+        return LightSample(ray.wi, ray.dist, light.a, light.value * ray.amount, ray.dist > 0.0 ? light.pmf : 0.0, true, 0.0);
+    }
     vec3 q = light.a;
     vec2 bary = vec2(0);
     InstanceData lamp;
     QuadricData quadric;
     vec3 n = vec3(0); // of surfaces, the emitting side
-    bool surface = kind == LIGHT_TRIANGLE;
     if (HAS_QUADRICS && kind == LIGHT_QUADRIC) {
-        surface = true;
         lamp = InstanceArray(scene.instances).at[light.instance];
         quadric = quadric_of(lamp);
         vec3 from = to_object(lamp, p);
@@ -174,7 +172,7 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
         n = normalize(lamp.normal_to_world * quadric_normal(quadric, at));
         if ((lamp.flags & INSTANCE_FLIP_NORMAL) != 0u) n = -n;
         q = lamp.object_to_world * vec4(at, 1.0);
-    } else if (kind == LIGHT_TRIANGLE) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
+    } else { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
         float x = to_unit(bits.x), y = to_unit(bits.y);
         if (y > x) {
             x *= 0.5;
@@ -191,35 +189,24 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
     float d2 = dot(d, d);
     if (d2 <= 0.0) return s;
     s.dist = sqrt(d2);
-    s.end = q;
     s.wi = d / s.dist;
-    if (surface) {
-        float c = -dot(n, s.wi);
-        if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
-        if (c <= 0.0) return s;
-        s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
-        s.radiance = light.value;
-        if ((HAS_EMISSION_TEXTURES || HAS_LIGHT_ALPHA) && light.instance != NONE) {
-            InstanceData inst = InstanceArray(scene.instances).at[light.instance];
-            uint prim = index - inst.light_base;
-            s.radiance = emitted(scene, inst, prim, bary);
-            if (HAS_LIGHT_ALPHA && (inst.flags & INSTANCE_HAS_ALPHA) != 0u) {
-                float there = hit_alpha(scene, inst, prim, bary);
-                if ((inst.flags & INSTANCE_EMITS_UNSEEN) != 0u) s.unseen = 1.0 - there;
-                else s.radiance *= there;
-            }
-        }
-        if (HAS_QUADRICS && kind == LIGHT_QUADRIC) s.pdf = light.pmf * quadric_density(lamp, quadric, p, q, c);
-        else s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
-    } else {
-        s.delta = true;
-        s.radiance = light.value / d2;
-        s.pdf = light.pmf;
-        if (kind == LIGHT_SPOT) { // pbrt 4ed, 12.2.1; c.z = 1: pbrt 3ed, 12.3.1
-            float t = clamp((-dot(light.b, s.wi) - light.c.x) / max(light.c.y - light.c.x, 1e-7), 0.0, 1.0);
-            s.radiance *= t * t * (light.c.z > 0.0 ? t * t : 3.0 - 2.0 * t);
+    float c = -dot(n, s.wi);
+    if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
+    if (c <= 0.0) return s;
+    s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
+    s.radiance = light.value;
+    if ((HAS_EMISSION_TEXTURES || HAS_LIGHT_ALPHA) && light.instance != NONE) {
+        InstanceData inst = InstanceArray(scene.instances).at[light.instance];
+        uint prim = index - inst.light_base;
+        s.radiance = emitted(scene, inst, prim, bary);
+        if (HAS_LIGHT_ALPHA && (inst.flags & INSTANCE_HAS_ALPHA) != 0u) {
+            float there = hit_alpha(scene, inst, prim, bary);
+            if ((inst.flags & INSTANCE_EMITS_UNSEEN) != 0u) s.unseen = 1.0 - there;
+            else s.radiance *= there;
         }
     }
+    if (HAS_QUADRICS && kind == LIGHT_QUADRIC) s.pdf = light.pmf * quadric_density(lamp, quadric, p, q, c);
+    else s.pdf = light.pmf * triangle_density(light.area, s.dist, c);
     return s;
 }
 

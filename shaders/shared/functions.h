@@ -9,12 +9,17 @@
 #include <bit>
 #define RESTAGE_INLINE inline
 #define RESTAGE_REAL double // where the CPU can be exact for nothing
+#define RESTAGE_REAL2 glm::dvec2
+#define RESTAGE_REAL3 glm::dvec3
 namespace restage::shared {
 inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
+using glm::abs, glm::atan, glm::clamp, glm::cos, glm::dot, glm::max, glm::min, glm::sin, glm::sqrt;
 } // namespace restage::shared
 #else
 #define RESTAGE_INLINE
 #define RESTAGE_REAL float
+#define RESTAGE_REAL2 vec2
+#define RESTAGE_REAL3 vec3
 #endif
 
 #endif

@@ -34,11 +34,9 @@ RESTAGE_UINT(WRAP_CLAMP, 2u);
 RESTAGE_UINT(TEXEL_HALF4, 0u);
 RESTAGE_UINT(TEXEL_FLOAT4, 1u);
 RESTAGE_UINT(LIGHT_TRIANGLE, 0u); // a = p0, b = p1-p0, c = p2-p0
-RESTAGE_UINT(LIGHT_POINT, 1u); // a = position
-RESTAGE_UINT(LIGHT_SPOT, 2u); // a = position, b = axis, c = (cos total, cos falloff start, 1 = quartic edge)
-RESTAGE_UINT(LIGHT_DISTANT, 3u); // b = direction towards the light
-RESTAGE_UINT(LIGHT_ENVIRONMENT, 4u);
-RESTAGE_UINT(LIGHT_QUADRIC, 5u); // of `instance`; area is that in object space
+RESTAGE_UINT(LIGHT_ENVIRONMENT, 1u);
+RESTAGE_UINT(LIGHT_QUADRIC, 2u); // of `instance`; area is that in object space
+RESTAGE_UINT(LIGHT_LAMP, 16u); // and on, plus LAMP_*: a = position, b = axis, c = cone (shared/lamps.h)
 RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
 RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the side that shines
 RESTAGE_UINT(ENV_CONSTANT, 0u);

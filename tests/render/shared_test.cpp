@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions of shaders/shared that C++ and GLSL both compile: the same inputs give the same answers in both.
 #include "kernel_lab.hpp"
+#include "scene/light_kinds.hpp"
 #include "shared/hash.h"
+#include "shared/lamps.h"
 #include "shared/normal.h"
+#include "shared/octahedral.h"
 
 #include <glm/glm.hpp>
 #include <limits>
@@ -63,5 +66,62 @@ TEST_CASE("the outside of a triangle is the same in C++ and in GLSL", "[shared]"
             std::string("result = points_inward(x, ") + (reversed ? "true" : "false") + ") ? 1u : 0u;", inputs);
         for (std::size_t i = 0; i < inputs.size(); ++i)
             CHECK((got[i] != 0) == shared::points_inward(double(inputs[i]), reversed));
+    }
+}
+
+TEST_CASE("a lamp sends the same to a point in C++ and in GLSL", "[shared]") {
+    struct In {
+        std::uint32_t lamp;
+        glm::vec3 position, axis, cone, p;
+    };
+    std::mt19937 random(11);
+    std::normal_distribution<float> normal(0, 2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const auto point = [&] { return glm::vec3(normal(random), normal(random), normal(random)); };
+    std::vector<In> inputs;
+    for (std::uint32_t i = 0; i < 6000; ++i) {
+        const float edge = 2 * unit(random) - 1, start = edge + (1 - edge) * unit(random);
+        In in{i % std::uint32_t(std::size(scene::light_kinds)), point(), glm::normalize(point()),
+              glm::vec3(edge, start, i % 2), point()};
+        if (i % 97 == 0) in.p = in.position;      // the lamp itself
+        if (i % 89 == 0) in.cone.y = in.cone.x;   // a hard edge
+        inputs.push_back(in);
+    }
+    const auto got = lab().run<glm::vec4, In>(
+        "#include \"shared/lamps.h\"\nstruct In { uint lamp; vec3 position, axis, cone, p; };", "In", "vec4",
+        "LampRay r = lamp_ray(x.lamp, x.position, x.axis, x.cone, x.p); result = vec4(r.wi, r.amount);", inputs);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const In& in = inputs[i];
+        const auto want = shared::lamp_ray(in.lamp, in.position, in.axis, in.cone, in.p);
+        INFO("input " << i << ", lamp " << in.lamp);
+        CHECK(glm::length(glm::vec3(got[i]) - want.wi) <= 1e-6f);
+        // At a hard edge the last bit of the cosine decides between all and nothing.
+        if (in.cone.y == in.cone.x && std::abs(-glm::dot(in.axis, want.wi) - in.cone.x) < 1e-5f) continue;
+        CHECK(std::abs(got[i].w - want.amount) <= 2e-4f * want.amount + 1e-7f);
+    }
+}
+
+TEST_CASE("the octahedral map is the same in C++ and in GLSL, and leads back", "[shared]") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::vector<glm::vec2> inputs{{0, 0}, {1, 1}, {0.5f, 0.5f}, {0.5f, 0}, {0, 0.5f}, {1, 0.25f}, {0.25f, 0.75f}};
+    for (int i = 0; i < 4000; ++i)
+        inputs.emplace_back(unit(random), unit(random));
+    const std::string include = "#include \"shared/octahedral.h\"";
+    const auto out =
+        lab().run<glm::vec3, glm::vec2>(include, "vec2", "vec3", "result = octahedral_to_direction(x);", inputs);
+    const auto back =
+        lab().run<glm::vec2, glm::vec3>(include, "vec3", "vec2", "result = direction_to_octahedral(x);", out);
+    const auto wrapped =
+        lab().run<glm::vec2, glm::vec2>(include, "vec2", "vec2", "result = octahedral_wrap(3.0 * x - 1.0);", inputs);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        INFO("input " << i << ": " << inputs[i].x << " " << inputs[i].y);
+        const glm::dvec3 w = shared::octahedral_to_direction(inputs[i]);
+        CHECK(std::abs(glm::length(w) - 1) < 1e-12);
+        CHECK(glm::length(glm::dvec3(out[i]) - w) < 2e-6);
+        // An edge of the square is folded onto itself: both of its points mean the same direction.
+        CHECK(glm::length(shared::octahedral_to_direction(shared::direction_to_octahedral(w)) - w) < 1e-7);
+        CHECK(glm::length(shared::octahedral_to_direction(glm::dvec2(back[i])) - w) < 1e-3);
+        CHECK(glm::length(glm::dvec2(wrapped[i]) - shared::octahedral_wrap(glm::dvec2(3.f * inputs[i] - 1.f))) < 1e-6);
     }
 }

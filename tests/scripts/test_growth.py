@@ -49,3 +49,14 @@ def test_the_tables_of_a_scene_are_listed_once():
     assert len(tables) == 9
     for table in tables:
         assert naming(rf"&Scene::{table}\b", "engine", "app", "python/src") == {"engine/scene/tables.hpp"}
+
+
+def test_a_kind_of_light_is_named_in_its_row_and_its_formula():
+    kinds = re.findall(r"\{LightKind::(\w+),", (ROOT / "engine/scene/light_kinds.hpp").read_text())
+    assert kinds[0] == "point" and len(kinds) >= 3
+    row = "engine/scene/light_kinds.hpp"
+    for kind in kinds[1:]:  # the first is what a Light is by default
+        assert naming(rf"LightKind::{kind}\b", "engine", "app", "python/src") == {row}
+        assert naming(rf'"{kind}"', "engine", "app", "python/src") == {row}
+        assert naming(rf"LAMP_{kind.upper()}\b", "engine", "shaders", "app") == {"shaders/shared/lamps.h"}
+        assert naming(rf"RESTAGE_LIGHT_{kind.upper()}\b", "engine", "app", "python/src") == {"engine/sdk/restage/scene_io.h"}

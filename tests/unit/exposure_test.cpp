@@ -4,6 +4,8 @@
 
 #include "document/document.hpp"
 #include "gltf_builder.hpp"
+#include "query/light_meter.hpp"
+#include "scene/bounds.hpp"
 
 using namespace restage;
 using namespace restage::tests;
@@ -107,4 +109,37 @@ TEST_CASE("exposure: scenes of other files stay as they are; without light they 
     CHECK(in.scene.environment.value);
     CHECK(document::has_light(in.scene, files.registry));
     CHECK(document::read_light(in.scene, files.registry).lit > 0.9);
+}
+
+TEST_CASE("exposure: the light of a spot is metered with the fading it has", "[exposure]") {
+    // A floor of 6 x 6 from 4 above, wholly within the fading edge of a spot where the camera is: over so wide an edge
+    // t^4 is darker than t^2 (3 - 2t), everywhere.
+    const auto reading = [](scene::Falloff falloff) {
+        scene::Scene s;
+        auto floor = std::make_shared<scene::MeshData>();
+        floor->positions = {{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}};
+        floor->triangles = {{0, 1, 2}, {0, 2, 3}};
+        scene::compute_bounds(*floor);
+        s.meshes.set({1}, scene::Mesh{.name = "floor", .data = floor}, 1);
+        s.instances.set({1}, scene::Instance{.name = "floor", .mesh = {1}}, 1);
+        const glm::dmat4 down{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 4, 0, 1}}; // +z to -y
+        s.lights.set({1},
+                     scene::Light{.kind = scene::LightKind::spot,
+                                  .value = glm::vec3(10),
+                                  .light_to_world = down,
+                                  .cone_angle = 60,
+                                  .cone_delta = 60,
+                                  .falloff = falloff},
+                     1);
+        s.cameras.set({1}, scene::Camera{.name = "camera", .camera_to_world = down, .fov = 50}, 1);
+        s.active_camera.value = {1};
+        return query::read_light(s, {.passes = [](const auto&) { return false; },
+                                     .emission = [](const auto&) { return std::nullopt; },
+                                     .albedo = [](const auto&) { return 0.0; }})
+            .white;
+    };
+    // With c = cos of the angle to the axis, E = 10 c^3 / 16 f(t), t = (c - 1/2) / (1 - 1/2).
+    const double smooth = reading(scene::Falloff::smooth), quartic = reading(scene::Falloff::quartic);
+    CHECK(smooth > 0.1);
+    CHECK(quartic < 0.95 * smooth);
 }

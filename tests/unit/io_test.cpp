@@ -56,8 +56,7 @@ struct Pushed { // a writer and a sound triangle to push
     const RestageSceneWriter1& out = writer.table();
     float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     std::uint32_t indices[3] = {0, 1, 2};
-    RestageMesh mesh{
-        .name = "m", .vertex_count = 3, .triangle_count = 1, .positions = positions, .indices = indices};
+    RestageMesh mesh{.name = "m", .vertex_count = 3, .triangle_count = 1, .positions = positions, .indices = indices};
     RestageMaterialDesc material{.name = "gray", .type = "diffuse"};
 
     RestageInstance instance(RestageHandle m, RestageHandle mat) {

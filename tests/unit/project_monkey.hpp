@@ -114,7 +114,8 @@ class Monkey {
     }
     Origin origin() {
         if (pick(2)) return {};
-        return {name() + "\n", "pbrt-v4", pick(2) ? std::vector<OriginValue>{} : std::vector<OriginValue>{{"*", "more"}, {name(), name()}}};
+        return {name() + "\n", "pbrt-v4",
+                pick(2) ? std::vector<OriginValue>{} : std::vector<OriginValue>{{"*", "more"}, {name(), name()}}};
     }
     template <class T>
     Id<T> any(const Scene& s) {

@@ -154,18 +154,21 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
     if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });
     tip("The light's name");
     e.mark("light.name");
-    static constexpr const char* kinds[] = {"Point", "Spot", "Sun"};
-    int kind = int(light.kind);
     bool changed = false;
-    form_row("Type", "Point: shines all around. Spot: a cone. Sun: parallel rays from far away (a distant light)");
-    if (ImGui::Combo("##kind", &kind, kinds, IM_ARRAYSIZE(kinds))) {
-        light.kind = scene::LightKind(kind);
-        changed = true;
+    form_row("Type", "What shines where");
+    if (ImGui::BeginCombo("##kind", scene::light_row(light.kind).label)) {
+        for (const scene::LightKindRow& row : scene::light_kinds) {
+            if (ImGui::Selectable(row.label, row.kind == light.kind)) {
+                light.kind = row.kind;
+                changed = true;
+            }
+            tip(row.shines);
+        }
+        ImGui::EndCombo();
     }
     e.mark("light.kind");
-    changed |= light_value_rows(e, light.value, "Brightness", light.kind == scene::LightKind::distant ? "W/m²" : "W/sr",
-                                "light");
-    if (light.kind != scene::LightKind::distant) {
+    changed |= light_value_rows(e, light.value, "Brightness", scene::light_row(light.kind).unit, "light");
+    if (scene::light_row(light.kind).placed) {
         glm::dvec3 position(light.light_to_world[3]);
         form_row("Position", "x, y, z in scene units");
         const double size = scene::world_bounds(e.scene()).radius();
@@ -176,7 +179,7 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
         }
         e.mark("light.position");
     }
-    if (light.kind != scene::LightKind::point) {
+    if (scene::light_row(light.kind).aimed) {
         Angles angles = angles_of(light.light_to_world, e.up());
         form_row("Height", "How high above the horizon the light comes from");
         const double lowest = -90, highest = 90;
@@ -189,7 +192,7 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
         if (turn) light.light_to_world = turned(light.light_to_world, angles, e.up());
         changed |= turn;
     }
-    if (light.kind == scene::LightKind::spot) {
+    if (scene::light_row(light.kind).cone) {
         form_row("Cone", "From its middle to its edge: half of the opening");
         changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.cone");

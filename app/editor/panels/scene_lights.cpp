@@ -50,16 +50,14 @@ glm::dmat4 aimed(const glm::dvec3& at, const glm::dvec3& direction) {
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(at, 1)};
 }
 
-void add_light(PanelContext& e, scene::LightKind kind) {
+void add_light(PanelContext& e, const scene::LightKindRow& row) {
     const Place place = place_for_light(e);
     const auto h2 = float(place.height * place.height);
-    scene::Light light{.kind = kind, .light_to_world = aimed(place.above, -e.up())};
+    scene::Light light{.kind = row.kind, .light_to_world = aimed(place.above, -e.up())};
     // As bright as to be seen: 10 W/m2 on what is below.
-    light.name = kind == scene::LightKind::point  ? "Point light"
-                 : kind == scene::LightKind::spot ? "Spot light"
-                                                  : "Sun";
-    light.value = kind == scene::LightKind::distant ? glm::vec3(10) : glm::vec3(10 * h2);
-    if (kind == scene::LightKind::distant) // from behind the camera's shoulder
+    light.name = row.name;
+    light.value = row.placed ? glm::vec3(10 * h2) : glm::vec3(10);
+    if (!row.placed) // from behind the camera's shoulder
         light.light_to_world = aimed(place.above, glm::dvec3(e.camera().camera_to_world[2]) * 0.6 - e.up() +
                                                       glm::dvec3(e.camera().camera_to_world[0]) * 0.5);
     e.change([&e, light = std::move(light)](document::Session& session) mutable {
@@ -121,13 +119,12 @@ void lights_section(PanelContext& e) {
     ImGui::PushID("lights");
     std::size_t shown = 0;
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
-        static constexpr const char* kinds[] = {"Point", "Spot", "Sun"};
         ImGui::PushID(int(id.value));
         if (ImGui::Selectable(light.name.c_str(), e.selection.light() == id, ImGuiSelectableFlags_AllowOverlap))
             e.selection.set_light(id);
         e.mark("lights." + light.name);
         ImGui::SameLine(ImGui::GetContentRegionAvail().x - 60 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextDisabled("%s", kinds[std::size_t(light.kind)]);
+        ImGui::TextDisabled("%s", scene::light_row(light.kind).label);
         ImGui::PopID();
         ++shown;
     });
@@ -149,15 +146,11 @@ void lights_section(PanelContext& e) {
     });
     if (emitters > most) ImGui::TextDisabled("and %zu more objects that shine", emitters - most);
     if (shown == 0) empty_note("There are no lights but the sky.");
-    if (flow_button("+ Point", true)) add_light(e, scene::LightKind::point);
-    tip("Shines all around, above what is in the middle of the picture");
-    e.mark("lights.add_point");
-    if (flow_button("+ Spot")) add_light(e, scene::LightKind::spot);
-    tip("A cone downwards onto what is in the middle of the picture");
-    e.mark("lights.add_spot");
-    if (flow_button("+ Sun")) add_light(e, scene::LightKind::distant);
-    tip("Parallel light from behind the camera");
-    e.mark("lights.add_distant");
+    for (const scene::LightKindRow& row : scene::light_kinds) {
+        if (flow_button((std::string("+ ") + row.label).c_str(), &row == scene::light_kinds)) add_light(e, row);
+        tip(row.added);
+        e.mark(std::string("lights.add_") + row.id);
+    }
     if (flow_button("+ Area")) add_area_light(e);
     tip("A square that shines downwards: soft shadows");
     e.mark("lights.add_area");

@@ -9,11 +9,10 @@
  * Whoever allocates frees; pointers given to a call are valid for that call only, unless said otherwise. No C++ type,
  * exception or allocation crosses the line. Every function says its thread: [main] [worker] [any].
  *
- * Growth. Every struct that crosses the line, but those of a scene (scene_io.h), which follow before the release,
- * begins with its `size`, as whoever filled it was built. It may grow at its end: what a shorter one lacks has the
- * default that its comment gives (0 or NULL where it gives none), what a longer one has beyond is not looked at.
- * Elements of an array lie `size` bytes apart: RESTAGE_AT finds them. A change that this cannot express is a new
- * interface id ("restage.material/2"). */
+ * Growth. Every struct that crosses the line begins with its `size`, as whoever filled it was built. It may grow at its
+ * end: what a shorter one lacks has the default that its comment gives (0 or NULL where it gives none), what a longer
+ * one has beyond is not looked at. Elements of an array lie `size` bytes apart: RESTAGE_AT finds them. A change that
+ * this cannot express is a new interface id ("restage.material/2"). */
 #ifndef RESTAGE_PLUGIN_H
 #define RESTAGE_PLUGIN_H
 

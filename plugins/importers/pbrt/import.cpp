@@ -77,9 +77,9 @@ const RestageOrigin* Import::origin(const std::string& lines) {
         made.values.push_back({.id = id, .text = text});
     }
     made.given = {.value_count = static_cast<std::uint32_t>(made.values.size()),
-                 .format = format(),
-                 .verbatim = made.verbatim.c_str(),
-                 .values = made.values.data()};
+                  .format = format(),
+                  .verbatim = made.verbatim.c_str(),
+                  .values = made.values.data()};
     return &made.given;
 }
 

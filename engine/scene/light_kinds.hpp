@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kinds of lights without a surface, a row each. Project files, validation, comparison, the light meter, the light
+// table, the editor, commands and Python go by the row; what a kind sends where is shaders/shared/lamps.h, for the GPU
+// and the light meter alike.
+#pragma once
+
+#include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+namespace restage::scene {
+
+enum class LightKind : std::uint8_t { point, spot, distant };
+
+// How a spot fades over its edge, t = (cos - cos cone) / (cos(cone - delta) - cos cone) in [0,1].
+enum class Falloff : std::uint8_t {
+    smooth, // t^2 (3 - 2t): pbrt-v4
+    quartic // t^4: pbrt-v3
+};
+
+struct Cone { // in cosines
+    double edge, start; // where a spot ends; where it begins to fade
+    Falloff falloff;
+};
+
+struct LightKindRow {
+    LightKind kind;
+    const char* id;    // in project files, scripts and lists
+    const char* label; // in the editor
+    const char* name;  // of a new one
+    const char* unit;  // of Light::value
+    const char* shines; // what it does
+    const char* added;  // what a new one does, in the editor
+    bool placed; // the place of light_to_world matters
+    bool aimed;  // its +z does
+    bool cone;   // cone_angle, cone_delta and falloff do
+    // [W] of a value of 1, in a scene of that radius: what a light is chosen by.
+    double (*power)(const Cone&, double radius);
+};
+
+// In order of LightKind.
+inline constexpr LightKindRow light_kinds[] = {
+    {LightKind::point, "point", "Point", "Point light", "W/sr", "Shines all around from one point",
+     "Shines all around, above what is in the middle of the picture", true, false, false,
+     [](const Cone&, double) { return 4 * std::numbers::pi; }},
+    {LightKind::spot, "spot", "Spot", "Spot light", "W/sr", "A cone of light from one point",
+     "A cone downwards onto what is in the middle of the picture", true, true, true,
+     [](const Cone& c, double) { // over the edge the mean of t^2 (3 - 2t) is 1/2, that of t^4 is 1/5
+         return 2 * std::numbers::pi *
+                ((1 - c.start) + (c.start - c.edge) * (c.falloff == Falloff::quartic ? 0.2 : 0.5));
+     }},
+    {LightKind::distant, "distant", "Sun", "Sun", "W/m²", "Parallel rays from far away",
+     "Parallel light from behind the camera", false, true, false,
+     [](const Cone&, double radius) { return std::numbers::pi * radius * radius; }},
+};
+static_assert([] {
+    for (std::size_t i = 0; i < std::size(light_kinds); ++i)
+        if (light_kinds[i].kind != static_cast<LightKind>(i)) return false;
+    return true;
+}());
+
+constexpr const LightKindRow& light_row(LightKind kind) { return light_kinds[static_cast<std::size_t>(kind)]; }
+
+constexpr std::optional<LightKind> light_kind(std::string_view id) { // nullopt = there is none of that id
+    for (const LightKindRow& r : light_kinds)
+        if (id == r.id) return r.kind;
+    return std::nullopt;
+}
+
+} // namespace restage::scene
