@@ -116,7 +116,8 @@ void add_check(CLI::App& program, Context& context) {
         ->capture_default_str();
     std::vector<std::string> names;
     for (const auto* steps : {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(),
-                              &check::importer_steps(), &check::exporter_steps()})
+                              &check::importer_steps(), &check::exporter_steps(), &check::action_steps(),
+                              &check::panel_steps()})
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
     command->add_option("--only", o->check.only, "Take this step alone (manifest and load come with it)")

@@ -9,8 +9,10 @@
 #include "layout.hpp"
 #include "opening.hpp"
 #include "panels/panels.hpp"
+#include "panels/plugin_panels.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
+#include "plugin_actions.hpp"
 #include "query/navigation.hpp"
 #include "saving.hpp"
 #include "theme.hpp"
@@ -353,6 +355,7 @@ void Editor::draw_menu() {
         if (shown && id == "file.open") recent_menu(*this);
     }
     if (shown) ImGui::EndMenu();
+    tools_menu(*this);
     const bool panels = ImGui::BeginMenu("Panels");
     mark("menu.panels");
     if (panels) {
@@ -360,6 +363,13 @@ void Editor::draw_menu() {
             ImGui::MenuItem(panel.title, nullptr, &panels_open_[panel.title]);
             ImGui::SetItemTooltip("%s", panel.tooltip);
             mark(std::string("panels.") + panel.title);
+        }
+        const auto catalogue = registry_.catalogue();
+        for (const plugin::PanelEntry& panel : catalogue->panels) {
+            const std::string title = panel_title(*panel.table);
+            ImGui::MenuItem(title.c_str(), nullptr, &panels_open_[title]);
+            tip(("Of " + panel.plugin->name()).c_str());
+            mark("panels." + panel.table->id);
         }
         ImGui::Separator();
         menu_item(*this, "view.reset_layout");
@@ -420,11 +430,24 @@ void Editor::draw_panels() {
         if (visible) panel.draw(*this);
         ImGui::End();
     }
+    const auto catalogue = registry_.catalogue(); // of plugins that may be reloaded meanwhile
+    for (const plugin::PanelEntry& panel : catalogue->panels) {
+        const std::string title = panel_title(*panel.table);
+        bool& open = panels_open_[title];
+        if (!open) continue;
+        ImGui::SetNextWindowSize({340 * scale, 460 * scale}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowPos(main->GetCenter(), ImGuiCond_FirstUseEver, {0.5f, 0.5f});
+        const bool visible = ImGui::Begin(title.c_str(), &open);
+        marks_.tab("tab." + panel.table->id);
+        if (visible) draw_panel(*this, panel);
+        ImGui::End();
+    }
 }
 
 void Editor::reset_layout() {
     reset_layout_ = true;
     view.show_panels = true;
+    panels_open_.clear();
     for (const Panel& panel : all_panels())
         panels_open_[panel.title] = panel.open;
 }

@@ -74,14 +74,14 @@ void keep_sum(const model::Material& table, ParamSet& set) {
     });
 }
 
-ParamSet random_config(const model::Material& table, Engine& e) {
+ParamSet random_values(model::ParamTable table, Engine& e) {
     ParamSet set;
     const auto between = [&](float min, float max) {
         const float x = uniform(e);
         return x < 0.1f ? min : x < 0.2f ? max : uniform(e, min, max);
     };
     const auto number = [&](const model::Param& p) { return between(p.min, p.max); };
-    each_line(table, [&](const model::Param& p) {
+    for (const model::Param& p : table) {
         switch (p.type) {
             case model::ParamType::number:
                 set.set(p.id, Value::number(number(p)));
@@ -104,7 +104,12 @@ ParamSet random_config(const model::Material& table, Engine& e) {
             default:
                 break;
         }
-    });
+    }
+    return set;
+}
+
+ParamSet random_config(const model::Material& table, Engine& e) {
+    ParamSet set = random_values(table.params, e);
     keep_sum(table, set);
     return set;
 }

@@ -37,6 +37,7 @@ std::size_t choices(const model::Param& p);
 // Scales the colours of an ADDITIVE material so that they sum to at most 1.
 void keep_sum(const model::Material& table, scene::ParamSet& set);
 // Every line anywhere in its range; one in five at an end of it.
+scene::ParamSet random_values(model::ParamTable table, Engine& e);
 scene::ParamSet random_config(const model::Material& table, Engine& e);
 // A random set whose lobes are wide: roughness between 0.2 and 0.8, taken as alpha where the material lets us.
 scene::ParamSet wide_config(const model::Material& table, Engine& e);

@@ -174,7 +174,7 @@ std::string markdown(std::span<const PluginReport> reports) {
         out += "---|";
     out += "\n";
     const std::vector<Step>* const other_steps[] = {&plugin_steps(), &importer_steps(), &exporter_steps(),
-                                                    &denoiser_steps()};
+                                                    &denoiser_steps(), &action_steps(), &panel_steps()};
     std::string others, details;
     for (const PluginReport& r : reports) {
         std::vector<std::string> tables;
@@ -213,7 +213,8 @@ std::string markdown(std::span<const PluginReport> reports) {
     }
     out += "\n## Steps\n\n";
     for (const auto* list :
-         {&plugin_steps(), &material_steps(), &importer_steps(), &exporter_steps(), &denoiser_steps()})
+         {&plugin_steps(), &material_steps(), &importer_steps(), &exporter_steps(), &denoiser_steps(), &action_steps(),
+          &panel_steps()})
         for (const Step& s : *list)
             out += fmt::format("- **{}**: {}\n", s.name, s.tests);
     return out + "\n## Figures\n" + details;

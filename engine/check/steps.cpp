@@ -97,9 +97,34 @@ const std::vector<Step>& exporter_steps() {
     return steps;
 }
 
+const std::vector<Step>& action_steps() {
+    static const std::vector<Step> steps = {
+        {"act", "any scene, selection and parameters: twice the same edits, sound, and undo takes all of them back",
+         check_act,
+         "handles of the selection that are taken for granted, meshes without triangles, a failure without error(), or "
+         "random numbers without a seed",
+         "run()"},
+        {"act-stop", "stopped at each call of progress it ends, and nothing has changed", check_act_stop,
+         "an answer of progress() that is ignored", "run()"},
+        {"act-leaks", "a hundred runs leave nothing behind", check_act_leaks, "memory that run() does not free",
+         "run()"},
+    };
+    return steps;
+}
+
+const std::vector<Step>& panel_steps() {
+    static const std::vector<Step> steps = {
+        {"panel", "it draws, whatever the user does, and runs actions of its plugin", check_panel,
+         "an id that the table no longer has, an action of another id, a group that stays open, or a value out of "
+         "range",
+         "draw()"},
+    };
+    return steps;
+}
+
 const Step* find_step(const std::string& name) {
-    for (const auto* list :
-         {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(), &exporter_steps()})
+    for (const auto* list : {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(),
+                             &exporter_steps(), &action_steps(), &panel_steps()})
         for (const Step& step : *list)
             if (name == step.name) return &step;
     return nullptr;

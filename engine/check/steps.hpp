@@ -23,6 +23,11 @@ Result<StepResult> check_denoise_robust(Subject&);
 // steps_inspector.cpp
 Result<StepResult> check_inspector(Subject&);
 Result<StepResult> check_tables(Subject&);
+// steps_action.cpp
+Result<StepResult> check_act(Subject&);
+Result<StepResult> check_act_stop(Subject&);
+Result<StepResult> check_act_leaks(Subject&);
+Result<StepResult> check_panel(Subject&);
 // steps_glsl.cpp
 Result<StepResult> check_glsl(Subject&);
 Result<StepResult> check_names(Subject&);

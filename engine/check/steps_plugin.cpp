@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps that every plugin takes, whatever it provides: manifest, loading with its tables, reloading.
 #include "check/steps.hpp"
+#include "check/workplace.hpp"
 
 #include "base/file.hpp"
 #include "plugin/manifest.hpp"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <sstream>
 
 namespace restage::check {
 
@@ -37,31 +37,10 @@ Result<StepResult> check_load(Subject& s) {
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const plugin::Registry& r = s.registry();
     const double tables =
-        static_cast<double>(r.materials().size() + r.importers().size() + r.exporters().size() + r.denoisers().size());
+        static_cast<double>(r.materials().size() + r.importers().size() + r.exporters().size() + r.denoisers().size() +
+                            r.catalogue()->actions.size() + r.catalogue()->panels.size());
     return StepResult::passed({{"load", ms, "ms"}, {"tables", tables}});
 }
-
-namespace {
-
-struct Resources {
-    std::size_t resident = 0, mappings = 0, files = 0;
-};
-
-Resources resources() { // all 0 where there is no /proc: then nothing is compared
-    Resources r;
-    std::istringstream statm(read_file("/proc/self/statm").value_or(""));
-    statm.imbue(std::locale::classic());
-    std::size_t total = 0, pages = 0;
-    if (statm >> total >> pages) r.resident = pages * 4096;
-    const std::string maps = read_file("/proc/self/maps").value_or("");
-    r.mappings = static_cast<std::size_t>(std::count(maps.begin(), maps.end(), '\n'));
-    std::error_code code;
-    for (fs::directory_iterator it("/proc/self/fd", code), end; !code && it != end; it.increment(code))
-        ++r.files;
-    return r;
-}
-
-} // namespace
 
 Result<StepResult> check_reload(Subject& s) {
     constexpr int warm_up = 20, times = 100;

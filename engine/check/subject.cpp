@@ -208,6 +208,16 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
         subject.exporter = entry.table;
         run_all(exporter_steps(), entry.table->format);
     }
+    const auto catalogue = subject.registry().catalogue();
+    for (const auto& entry : catalogue->actions) {
+        subject.action = entry;
+        run_all(action_steps(), entry.table->id);
+    }
+    for (const auto& entry : catalogue->panels) {
+        subject.panel = entry;
+        run_all(panel_steps(), entry.table->id);
+    }
+    subject.action = {}, subject.panel = {}; // the library may be closed
 }
 
 } // namespace restage::check

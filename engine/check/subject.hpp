@@ -51,6 +51,8 @@ class Subject {
     plugin::ImporterEntry importer_entry; // of it
     const model::Exporter* exporter = nullptr;
     const plugin::Denoiser* denoiser = nullptr;
+    plugin::ActionEntry action;
+    plugin::PanelEntry panel;
     // The material that the following steps are about.
     void choose(const plugin::MaterialEntry& material);
     const model::Material& table() const { return *table_; }
@@ -98,6 +100,8 @@ const std::vector<Step>& material_steps(); // of every material of the plugin
 const std::vector<Step>& denoiser_steps();
 const std::vector<Step>& importer_steps();
 const std::vector<Step>& exporter_steps();
+const std::vector<Step>& action_steps();
+const std::vector<Step>& panel_steps();
 const Step* find_step(const std::string& name); // null: there is none
 
 // All steps in order. `begun` is called before each, `done` after it; `measured` after those of a material whose GLSL

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What steps that run native code of a plugin share: a folder that goes away again, noise, broken versions of a good
-// file, and what of this process somebody left open.
+// file, and what of this process somebody left behind.
 #pragma once
 
+#include "base/result.hpp"
 #include "check/configs.hpp"
+#include "check/step.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +29,21 @@ std::string noise(Engine& e, std::size_t kind, std::string_view head = {});
 std::string broken_version(Engine& e, const std::string& good, std::size_t kind);
 
 std::size_t open_files(); // of this process; 0 where that cannot be known
+// Of this process; 0 where it cannot be known: then nothing is compared.
+struct Resources {
+    std::size_t resident = 0, heap = 0; // bytes; heap: what malloc has given and not got back
+    std::size_t mappings = 0, files = 0, threads = 0;
+};
+Resources resources();
+// Runs `once` 20 times, and 100 times more: nothing may be left behind by those. An error of `once` is a failure.
+Result<StepResult> check_nothing_left(const std::string& what, const std::function<Result<>()>& once);
+
+// Without the flush to the disk that write_file_atomic waits for: for files that are read once.
+Result<> write_scratch(const std::filesystem::path&, std::string_view bytes);
 // Every file below a folder, name and content, in order: whether two are the same.
-std::vector<std::pair<std::string, std::string>> contents_of(const std::filesystem::path& folder);
+using Contents = std::vector<std::pair<std::string, std::string>>;
+Contents contents_of(const std::filesystem::path& folder);
+// "" or the first that differs: "scene.obj:12: v 0 0 1".
+std::string first_difference(const Contents& before, const Contents& after);
 
 } // namespace restage::check

@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "document/project.hpp"
+#include "io/material_tables.hpp"
 #include "scene/bounds.hpp"
 #include "scene/validate.hpp"
 
@@ -99,18 +100,7 @@ Result<bool> Session::set_param(Id<Material> id, std::string_view param, Value v
 }
 
 Result<Edit> Session::param_edit(Id<Material> id, std::string_view param, Value value) const {
-    const Material* material = scene_.materials.find(id);
-    const auto plugin = material ? registry_.find_material(material->type) : std::nullopt;
-    const bool common = param == "bump" || param == "normalmap";
-    if (plugin && !common) {
-        const std::string who = "material \"" + material->name + "\": parameter \"" + std::string(param) + "\"";
-        const model::Param* line = plugin->table->find(param);
-        if (!line) return fail(who + " is not one of a " + material->type);
-        if (value.type == model::ParamType::table && !value.text.empty())
-            value.text = std::filesystem::absolute(value.text).lexically_normal().string();
-        if (const std::string why = misfit(*line, value); !why.empty()) return fail(who + why);
-    }
-    return scene::set_param(scene_, id, param, std::move(value));
+    return io::param_edit(scene_, registry_, id, param, std::move(value));
 }
 
 Result<Id<Material>> Session::add_material(std::string name, std::string type) {

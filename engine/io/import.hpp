@@ -18,6 +18,7 @@ struct ImportOptions {
     std::string format;     // of one importer; "" = ask all of them
     Jobs* jobs = nullptr;   // for decoding images; null = a pool of its own
     bool read_images = true;
+    scene::ParamSet values; // of the importer's option table; what is not set has the table's default
 };
 
 struct ImportedScene {

@@ -2,7 +2,9 @@
 #include "io/material_tables.hpp"
 
 #include "plugin/table_reader.hpp"
+#include "scene/edits.hpp"
 
+#include <filesystem>
 #include <span>
 
 namespace restage::io {
@@ -30,6 +32,22 @@ void report_tables(const scene::Scene& scene, const plugin::Registry& registry, 
             }
         }
     });
+}
+
+Result<scene::Edit> param_edit(const scene::Scene& scene, const plugin::Registry& registry,
+                               scene::Id<scene::Material> id, std::string_view param, scene::Value value) {
+    const scene::Material* material = scene.materials.find(id);
+    const auto plugin = material ? registry.find_material(material->type) : std::nullopt;
+    const bool common = param == "bump" || param == "normalmap";
+    if (plugin && !common) {
+        const std::string who = "material \"" + material->name + "\": parameter \"" + std::string(param) + "\"";
+        const model::Param* line = plugin->table->find(param);
+        if (!line) return fail(who + " is not one of a " + material->type);
+        if (value.type == model::ParamType::table && !value.text.empty())
+            value.text = std::filesystem::absolute(value.text).lexically_normal().string();
+        if (const std::string why = misfit(*line, value); !why.empty()) return fail(who + why);
+    }
+    return scene::set_param(scene, id, param, std::move(value));
 }
 
 } // namespace restage::io

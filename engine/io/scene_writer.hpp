@@ -14,6 +14,7 @@
 #include <restage/scene_io.h>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -39,7 +40,7 @@ class SceneWriter : public Exchange {
     scene::Scene scene;
     bool unexposed = false; // RestageFilm::unexposed
 
-  private:
+  protected:
     struct Calls; // the C functions (scene_writer_calls.hpp)
     template <class T>
     RestageHandle push(T item);
@@ -49,13 +50,18 @@ class SceneWriter : public Exchange {
     std::string unique_name(const char* kind, const std::string& wanted);
     scene::Origin origin(const RestageOrigin*);
     scene::ParamSet params(const RestageValue*, std::uint32_t count, const std::string& who);
-    void read_images(Jobs&);
-    void add_camera();
+    // As the engine has them, without a name that is unique; nullopt: refused.
+    std::optional<scene::Light> read(const RestageLight&);
+    std::optional<scene::Camera> read(const RestageCamera&);
+    void read_images(Jobs&, scene::Version newer_than = 0);
 
     const plugin::Registry& registry_;
+    std::map<std::string, std::set<std::string>> names_; // by kind
+  private:
+    void add_camera();
+
     std::map<std::string, std::unique_ptr<plugin::GivenTable>> tables_; // that the importer was given, by type
     RestageSceneWriter1 table_{};
-    std::map<std::string, std::set<std::string>> names_;    // by kind
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
     std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;
     std::map<void*, std::shared_ptr<const DecodedImage>> decoded_; // given to the importer

@@ -14,15 +14,15 @@ namespace restage::io {
 
 using namespace scene;
 
-void SceneWriter::read_images(Jobs& jobs) {
+void SceneWriter::read_images(Jobs& jobs, Version newer_than) {
     struct Job {
         Id<Image> id;
         Image image;
         std::string problem, warning;
     };
     std::vector<Job> work;
-    scene.images.each([&](Id<Image> id, const Image& image) {
-        if (!image.data && !image.path.empty()) work.push_back({id, image, {}, {}});
+    scene.images.each_changed(newer_than, [&](Id<Image> id, const Image* image) {
+        if (image && !image->data && !image->path.empty()) work.push_back({id, *image, {}, {}});
     });
     jobs.parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {

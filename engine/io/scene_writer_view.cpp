@@ -7,28 +7,35 @@ namespace restage::io {
 
 using namespace scene;
 
+std::optional<Light> SceneWriter::read(const RestageLight& given) {
+    const RestageLight in = plugin::sized(given);
+    const glm::dmat4 to_world = matrix(in.light_to_world);
+    const std::string who = "light \"" + text(in.name) + "\"";
+    if (in.kind - RESTAGE_LIGHT_POINT >= std::size(light_kinds)) {
+        refuse(who, "a light of unknown kind");
+        return std::nullopt;
+    }
+    if (!affine(to_world) || !finite3(in.value) || !finite(in.cone_angle, in.cone_delta)) {
+        refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
+        return std::nullopt;
+    }
+    return Light{.name = text(in.name),
+                 .kind = static_cast<LightKind>(in.kind - RESTAGE_LIGHT_POINT),
+                 .value = vec3(in.value),
+                 .light_to_world = to_world,
+                 .cone_angle = in.cone_angle,
+                 .cone_delta = in.cone_delta,
+                 .origin = origin(in.origin),
+                 .falloff = in.falloff == RESTAGE_FALLOFF_QUARTIC ? Falloff::quartic : Falloff::smooth,
+                 .hidden = (in.flags & RESTAGE_LIGHT_HIDDEN) != 0};
+}
+
 RestageHandle SceneWriter::Calls::light(void* ctx, const RestageLight* given) {
     return guarded(ctx, "light", [&](SceneWriter& w) -> RestageHandle {
-        const RestageLight in = plugin::sized(*given);
-        const glm::dmat4 to_world = matrix(in.light_to_world);
-        const std::string who = "light \"" + text(in.name) + "\"";
-        if (in.kind - RESTAGE_LIGHT_POINT >= std::size(scene::light_kinds)) {
-            w.refuse(who, "a light of unknown kind");
-            return 0;
-        }
-        if (!affine(to_world) || !finite3(in.value) || !finite(in.cone_angle, in.cone_delta)) {
-            w.refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
-            return 0;
-        }
-        return w.push(Light{.name = w.unique_name("light", text(in.name)),
-                            .kind = static_cast<LightKind>(in.kind - RESTAGE_LIGHT_POINT),
-                            .value = vec3(in.value),
-                            .light_to_world = to_world,
-                            .cone_angle = in.cone_angle,
-                            .cone_delta = in.cone_delta,
-                            .origin = w.origin(in.origin),
-                            .falloff = in.falloff == RESTAGE_FALLOFF_QUARTIC ? Falloff::quartic : Falloff::smooth,
-                            .hidden = (in.flags & RESTAGE_LIGHT_HIDDEN) != 0});
+        auto light = w.read(*given);
+        if (!light) return 0;
+        light->name = w.unique_name("light", light->name);
+        return w.push(std::move(*light));
     });
 }
 
@@ -57,33 +64,40 @@ void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* given)
     });
 }
 
+std::optional<Camera> SceneWriter::read(const RestageCamera& given) {
+    const RestageCamera in = plugin::sized(given);
+    const float* sw = in.screen_window;
+    const glm::dmat4 to_world = matrix(in.camera_to_world);
+    if (in.projection > RESTAGE_SPHERICAL_EQUAL_AREA) {
+        refuse("camera \"" + text(in.name) + "\"", "there is no projection " + std::to_string(in.projection));
+        return std::nullopt;
+    }
+    if (!affine(to_world) || !finite(in.fov, sw[0], sw[1], sw[2], sw[3], in.lens_radius, in.focal_distance,
+                                     in.frame_aspect, in.fit_aspect)) {
+        refuse("camera \"" + text(in.name) + "\"",
+               "it holds a value that is not a finite number, or its transform is not affine");
+        return std::nullopt;
+    }
+    Camera camera{.name = text(in.name),
+                  .camera_to_world = to_world,
+                  .fov = in.fov,
+                  .lens_radius = in.lens_radius,
+                  .focal_distance = in.focal_distance,
+                  .frame_aspect = in.frame_aspect,
+                  .origin = origin(in.origin),
+                  .projection = static_cast<Projection>(in.projection),
+                  .fit_aspect = in.fit_aspect};
+    if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
+        camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
+    return camera;
+}
+
 RestageHandle SceneWriter::Calls::camera(void* ctx, const RestageCamera* given) {
     return guarded(ctx, "camera", [&](SceneWriter& w) -> RestageHandle {
-        const RestageCamera in = plugin::sized(*given);
-        const float* sw = in.screen_window;
-        const glm::dmat4 to_world = matrix(in.camera_to_world);
-        if (in.projection > RESTAGE_SPHERICAL_EQUAL_AREA) {
-            w.refuse("camera \"" + text(in.name) + "\"", "there is no projection " + std::to_string(in.projection));
-            return 0;
-        }
-        if (!affine(to_world) || !finite(in.fov, sw[0], sw[1], sw[2], sw[3], in.lens_radius, in.focal_distance,
-                                         in.frame_aspect, in.fit_aspect)) {
-            w.refuse("camera \"" + text(in.name) + "\"",
-                     "it holds a value that is not a finite number, or its transform is not affine");
-            return 0;
-        }
-        Camera camera{.name = w.unique_name("camera", text(in.name)),
-                      .camera_to_world = to_world,
-                      .fov = in.fov,
-                      .lens_radius = in.lens_radius,
-                      .focal_distance = in.focal_distance,
-                      .frame_aspect = in.frame_aspect,
-                      .origin = w.origin(in.origin),
-                      .projection = static_cast<Projection>(in.projection),
-                      .fit_aspect = in.fit_aspect};
-        if (sw[0] != 0 || sw[1] != 0 || sw[2] != 0 || sw[3] != 0)
-            camera.screen_window = glm::vec4(sw[0], sw[1], sw[2], sw[3]);
-        const RestageHandle handle = w.push(std::move(camera));
+        auto camera = w.read(*given);
+        if (!camera) return 0;
+        camera->name = w.unique_name("camera", camera->name);
+        const RestageHandle handle = w.push(std::move(*camera));
         if (!w.scene.active_camera.value) w.scene.active_camera = {{handle}, w.scene.clock};
         return handle;
     });

@@ -13,6 +13,7 @@ struct Importer {
     std::string format; // "pbrt"
     std::string label;  // "pbrt scene (v3, v4)"
     std::vector<std::string> extensions; // without dots
+    std::vector<Param> options;
 };
 
 struct Exporter {

@@ -143,7 +143,7 @@ Result<model::Importer> read_importer1(const RestageImporter1& given) {
         return fail(problem);
     const RestageImporter1 in = sized(given);
     if (!in.probe || !in.load) return fail("importer \"" + text(in.format) + "\" lacks probe or load");
-    return model::Importer{text(in.format), text(in.label), split_words(text(in.extensions))};
+    return model::Importer{text(in.format), text(in.label), split_words(text(in.extensions)), {}};
 }
 
 Result<model::Exporter> read_exporter1(const RestageExporter1& given) {
@@ -155,6 +155,29 @@ Result<model::Exporter> read_exporter1(const RestageExporter1& given) {
     auto options = read_params(in.options, in.option_count);
     if (!options) return fail("exporter \"" + text(in.format) + "\": option table: " + options.error().message);
     return model::Exporter{text(in.format), text(in.label), split_words(text(in.extensions)), std::move(*options)};
+}
+
+Result<model::Action> read_action1(const RestageAction1& given) {
+    if (const auto problem = too_short(given.size, RESTAGE_SIZE_UP_TO(RestageAction1, run), RESTAGE_ACTION1);
+        !problem.empty())
+        return fail(problem);
+    const RestageAction1 in = sized(given);
+    if (!in.run) return fail("action \"" + text(in.id) + "\" lacks run");
+    auto params = read_params(in.params, in.param_count);
+    if (!params) return fail("action \"" + text(in.id) + "\": " + params.error().message);
+    return model::Action{text(in.id), text(in.label), text(in.tooltip), std::move(*params),
+                         (in.flags & RESTAGE_ACTION_NEEDS_SELECTION) != 0};
+}
+
+Result<model::Panel> read_panel1(const RestagePanel1& given) {
+    if (const auto problem = too_short(given.size, RESTAGE_SIZE_UP_TO(RestagePanel1, draw), RESTAGE_PANEL1);
+        !problem.empty())
+        return fail(problem);
+    const RestagePanel1 in = sized(given);
+    if (!in.draw) return fail("panel \"" + text(in.id) + "\" lacks draw");
+    auto params = read_params(in.params, in.param_count);
+    if (!params) return fail("panel \"" + text(in.id) + "\": " + params.error().message);
+    return model::Panel{text(in.id), text(in.label), std::move(*params)};
 }
 
 } // namespace restage::plugin

@@ -6,9 +6,11 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "model/action.hpp"
 #include "model/formats.hpp"
 #include "model/material.hpp"
 
+#include <restage/action.h>
 #include <restage/denoiser.h>
 #include <restage/emission.h>
 #include <restage/inspector.h>
@@ -55,6 +57,8 @@ Result<DeclaredEmission> read_emission1(const RestageEmission1&);
 
 Result<model::Importer> read_importer1(const RestageImporter1&);
 Result<model::Exporter> read_exporter1(const RestageExporter1&);
+Result<model::Action> read_action1(const RestageAction1&);
+Result<model::Panel> read_panel1(const RestagePanel1&);
 
 std::vector<std::string> split_words(std::string_view text); // at '|'
 std::uint32_t abi_type(model::ParamType); // RestageType

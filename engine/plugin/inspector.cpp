@@ -3,7 +3,9 @@
 
 #include "plugin/abi.hpp"
 #include "plugin/adapters.hpp"
+#include "plugin/panel.hpp"
 
+#include <restage/action.h>
 #include <restage/inspector.h>
 #include <algorithm>
 #include <vector>
@@ -61,7 +63,17 @@ constexpr RestageUi1 table{
     .image = [](void* c, const char* label, const float* rgb, std::uint32_t width,
                 std::uint32_t height) { of(c).image(label, rgb, width, height); },
     .get = get,
-    .set = set};
+    .set = set,
+    .run =
+        [](void* c, const char* action) {
+            auto* panel = dynamic_cast<PanelWidgets*>(&of(c));
+            return int(panel && panel->run(action));
+        },
+    .selected =
+        [](void* c) {
+            auto* panel = dynamic_cast<PanelWidgets*>(&of(c));
+            return panel ? panel->selected() : 0u;
+        }};
 
 } // namespace
 
@@ -78,5 +90,9 @@ Result<Inspector> Inspector::read(const RestageInspector1& given) {
 }
 
 void Inspector::draw(Widgets& widgets) const { table_->draw(&table, &widgets); }
+
+void draw_panel(const PanelEntry& panel, PanelWidgets& widgets) {
+    panel.native->draw(&table, static_cast<Widgets*>(&widgets));
+}
 
 } // namespace restage::plugin

@@ -227,6 +227,18 @@ Result<> Loaded::take_formats(const Manifest& manifest, const std::string& who) 
                            if (const auto problem = check_exporter(declared); !problem.empty()) return fail(problem);
                            return ExporterTable{std::move(declared), t};
                        }));
+    RESTAGE_CHECK(take(RESTAGE_ACTION1, static_cast<const RestageAction1*>(nullptr), actions,
+                       [](const RestageAction1* t) -> Result<ActionTable> {
+                           RESTAGE_TRY(auto declared, read_action1(*t));
+                           if (const auto problem = check_action(declared); !problem.empty()) return fail(problem);
+                           return ActionTable{std::move(declared), t};
+                       }));
+    RESTAGE_CHECK(take(RESTAGE_PANEL1, static_cast<const RestagePanel1*>(nullptr), panels,
+                       [](const RestagePanel1* t) -> Result<PanelTable> {
+                           RESTAGE_TRY(auto declared, read_panel1(*t));
+                           if (const auto problem = check_panel(declared); !problem.empty()) return fail(problem);
+                           return PanelTable{std::move(declared), t};
+                       }));
     return take(RESTAGE_DENOISER1, static_cast<const RestageDenoiser1*>(nullptr), denoisers,
                 [](const RestageDenoiser1* t) -> Result<Denoiser> {
                     RESTAGE_TRY(auto declared, Denoiser::read(*t));

@@ -5,6 +5,7 @@
 
 #include "base/log.hpp"
 #include "base/result.hpp"
+#include "model/action.hpp"
 #include "model/formats.hpp"
 #include "plugin/adapters.hpp"
 #include "plugin/denoiser.hpp"
@@ -53,13 +54,23 @@ class Loaded {
     };
     std::deque<ImporterTable> importers;
     std::deque<ExporterTable> exporters;
+    struct ActionTable {
+        model::Action declared;
+        const RestageAction1* native;
+    };
+    struct PanelTable {
+        model::Panel declared;
+        const RestagePanel1* native;
+    };
+    std::deque<ActionTable> actions;
+    std::deque<PanelTable> panels;
 
   private:
     Loaded() = default;
     Result<> open_library(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
     Result<> take_materials(const std::filesystem::path& folder, const Manifest&,
                             std::span<const MaterialAdapter> adapters, Log&);
-    Result<> take_formats(const Manifest&, const std::string& who);
+    Result<> take_formats(const Manifest&, const std::string& who); // and what else has no GLSL
 
     std::optional<Library> library_;
     Host host_{};
@@ -71,6 +82,8 @@ class Loaded {
 inline std::string_view key(const model::Material& t) { return t.type; }
 inline std::string_view key(const model::Importer& t) { return t.format; }
 inline std::string_view key(const model::Exporter& t) { return t.format; }
+inline std::string_view key(const model::Action& t) { return t.id; }
+inline std::string_view key(const model::Panel& t) { return t.id; }
 inline std::string_view key(const Inspector& t) { return t.material_type; }
 inline std::string_view key(const Denoiser& t) { return t.type; }
 

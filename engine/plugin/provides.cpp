@@ -13,6 +13,8 @@ std::vector<std::string> provides(const Registry& registry, const Entry& entry) 
     list(catalogue->materials, "material ", [](const model::Material& m) { return m.type; });
     list(catalogue->importers, "importer ", [](const model::Importer& m) { return m.format; });
     list(catalogue->exporters, "exporter ", [](const model::Exporter& m) { return m.format; });
+    list(catalogue->actions, "action ", [](const model::Action& a) { return a.id; });
+    list(catalogue->panels, "panel ", [](const model::Panel& p) { return p.id; });
     list(catalogue->denoisers, "denoiser ", [](const Denoiser& d) {
         const auto usable = d.available();
         return d.type + (usable ? "" : " (not available: " + usable.error().message + ")");

@@ -208,6 +208,8 @@ Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
         };
         RESTAGE_CHECK(twice(loaded.importers, other->loaded->importers));
         RESTAGE_CHECK(twice(loaded.exporters, other->loaded->exporters));
+        RESTAGE_CHECK(twice(loaded.actions, other->loaded->actions));
+        RESTAGE_CHECK(twice(loaded.panels, other->loaded->panels));
         for (const Denoiser& a : loaded.denoisers)
             for (const Denoiser& b : other->loaded->denoisers)
                 if (a.type == b.type) return taken(a.type, *other);
@@ -237,6 +239,10 @@ void Registry::publish() {
             all->importers.push_back({{&declared, entry, library}, native});
         for (const auto& [declared, native] : plugin->loaded->exporters)
             all->exporters.push_back({{&declared, entry, library}, native});
+        for (const auto& [declared, native] : plugin->loaded->actions)
+            all->actions.push_back({{&declared, entry, library}, native});
+        for (const auto& [declared, native] : plugin->loaded->panels)
+            all->panels.push_back({{&declared, entry, library}, native});
         for (const auto& source : plugin->loaded->materials)
             all->materials.push_back(
                 {&source->material(), entry, entry->blame("while its GLSL was being compiled"), source});
@@ -247,6 +253,7 @@ void Registry::publish() {
         std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return key(*a.table) < key(*b.table); });
     };
     sort(all->materials), sort(all->importers), sort(all->exporters), sort(all->denoisers), sort(all->inspectors);
+    sort(all->actions), sort(all->panels);
     std::shared_ptr<const Catalogue> before = std::move(all);
     {
         std::lock_guard lock(catalogue_mutex_);

@@ -7,7 +7,10 @@
 #include "base/crash_note.hpp"
 #include "base/log.hpp"
 #include "base/result.hpp"
+#include "model/action.hpp"
 #include "model/formats.hpp"
+#include "model/sky.hpp"
+#include "model/texture.hpp"
 #include "plugin/denoiser.hpp"
 #include "plugin/inspector.hpp"
 #include "plugin/manifest.hpp"
@@ -27,10 +30,14 @@
 
 struct RestageImporter1;
 struct RestageExporter1;
+struct RestageSky1;
+struct RestageAction1;
+struct RestagePanel1;
 
 namespace restage::plugin {
 
 struct MaterialAdapter;
+class TextureSource;
 
 enum class State { loaded, refused };
 
@@ -65,6 +72,23 @@ struct ExporterEntry : Provided<model::Exporter> {
     const RestageExporter1* native = nullptr; // for io/, which calls it
 };
 
+struct SkyEntry : Provided<model::Sky> {
+    const RestageSky1* native = nullptr; // for io/, which calls it
+};
+struct ActionEntry : Provided<model::Action> {
+    const RestageAction1* native = nullptr; // for io/, which calls it
+};
+struct PanelEntry : Provided<model::Panel> {
+    const RestagePanel1* native = nullptr; // for io/, which calls it
+};
+
+struct TextureEntry {
+    const model::Texture* table = nullptr; // source's
+    std::shared_ptr<const Entry> plugin;   // as it was when this was listed
+    Blame blame; // for compiling its GLSL
+    std::shared_ptr<const TextureSource> source; // keeps the table alive, also after the plugin was reloaded
+};
+
 struct MaterialEntry {
     const model::Material* table = nullptr;  // source's
     std::shared_ptr<const Entry> plugin;     // as it was when this was listed
@@ -79,6 +103,10 @@ struct Catalogue {
     std::vector<ExporterEntry> exporters;
     std::vector<DenoiserEntry> denoisers;
     std::vector<InspectorEntry> inspectors;
+    std::vector<TextureEntry> textures;
+    std::vector<SkyEntry> skies;
+    std::vector<ActionEntry> actions;
+    std::vector<PanelEntry> panels;
 };
 
 struct SearchPath {

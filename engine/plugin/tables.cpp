@@ -175,6 +175,35 @@ std::string check_exporter(const model::Exporter& t) {
     return "";
 }
 
+namespace {
+
+// Of an action or a panel: nothing of it becomes GLSL, and nobody reads its files.
+std::string check_tool(const std::string& what, const std::string& id, const std::string& label,
+                       model::ParamTable params) {
+    if (!is_type_name(id)) return what + " without a proper id (lower case, digits, _)";
+    const std::string who = what + " " + quote(id);
+    if (label.empty()) return who + " has no label";
+    if (const std::string problem = check_params(params); !problem.empty()) return who + ": " + problem;
+    for (const model::Param& p : params)
+        if (p.texturable || p.type == ParamType::table)
+            return who + ": parameter " + quote(p.id) + ": it may be neither texturable nor a TABLE";
+    return "";
+}
+
+} // namespace
+
+std::string check_action(const model::Action& a) { return check_tool("action", a.id, a.label, a.params); }
+
+std::string check_panel(const model::Panel& p) {
+    const std::string problem = check_tool("panel", p.id, p.label, p.params);
+    if (!problem.empty()) return problem;
+    for (const model::Param& line : p.params)
+        if (line.type == ParamType::material || line.type == ParamType::texture)
+            return "panel " + quote(p.id) + ": parameter " + quote(line.id) +
+                   ": a panel holds no things of a document (MATERIAL, TEXTURE)";
+    return "";
+}
+
 bool has_table(const model::Material& m) {
     return std::any_of(m.params.begin(), m.params.end(),
                        [](const model::Param& p) { return p.type == ParamType::table; });

@@ -3,6 +3,7 @@
 // range, files that are there. Each check returns "" or the sentence that refuses the plugin.
 #pragma once
 
+#include "model/action.hpp"
 #include "model/formats.hpp"
 #include "model/material.hpp"
 
@@ -19,6 +20,8 @@ std::string check_params(model::ParamTable);
 std::string check_material(const model::Material&, const std::filesystem::path& folder); // its emission, too
 std::string check_importer(const model::Importer&);
 std::string check_exporter(const model::Exporter&);
+std::string check_action(const model::Action&);
+std::string check_panel(const model::Panel&);
 bool has_table(const model::Material&); // a parameter that is a table
 
 } // namespace restage::plugin

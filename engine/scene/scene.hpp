@@ -164,6 +164,8 @@ struct Environment {
     glm::dmat4 light_to_world{1};
     bool hidden_from_camera = false; // it shines; a camera ray that leaves the scene sees black
     Origin origin;
+    std::string sky; // the type of a sky plugin that has made the image; "" = nobody's
+    ParamSet sky_params; // its parameters
     bool operator==(const Environment&) const = default;
 };
 

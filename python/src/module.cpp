@@ -29,6 +29,7 @@ NB_MODULE(_core, m) {
         "undo takes back), render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
     bind_session(m, session);
     bind_geometry(session, object);
+    bind_actions(m, session);
     bind_render(m, session);
     bind_bsdf(m);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Session: opening, finding, adding, history, writing. Rendering is in render.cpp.
 #include "collections.hpp"
-#include "pulse.hpp"
 #include "values.hpp"
+#include "work.hpp"
 
 #include "document/project.hpp"
 #include "io/strict.hpp"
@@ -18,26 +18,6 @@ using namespace scene;
 using Shared = std::shared_ptr<Workspace>;
 
 namespace {
-
-// f(io::Progress) without the GIL, with the plugins held; Ctrl-C and the callback (fraction, what) -> bool stop it.
-template <class F>
-auto work(Host& host, const nb::object& callback, F&& f) {
-    float fraction = 0;
-    std::string what;
-    Pulse pulse([&]() -> bool { return callback.is_none() || goes_on(callback(fraction, what)); });
-    auto result = [&] {
-        const nb::gil_scoped_release release;
-        const std::shared_lock plugins(host.in_use());
-        return f([&](float done, std::string_view text) {
-            fraction = done;
-            what = text;
-            return pulse.keep_going();
-        });
-    }();
-    pulse.rethrow();
-    host.flush_log();
-    return take(std::move(result));
-}
 
 Shared open(const std::filesystem::path& path, const std::optional<std::filesystem::path>& base,
             const nb::object& progress, bool strict) {

@@ -145,6 +145,7 @@ void bind_materials(nb::module_&); // materials, textures
 void bind_lights(nb::module_&);    // lights, cameras, the sky
 void bind_session(nb::module_&, nb::class_<Workspace>&);
 void bind_geometry(nb::class_<Workspace>&, nb::class_<Handle<scene::Instance>>&); // meshes, new cameras and groups
+void bind_actions(nb::module_&, nb::class_<Workspace>&);
 void bind_render(nb::module_&, nb::class_<Workspace>&);
 void bind_bsdf(nb::module_&);
 

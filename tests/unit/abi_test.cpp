@@ -5,6 +5,7 @@
 #include "paths.hpp"
 #include "plugin_folder.hpp"
 
+#include <restage/action.h>
 #include <restage/denoiser.h>
 #include <restage/emission.h>
 #include <restage/inspector.h>
@@ -60,13 +61,13 @@ const Frozen layout[] = {
     SIZE(RestageDenoiser1, 40)
         FIELD(RestageDenoiser1, size, 0) FIELD(RestageDenoiser1, type, 8) FIELD(RestageDenoiser1, label, 16)
         FIELD(RestageDenoiser1, available, 24) FIELD(RestageDenoiser1, run, 32)
-    SIZE(RestageUi1, 128)
+    SIZE(RestageUi1, 144)
         FIELD(RestageUi1, size, 0) FIELD(RestageUi1, param, 8) FIELD(RestageUi1, hide, 16)
         FIELD(RestageUi1, slider, 24) FIELD(RestageUi1, color, 32) FIELD(RestageUi1, texture, 40)
         FIELD(RestageUi1, combo, 48) FIELD(RestageUi1, button, 56) FIELD(RestageUi1, text, 64)
         FIELD(RestageUi1, begin_group, 72) FIELD(RestageUi1, end_group, 80) FIELD(RestageUi1, plot, 88)
         FIELD(RestageUi1, curve, 96) FIELD(RestageUi1, image, 104) FIELD(RestageUi1, get, 112)
-        FIELD(RestageUi1, set, 120)
+        FIELD(RestageUi1, set, 120) FIELD(RestageUi1, run, 128) FIELD(RestageUi1, selected, 136)
     SIZE(RestageInspector1, 24)
         FIELD(RestageInspector1, size, 0) FIELD(RestageInspector1, type, 8)
         FIELD(RestageInspector1, draw, 16)
@@ -183,6 +184,33 @@ const Frozen layout[] = {
         FIELD(RestageExporter1, label, 16) FIELD(RestageExporter1, extensions, 24)
         FIELD(RestageExporter1, options, 32) FIELD(RestageExporter1, option_count, 40)
         FIELD(RestageExporter1, save, 48)
+    SIZE(RestageSelection1, 16)
+        FIELD(RestageSelection1, size, 0) FIELD(RestageSelection1, instance_count, 4)
+        FIELD(RestageSelection1, instances, 8)
+    SIZE(RestageEditWriter1, 216)
+        FIELD(RestageEditWriter1, size, 0) FIELD(RestageEditWriter1, ctx, 8)
+        FIELD(RestageEditWriter1, add_mesh, 16) FIELD(RestageEditWriter1, add_image, 24)
+        FIELD(RestageEditWriter1, add_texture, 32) FIELD(RestageEditWriter1, add_material, 40)
+        FIELD(RestageEditWriter1, add_medium, 48) FIELD(RestageEditWriter1, add_group, 56)
+        FIELD(RestageEditWriter1, add_instance, 64) FIELD(RestageEditWriter1, add_light, 72)
+        FIELD(RestageEditWriter1, add_camera, 80) FIELD(RestageEditWriter1, set_transform, 88)
+        FIELD(RestageEditWriter1, set_material, 96) FIELD(RestageEditWriter1, set_group, 104)
+        FIELD(RestageEditWriter1, set_hidden, 112) FIELD(RestageEditWriter1, set_name, 120)
+        FIELD(RestageEditWriter1, set_param, 128) FIELD(RestageEditWriter1, set_light, 136)
+        FIELD(RestageEditWriter1, set_camera, 144) FIELD(RestageEditWriter1, set_active_camera, 152)
+        FIELD(RestageEditWriter1, set_environment, 160) FIELD(RestageEditWriter1, remove, 168)
+        FIELD(RestageEditWriter1, select, 176) FIELD(RestageEditWriter1, report, 184)
+        FIELD(RestageEditWriter1, error, 192) FIELD(RestageEditWriter1, progress, 200)
+        FIELD(RestageEditWriter1, material_table, 208)
+    SIZE(RestageAction1, 56)
+        FIELD(RestageAction1, size, 0) FIELD(RestageAction1, id, 8) FIELD(RestageAction1, label, 16)
+        FIELD(RestageAction1, tooltip, 24) FIELD(RestageAction1, params, 32)
+        FIELD(RestageAction1, param_count, 40) FIELD(RestageAction1, flags, 44)
+        FIELD(RestageAction1, run, 48)
+    SIZE(RestagePanel1, 48)
+        FIELD(RestagePanel1, size, 0) FIELD(RestagePanel1, id, 8) FIELD(RestagePanel1, label, 16)
+        FIELD(RestagePanel1, params, 24) FIELD(RestagePanel1, param_count, 32)
+        FIELD(RestagePanel1, draw, 40)
     // clang-format on
 };
 #undef SIZE
@@ -209,6 +237,8 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
     CHECK(std::string(RESTAGE_DENOISER1) == "restage.denoiser/1");
     CHECK(std::string(RESTAGE_INSPECTOR1) == "restage.inspector/1");
     CHECK(std::string(RESTAGE_TABLE1) == "restage.table/1");
+    CHECK(std::string(RESTAGE_ACTION1) == "restage.action/1");
+    CHECK(std::string(RESTAGE_PANEL1) == "restage.panel/1");
     CHECK(std::string(RESTAGE_EMISSION1) == "restage.emission/1");
     const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR,    RESTAGE_INT,     RESTAGE_BOOL, RESTAGE_ENUM,
                          RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE, RESTAGE_TABLE};
@@ -221,6 +251,7 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
         CHECK(flags[i] == 1u << i);
     CHECK(RESTAGE_PARAM_TEXTURABLE == 1u);
     CHECK(RESTAGE_PARAM_ADVANCED == 2u);
+    CHECK(RESTAGE_ACTION_NEEDS_SELECTION == 1u);
     CHECK(RESTAGE_INSTANCE_TWO_SIDED == 8u);
     CHECK(RESTAGE_INSTANCE_EMITS_BY_MATERIAL == 16u);
     CHECK(RESTAGE_LIGHT_DISTANT == 3);

@@ -293,9 +293,25 @@ void material_section(PanelContext& e, MaterialId id) {
 
     std::set<std::string> shown; // by the plugin itself
     if (const auto* inspector = plugin ? e.registry().find_inspector(material->type) : nullptr)
-        shown = draw_plugin_inspector(*inspector, {e, id, *material, *plugin, [&](const model::Param& line) {
-                                                       param_row(e, id, *material, line);
-                                                   }});
+        shown = draw_plugin_inspector(
+            *inspector, {.editor = e,
+                         .table = plugin->table->params,
+                         .values = material->params,
+                         .mark = "material",
+                         .who = plugin->plugin->name() + ": its inspector",
+                         .blame = plugin->plugin->blame("while it drew its part of the inspector"),
+                         .row = [&](const model::Param& line) { param_row(e, id, *material, line); },
+                         .change =
+                             [&](const model::Param& line, scene::Value v) {
+                                 e.edit([id, param = line.id, v = std::move(v)](
+                                            const scene::Scene& s) { return scene::set_param(s, id, param, v); },
+                                        fmt::format("material.{}.{}", id.value, line.id));
+                             },
+                         .set =
+                             [&](std::string label, auto values) {
+                                 e.edit([id, label = std::move(label), values = std::move(values)](
+                                            const scene::Scene& s) { return scene::set_params(s, id, values, label); });
+                             }});
     bool advanced = false;
     for (const model::Param& line : table_of(plugin)) {
         if (shown.contains(line.id)) continue;

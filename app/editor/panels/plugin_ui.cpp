@@ -3,7 +3,7 @@
 
 #include "panels/state.hpp"
 #include "param_widget.hpp"
-#include "scene/edits.hpp"
+#include "plugin/panel.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -18,9 +18,9 @@ namespace {
 
 const char* or_empty(const char* text) { return text ? text : ""; }
 
-class PanelWidgets final : public plugin::Widgets {
+class HostWidgets final : public plugin::PanelWidgets {
   public:
-    explicit PanelWidgets(const PluginUi& what) : ui(what) {}
+    explicit HostWidgets(const PluginUi& what) : ui(what) {}
 
     const PluginUi& ui;
     std::set<std::string> shown;
@@ -29,7 +29,7 @@ class PanelWidgets final : public plugin::Widgets {
     std::string held; // of the last get()
 
     PanelContext& editor() const { return ui.editor; }
-    const model::Param* line(const char* id) const { return id ? ui.plugin.table->find(id) : nullptr; }
+    const model::Param* line(const char* id) const { return id ? model::find_param(ui.table, id) : nullptr; }
     // Notes that the parameter is shown; null, and a line in the log, when there is none of the kinds.
     const model::Param* claim(const char* id, std::initializer_list<model::ParamType> types) {
         const model::Param* found = line(id);
@@ -37,23 +37,15 @@ class PanelWidgets final : public plugin::Widgets {
             shown.insert(id);
             return found;
         }
-        const std::string what = fmt::format("{}: its inspector shows \"{}\", which is no such parameter",
-                                             ui.plugin.plugin->name(), id ? id : "NULL");
+        const std::string what = fmt::format("{} shows \"{}\", which is no such parameter", ui.who, id ? id : "NULL");
         if (editor().panel_state->said.insert(what).second) editor().log().warning(what);
         return nullptr;
     }
     scene::Value value(const model::Param& p) const {
-        const scene::Value* set = ui.material.params.find(p.id);
+        const scene::Value* set = ui.values.find(p.id);
         return set && set->type == p.type ? *set : scene::default_value(p);
     }
-    void ask(const model::Param& p, scene::Value v) const {
-        editor().edit([id = ui.id, param = std::string(p.id),
-                       v = std::move(v)](const scene::Scene& s) { return scene::set_param(s, id, param, v); },
-                      fmt::format("material.{}.{}", ui.id.value, p.id));
-    }
-    std::string next_mark(const char* what) {
-        return "material.ui." + std::string(what) + "." + std::to_string(widgets++);
-    }
+    std::string next_mark(const char* what) { return ui.mark + ".ui." + what + "." + std::to_string(widgets++); }
     void param(const char* id) override {
         if (const model::Param* p = claim(id, {})) ui.row(*p);
     }
@@ -76,8 +68,8 @@ class PanelWidgets final : public plugin::Widgets {
             changed =
                 ImGui::SliderFloat("##value", v.v.data(), std::max(min, p->min), std::min(max, p->max), "%.4g", flags);
         tip(p->tooltip.c_str());
-        editor().mark(std::string("material.") + id);
-        if (changed) ask(*p, v);
+        editor().mark(ui.mark + "." + id);
+        if (changed) ui.change(*p, v);
         ImGui::PopID();
     }
 
@@ -87,9 +79,9 @@ class PanelWidgets final : public plugin::Widgets {
         scene::Value v = value(*p);
         ImGui::PushID(id);
         form_row(label && *label ? label : p->label.c_str(), p->tooltip.c_str());
-        if (color_field("##value", v.v.data(), p->max > 1)) ask(*p, v);
+        if (color_field("##value", v.v.data(), p->max > 1)) ui.change(*p, v);
         tip(p->tooltip.c_str());
-        editor().mark(std::string("material.") + id);
+        editor().mark(ui.mark + "." + id);
         ImGui::PopID();
     }
 
@@ -210,7 +202,7 @@ class PanelWidgets final : public plugin::Widgets {
         scene::Value v = value(*lines[i]);
         const float before = v.v[0];
         v.v[0] = lines[i]->min + y * (lines[i]->max - lines[i]->min);
-        if (v.v[0] != before) ask(*lines[i], v);
+        if (v.v[0] != before) ui.change(*lines[i], v);
     }
 
     void image(const char* label, const float* rgb, std::uint32_t width, std::uint32_t height) override {
@@ -260,29 +252,39 @@ class PanelWidgets final : public plugin::Widgets {
             if (fits)
                 wanted.emplace_back(in.id, std::move(v));
             else
-                editor().log().warning(fmt::format("{}: its inspector sets \"{}\" to what it cannot be",
-                                                   ui.plugin.plugin->name(), or_empty(in.id)));
+                editor().log().warning(fmt::format("{} sets \"{}\" to what it cannot be", ui.who, or_empty(in.id)));
         }
-        if (wanted.empty()) return;
-        editor().edit([id = ui.id, said = std::string(or_empty(label)), wanted](const scene::Scene& s) {
-            return scene::set_params(s, id, wanted, said);
-        });
+        if (!wanted.empty()) ui.set(or_empty(label), std::move(wanted));
+    }
+
+    bool run(const char* action) override { return ui.run && ui.run(or_empty(action)); }
+    std::uint32_t selected() override {
+        return ui.run ? static_cast<std::uint32_t>(editor().selection.instances().size()) : 0;
     }
 };
 
-} // namespace
-
-std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, const PluginUi& ui) {
-    PanelWidgets widgets(ui);
+template <class F>
+std::set<std::string> show(const PluginUi& ui, F&& draw) {
+    HostWidgets widgets(ui);
     ImGui::PushID("plugin");
     {
-        const CrashNote note(ui.plugin.plugin->blame("while it drew its part of the inspector"));
-        inspector.draw(widgets);
+        const CrashNote note(ui.blame);
+        draw(widgets);
     }
     while (widgets.open_groups > 0) // a plugin that forgot end_group
         widgets.end_group();
     ImGui::PopID();
     return std::move(widgets.shown);
+}
+
+} // namespace
+
+std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, const PluginUi& ui) {
+    return show(ui, [&](HostWidgets& widgets) { inspector.draw(widgets); });
+}
+
+void draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui) {
+    show(ui, [&](HostWidgets& widgets) { plugin::draw_panel(panel, widgets); });
 }
 
 } // namespace restage::editor

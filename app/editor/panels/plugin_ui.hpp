@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's side of restage.inspector/1: a plugin describes its part of the inspector by the widgets of RestageUi1,
-// and what the user changes there is asked of the editor as edits.
+// The host's side of RestageUi1 (restage/inspector.h): a plugin describes its part of the inspector, or its panel, by
+// widgets that name parameters; where their values are is the caller's.
 #pragma once
 
 #include "panel_context.hpp"
 #include "plugin/registry.hpp"
+#include "scene/params.hpp"
 
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace restage::editor {
 
 struct PluginUi {
     PanelContext& editor;
-    scene::Id<scene::Material> id;
-    const scene::Material& material;
-    const plugin::MaterialEntry& plugin;
+    model::ParamTable table;
+    const scene::ParamSet& values;
+    std::string mark; // what widgets are called in tests: "material"
+    std::string who;  // for messages: "org.example.velvet: its inspector"
+    Blame blame;
     std::function<void(const model::Param&)> row; // the host's own row of a parameter
+    std::function<void(const model::Param&, scene::Value)> change; // as the user drags
+    std::function<void(std::string label, std::vector<std::pair<std::string, scene::Value>>)> set; // several at once
+    std::function<bool(const std::string& action)> run = {}; // of a panel: false = not started
 };
 
 // Draws what the plugin has to show. Returns the ids of the parameters it showed.
 std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, const PluginUi& ui);
+void draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui);
 
 } // namespace restage::editor

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -85,6 +86,13 @@ struct ConvergenceState {
     bool against_samples = false;
 };
 
+struct PluginState { // actions and panels of plugins
+    std::map<std::string, scene::ParamSet> asked; // of the dialog of an action, as it was left
+    std::map<std::string, scene::ParamSet> panels, remembered; // of each panel; `remembered` is on the disk
+    bool panels_read = false;
+    std::weak_ptr<const std::string> running; // what the action that runs is called; its job holds it
+};
+
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings that are not to come again with each frame
@@ -98,6 +106,7 @@ struct PanelState {
         convergence.current = {};
         convergence.previous = {};
         history_seen = 0;
+        plugins.asked.clear(); // may refer to things of it
     }
 
     ImageLoads loads;
@@ -108,6 +117,7 @@ struct PanelState {
     ReportState report;
     LogState log;
     ConvergenceState convergence;
+    PluginState plugins;
     AssetsState assets;
     std::size_t history_seen = 0;
     std::string texture_search; // in popups that ask for an image

@@ -50,6 +50,11 @@ typedef struct RestageUi1 {
     /* Sets parameters together, as one step of undo called `label`: what a choice or a button does. Values are held to
      * the table's types and ranges; those that do not fit are left out and logged. */
     void (*set)(void* ctx, const char* label, const RestageValue* values, uint32_t count);
+    /* Runs an action of the same plugin (restage/action.h) in the background: a parameter of the panel goes to the one
+     * of the action that has its id. 1 = it has been started. 0 = it has not: another one runs, or nothing is selected
+     * and it needs that. Of panels: in an inspector both functions return 0. */
+    int (*run)(void* ctx, const char* action);
+    uint32_t (*selected)(void* ctx); /* how many objects are selected */
 } RestageUi1;
 
 typedef struct RestageInspector1 {

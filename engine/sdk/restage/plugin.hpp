@@ -21,7 +21,8 @@ consteval RestageParam line(const char* id, const char* label, RestageType type,
     p.id = id;
     p.label = label;
     p.type = type;
-    p.flags = (text.texturable ? RESTAGE_PARAM_TEXTURABLE : 0u) | (text.advanced ? RESTAGE_PARAM_ADVANCED : 0u);
+    if (text.texturable) p.flags |= RESTAGE_PARAM_TEXTURABLE;
+    if (text.advanced) p.flags |= RESTAGE_PARAM_ADVANCED;
     p.unit = text.unit;
     p.tooltip = text.tooltip;
     return p;
