@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage convert IN OUT: a scene, or a picture, from one format to another.
 #include "commands.hpp"
+#include "import_options.hpp"
 #include "io/exr.hpp"
 #include "io/image_file.hpp"
 #include "io/strict.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 struct Options {
     std::string input, output, format;
-    std::vector<std::string> assignments;
+    std::vector<std::string> assignments, import_options;
     bool strict = false;
     float exposure = 0; // of a picture [stops]
 };
@@ -42,8 +43,8 @@ std::string other_layers(const std::string& path) {
 }
 
 Result<int> convert_picture(Context& context, const Options& o) {
-    if (!o.format.empty() || !o.assignments.empty() || o.strict)
-        return fail("--format, --set and --strict are for scenes, not for pictures");
+    if (!o.format.empty() || !o.assignments.empty() || !o.import_options.empty() || o.strict)
+        return fail("--format, --set, --import-set and --strict are for scenes, not for pictures");
     if (!is_picture(o.output)) return fail(o.output + ": a picture is written as .exr, .png, .jpg, .pfm or .hdr");
     RESTAGE_CHECK(check_picture_path(o.output));
     std::string warning;
@@ -70,7 +71,7 @@ Result<int> run(Context& context, const Options& o) {
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
         RESTAGE_CHECK(io::set_option(*exporter.table, assignment, options.values));
-    RESTAGE_TRY(const auto imported, open_scene(context, o.input));
+    RESTAGE_TRY(const auto imported, open_scene_with(context, o.input, false, o.import_options));
     RESTAGE_TRY(const auto report, o.strict ? io::convert_strictly(imported, o.output, context.registry(), options)
                                             : io::export_scene(imported.scene, o.output, context.registry(), options));
     for (const auto& entry : report.entries)
@@ -103,6 +104,7 @@ void add_convert(CLI::App& program, Context& context) {
                      "meshes=write|reference (may be repeated)")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
+    add_import_options(*command, o->import_options);
     command->add_flag("--strict", o->strict,
                       "Write nothing when the written file would not have all of IN. What is only rendered otherwise "
                       "than it is (a kind of texture, say), and written as it was, is no loss");

@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "document/assign.hpp"
 #include "frames.hpp"
+#include "import_options.hpp"
 #include "progress.hpp"
 #include "rendering.hpp"
 #include "scene/projection.hpp"
@@ -29,6 +30,7 @@ struct Options : RenderOptions {
     std::vector<std::string> outputs;
     std::string format;                   // of a scene on stdin; "" = pbrt
     std::string frames;                   // "1-24"; "" = the one scene
+    std::vector<std::string> import_options; // "up=z"
     std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
     std::uint32_t first_sample = 0;
     std::string resume;                // a picture that goes on
@@ -103,6 +105,8 @@ Result<void> apply_assignments(Context& context, const Options& o, scene::Scene&
 using Metadata = std::map<std::string, std::string>;
 Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as same_render compares it
     std::string changes = fmt::format("{}", fmt::join(o.assignments, "; "));
+    for (const std::string& option : o.import_options)
+        changes += (changes.empty() ? "import " : "; import ") + option;
     if (!o.camera.empty()) changes += " --camera " + o.camera;
     if (o.studio) changes += " --studio";
     return {{"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
@@ -184,7 +188,8 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
         RESTAGE_TRY(auto file, scene_from_stdin(o.format.empty() ? "pbrt" : o.format));
         piped.emplace(std::move(file));
     }
-    RESTAGE_TRY(auto imported, open_scene(context, piped ? piped->path().string() : o.scene, o.strict));
+    RESTAGE_TRY(auto imported,
+                open_scene_with(context, piped ? piped->path().string() : o.scene, o.strict, o.import_options));
     scene::Scene& scene = imported.scene;
     if (!scene.active_camera.value) // importers make one up; a project may have none yet
         return fail(o.scene + ": " + scene::no_camera + "; add one to the scene it began with");
@@ -311,6 +316,7 @@ void add_render(CLI::App& program, Context& context) {
                      "film.exposure=2, sky.rotation=90 ... (may be repeated)")
         ->type_name("NAME.FIELD=VALUE")
         ->allow_extra_args(false);
+    add_import_options(*command, o->import_options);
     auto* resume = command
                        ->add_option("--resume", o->resume,
                                     "Go on where this .exr ended: --spp counts its samples as well, --time does not")

@@ -111,13 +111,14 @@ void Editor::frame(const std::vector<int>* keys) {
     follow_plugins();
     panel_state->loads.poll();
     panel_state->balls.poll();
+    follow_sky(*this);
     follow_convergence(*this);
     run_shortcuts(*this, keys);
     draw_panels();
     files_->jobs.update(*this);
     draw_modals();
-    // A gesture ends when nothing is held any more.
-    if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+    // A gesture ends when nothing is held any more, and the sky of its last step is there.
+    if (!panel_state->skies.wanted() && !ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
         !ImGui::IsMouseDown(ImGuiMouseButton_Right) && !ImGui::IsMouseDown(ImGuiMouseButton_Middle))
         end_gesture_ = true;
     apply_pending();

@@ -219,4 +219,33 @@ std::string describe(const BsdfJob& job, const BsdfAnswer& a) {
     return out.str();
 }
 
+std::vector<scene::Value> ends(const model::Param& line) {
+    std::vector<scene::Value> all;
+    const auto add = [&](float x, int i) {
+        scene::Value value = scene::default_value(line);
+        if (line.type == model::ParamType::number || line.type == model::ParamType::color)
+            std::fill_n(value.v.begin(), line.components(), x);
+        else
+            value.i = i;
+        all.push_back(value);
+    };
+    switch (line.type) {
+        case model::ParamType::number:
+        case model::ParamType::color:
+        case model::ParamType::integer:
+            add(line.min, line.int_min), add(line.max, line.int_max);
+            break;
+        case model::ParamType::boolean:
+            add(0, 0), add(0, 1);
+            break;
+        case model::ParamType::choice:
+            for (const std::string& choice : line.choices)
+                all.push_back(scene::Value::choice(choice));
+            break;
+        default:
+            break;
+    }
+    return all;
+}
+
 } // namespace restage::check

@@ -34,6 +34,9 @@ inline bool is_roughness(const model::Param& p) {
 std::string choice(const model::Param& p, std::size_t i); // the i-th of "a|b|c"
 std::size_t choices(const model::Param& p);
 
+// The two ends of a line, or all of its choices; none where it has no ends (text, references, files).
+std::vector<scene::Value> ends(const model::Param& p);
+
 // Scales the colours of an ADDITIVE material so that they sum to at most 1.
 void keep_sum(const model::Material& table, scene::ParamSet& set);
 // Every line anywhere in its range; one in five at an end of it.

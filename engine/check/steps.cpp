@@ -81,6 +81,8 @@ const std::vector<Step>& importer_steps() {
         {"probe", "noise is answered, not crashed on", check_probe, "reading past the end of the head", "probe()"},
         {"read", "its files twice the same; cut, changed and as noise an answer", check_read,
          "counts, offsets and indices of a file that are believed", "load()"},
+        {"options", "its files are read with each option at its ends, twice the same", check_read_options,
+         "a choice that is not told apart, or a value that is divided by", "load()"},
         {"stop", "it ends when progress says so", check_read_stop, "an answer of progress() that is ignored", "load()"},
     };
     return steps;
@@ -122,9 +124,25 @@ const std::vector<Step>& panel_steps() {
     return steps;
 }
 
+const std::vector<Step>& sky_steps() {
+    static const std::vector<Step> steps = {
+        {"sky", "finite and not negative, twice the same, at any size and with any values", check_sky,
+         "a cosine at or below the horizon that is divided by, a direction that is not of length 1, or rows that are "
+         "counted in another way than width * width",
+         "make()"},
+        {"sky-params", "each parameter does something", check_sky_params, "a value that is looked up by another id",
+         "make()"},
+        {"sky-stop", "it ends when progress says so", check_sky_stop, "an answer of progress() that is ignored",
+         "make()"},
+        {"sky-runs", "a hundred skies leave nothing behind", check_sky_runs, "memory of make() that is not freed",
+         "make()"},
+    };
+    return steps;
+}
+
 const Step* find_step(const std::string& name) {
     for (const auto* list : {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(),
-                             &exporter_steps(), &action_steps(), &panel_steps()})
+                             &exporter_steps(), &action_steps(), &panel_steps(), &sky_steps()})
         for (const Step& step : *list)
             if (name == step.name) return &step;
     return nullptr;

@@ -13,9 +13,15 @@ Result<StepResult> check_reload(Subject&);
 // steps_importer.cpp
 Result<StepResult> check_probe(Subject&);
 Result<StepResult> check_read(Subject&);
+Result<StepResult> check_read_options(Subject&);
 Result<StepResult> check_read_stop(Subject&);
 // steps_exporter.cpp
 Result<StepResult> check_write(Subject&);
+// steps_sky.cpp
+Result<StepResult> check_sky(Subject&);
+Result<StepResult> check_sky_params(Subject&);
+Result<StepResult> check_sky_stop(Subject&);
+Result<StepResult> check_sky_runs(Subject&);
 // steps_denoiser.cpp
 Result<StepResult> check_denoise(Subject&);
 Result<StepResult> check_denoise_sizes(Subject&);

@@ -141,6 +141,41 @@ Result<StepResult> check_read(Subject& s) {
                               : "");
 }
 
+Result<StepResult> check_read_options(Subject& s) {
+    const auto good = samples(s.folder, s.importer->extensions);
+    if (s.importer->options.empty()) return StepResult::skip("it has no options");
+    if (good.empty()) return StepResult::skip("there is no file with its extension in its folder");
+    io::ImportOptions options;
+    options.format = s.importer->format;
+    options.read_images = false;
+    std::size_t loads = 0;
+    std::string idle;
+    for (const model::Param& line : s.importer->options) {
+        bool matters = false;
+        for (const fs::path& file : good) {
+            std::string first;
+            for (const scene::Value& value : ends(line)) {
+                options.values = {};
+                options.values.set(line.id, value);
+                const std::string what = fmt::format("{} with {}", file.filename().string(), describe(options.values));
+                s.doing("load() of its " + what);
+                ++loads;
+                const auto loaded = io::import_scene(file.string(), s.registry(), options);
+                s.alive();
+                if (!loaded) return StepResult::failed("its own " + what + " is not read: " + loaded.error().message);
+                const auto again = io::import_scene(file.string(), s.registry(), options);
+                if (!again || all_of(*loaded) != all_of(*again))
+                    return StepResult::failed("reading " + what + " twice gives two different scenes");
+                if (first.empty()) first = all_of(*loaded);
+                matters = matters || first != all_of(*loaded);
+            }
+        }
+        if (!matters && line.type != model::ParamType::text) idle += (idle.empty() ? "" : ", ") + line.id;
+    }
+    return StepResult::passed({{"options", double(s.importer->options.size())}, {"loads", double(loads)}},
+                              idle.empty() ? "" : "no file of its folder is read otherwise for: " + idle);
+}
+
 Result<StepResult> check_read_stop(Subject& s) {
     const auto good = samples(s.folder, s.importer->extensions);
     if (good.empty()) return StepResult::skip("there is no file with its extension in its folder");

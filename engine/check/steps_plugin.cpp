@@ -38,7 +38,7 @@ Result<StepResult> check_load(Subject& s) {
     const plugin::Registry& r = s.registry();
     const double tables =
         static_cast<double>(r.materials().size() + r.importers().size() + r.exporters().size() + r.denoisers().size() +
-                            r.catalogue()->actions.size() + r.catalogue()->panels.size());
+                            r.catalogue()->actions.size() + r.catalogue()->panels.size() + r.catalogue()->skies.size());
     return StepResult::passed({{"load", ms, "ms"}, {"tables", tables}});
 }
 

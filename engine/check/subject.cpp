@@ -218,6 +218,11 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
         run_all(panel_steps(), entry.table->id);
     }
     subject.action = {}, subject.panel = {}; // the library may be closed
+    for (const auto& entry : catalogue->skies) {
+        subject.sky = entry;
+        run_all(sky_steps(), entry.table->type);
+    }
+    subject.sky = {};
 }
 
 } // namespace restage::check

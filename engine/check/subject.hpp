@@ -53,6 +53,7 @@ class Subject {
     const plugin::Denoiser* denoiser = nullptr;
     plugin::ActionEntry action;
     plugin::PanelEntry panel;
+    plugin::SkyEntry sky;
     // The material that the following steps are about.
     void choose(const plugin::MaterialEntry& material);
     const model::Material& table() const { return *table_; }
@@ -102,6 +103,7 @@ const std::vector<Step>& importer_steps();
 const std::vector<Step>& exporter_steps();
 const std::vector<Step>& action_steps();
 const std::vector<Step>& panel_steps();
+const std::vector<Step>& sky_steps();
 const Step* find_step(const std::string& name); // null: there is none
 
 // All steps in order. `begun` is called before each, `done` after it; `measured` after those of a material whose GLSL

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <fstream>
+#include <locale>
 #include <random>
 #include <sstream>
 #if defined(__GLIBC__)

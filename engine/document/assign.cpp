@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "document/assign.hpp"
 
+#include "document/sky.hpp"
+#include "io/sky.hpp"
 #include "query/navigation.hpp"
 #include "scene/sky.hpp"
 #include "scene/validate.hpp"
@@ -177,8 +179,32 @@ Result<Edit> camera_edit(const Scene& scene, Id<Camera> id, const Assignment& a)
     return set_camera(scene, id, std::move(camera), "Change camera");
 }
 
-Result<Edit> sky_edit(const Scene& scene, const Assignment& a) {
-    if (!scene.environment.value) return fail(a.who + ": the scene has no sky");
+// Its type, or a value of its plugin's table; null: the field is another.
+std::optional<Result<Edit>> plugin_sky_edit(const Session& session, const Assignment& a) {
+    const Scene& scene = session.scene();
+    const Camera* camera = scene.cameras.find(scene.active_camera.value);
+    const glm::dvec3 up = camera ? query::guess_up(*camera) : glm::dvec3(0, 1, 0);
+    const auto made = [&](const std::string& type, const ParamSet& values) -> Result<Edit> {
+        auto edit = plugin_sky(scene, session.registry(), type, values, up);
+        if (!edit) return fail(a.who, edit.error());
+        return edit;
+    };
+    if (a.field == "type") return made(a.value, {});
+    const std::string type = scene.environment.value ? scene.environment.value->sky : "";
+    const auto plugin = io::find_sky(session.registry(), type);
+    const model::Param* line = plugin ? plugin->table->find(a.field) : nullptr;
+    if (!line) return std::nullopt;
+    auto value = value_of(scene, a, line->type);
+    if (!value) return Result<Edit>(tl::unexpected<Error>(std::move(value.error())));
+    ParamSet values;
+    values.set(a.field, std::move(*value));
+    return made(type, values);
+}
+
+Result<Edit> sky_edit(const Session& session, const Assignment& a) {
+    if (auto edit = plugin_sky_edit(session, a)) return std::move(*edit);
+    const Scene& scene = session.scene();
+    if (!scene.environment.value) return fail(a.who + ": the scene has no sky; sky.type=NAME gives it a plugin's");
     Environment sky = *scene.environment.value;
     if (a.field == "scale") {
         RESTAGE_TRY(sky.scale, color(a));
@@ -190,7 +216,11 @@ Result<Edit> sky_edit(const Scene& scene, const Assignment& a) {
     } else if (a.field == "hidden_from_camera") {
         RESTAGE_TRY(sky.hidden_from_camera, truth(a));
     } else {
-        return fail(a.who + ": the sky has scale, rotation and hidden_from_camera");
+        std::string list = "type, scale, rotation and hidden_from_camera";
+        if (const auto plugin = io::find_sky(session.registry(), sky.sky))
+            for (const model::Param& line : plugin->table->params)
+                list += ", " + line.id;
+        return fail(a.who + ": the sky has " + list);
     }
     return set_environment(scene, std::move(sky));
 }
@@ -269,7 +299,7 @@ Result<Edit> edit_of(const Session& session, const Assignment& a) {
         note("camera", std::string(of_cameras));
     }
     if (a.name == "film") return film_edit(scene, a);
-    if (a.name == "sky") return sky_edit(scene, a);
+    if (a.name == "sky") return sky_edit(session, a);
     if (a.name == "settings") return settings_edit(scene, a);
     if (known.empty())
         return fail(a.who + ": there is no material, object, light or camera \"" + a.name +

@@ -110,6 +110,8 @@ void fields(V& v, scene::Environment& e) {
     v("light_to_world", e.light_to_world);
     v("hidden_from_camera", e.hidden_from_camera);
     v("origin", e.origin);
+    v("sky", e.sky);
+    v("sky_params", e.sky_params);
 }
 template <class V>
 void fields(V& v, scene::Camera& c) {

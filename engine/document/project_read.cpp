@@ -8,6 +8,7 @@
 #include "base/json.hpp"
 #include "io/image_file.hpp"
 #include "io/material_tables.hpp"
+#include "io/sky.hpp"
 #include "scene/bounds.hpp"
 #include "scene/validate.hpp"
 
@@ -75,6 +76,7 @@ class Reader : public ValueReader {
         if (!error_.empty()) return fail(error_);
         RESTAGE_CHECK(judge_lost());
         read_images();
+        make_sky();
         doc_.changes.label = "Changes of " + fs::path(path_).filename().string();
         Scene result = base;
         apply(result, doc_.changes);
@@ -115,7 +117,11 @@ class Reader : public ValueReader {
             from_file_.insert(current_id_);
         else if (j->is_null())
             return;
-        else if (const auto data = shared<Image>(*j, "image", stand_in_pixels, new_images_))
+        else if (j->is_object() && j->contains("sky")) {
+            sky_image_ = Id<Image>{current_id_};
+            const auto coarse = read_inline_image((*j)["sky"]);
+            i.data = coarse ? *coarse : stand_in_pixels();
+        } else if (const auto data = shared<Image>(*j, "image", stand_in_pixels, new_images_))
             i.data = data;
         else if (auto inlined = read_inline_image(*j))
             i.data = new_images_[current_] = *inlined;
@@ -327,6 +333,28 @@ class Reader : public ValueReader {
                 doc_.report.add(io::Fate::dropped, "image \"" + work[i]->name + "\"", problems[i], work[i]->path);
     }
 
+    // The picture of a sky plugin, from its values; the coarse one that was saved stays where that cannot be.
+    void make_sky() {
+        if (!sky_image_) return;
+        const std::optional<Environment>* sky = &doc_.base.scene.environment.value;
+        Image* image = nullptr;
+        for (AnyChange& change : doc_.changes.changes) {
+            if (auto* c = std::get_if<ChangeOne<std::optional<Environment>>>(&change)) sky = &c->after;
+            if (auto* c = std::get_if<Change<Image>>(&change); c && c->after && c->id == *sky_image_)
+                image = &*c->after;
+        }
+        if (!image || !*sky || (*sky)->image != *sky_image_ || (*sky)->sky.empty()) return;
+        const auto plugin = io::find_sky(registry_, (*sky)->sky);
+        auto made = plugin ? io::make_sky(*plugin, (*sky)->sky_params, options_.progress)
+                           : Result<std::shared_ptr<const PixelData>>(fail("no plugin makes it"));
+        if (made)
+            image->data = std::move(*made);
+        else
+            doc_.report.add(io::Fate::approximated, "sky \"" + (*sky)->sky + "\"",
+                            made.error().message + "; a coarse picture of it stands in, and its values are kept",
+                            path_);
+    }
+
     const std::string& path_;
     const plugin::Registry& registry_;
     const ReadOptions& options_;
@@ -335,6 +363,7 @@ class Reader : public ValueReader {
     std::string current_;
     std::uint32_t current_id_ = 0;
     std::set<std::uint32_t> from_file_; // images
+    std::optional<Id<Image>> sky_image_; // that a sky plugin makes
     std::map<std::string, std::shared_ptr<const MeshData>> new_meshes_; // by reference
     std::map<std::string, std::shared_ptr<const PixelData>> new_images_;
     std::map<std::string, Scene> imported_; // files whose meshes and images are used

@@ -42,6 +42,8 @@ class ValueReader {
     // As a visitor of fields().
     template <class T>
     void operator()(const char* name, T& value) {
+        if constexpr (std::is_same_v<T, scene::ParamSet>)
+            if (std::string_view(name) != "params" && in_->contains(name)) value = {}; // written whole
         if (const json* j = member(name)) read(*j, value, name);
         if constexpr (std::is_same_v<T, scene::ParamSet>)
             if (const json* all = member("all_params")) {

@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "io/sun_disk.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -18,6 +19,8 @@ namespace restage::document {
 using namespace scene;
 
 namespace {
+
+constexpr std::uint32_t coarse_sky_width = 32; // 12 KiB: the light of it, but no sun to be seen
 
 class Writer {
   public:
@@ -34,6 +37,8 @@ class Writer {
         });
         content.base.scene.meshes.each([&](Id<Mesh> id, const Mesh& m) { known_[m.data.get()] = {{"of", ref(id)}}; });
         content.base.scene.images.each([&](Id<Image> id, const Image& i) { known_[i.data.get()] = {{"of", ref(id)}}; });
+        if (const auto& sky = content.scene.environment.value; sky && !sky->sky.empty())
+            if (const Image* image = content.scene.images.find(sky->image)) sky_ = image->data.get();
     }
 
     json document() {
@@ -79,6 +84,8 @@ class Writer {
             (*out_)["pixels"] = found->second;
         else if (!i.path.empty())
             (*out_)["pixels"] = "file"; // it is read from its path
+        else if (i.data && i.data.get() == sky_) // made again; without its plugin, this stands in
+            (*out_)["pixels"] = {{"sky", inline_image(io::coarse_sky(*i.data, coarse_sky_width))}};
         else
             (*out_)["pixels"] = data(i.data.get(), "image", [&] { return inline_image(*i.data); });
     }
@@ -278,6 +285,7 @@ class Writer {
     json sizes_;
     std::map<std::string, std::map<std::uint32_t, std::uint32_t>> numbers_; // by kind: id -> number in the file
     std::map<const void*, json> known_; // data -> whose it is
+    const PixelData* sky_ = nullptr; // that a sky plugin made
     std::string current_;
     json* out_ = nullptr;
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/export.hpp"
 
+#include "io/options.hpp"
 #include "io/scene_reader.hpp"
 #include "scene/validate.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <vector>
 
@@ -15,22 +15,7 @@ using namespace scene;
 
 namespace {
 
-std::string known_options(const model::Exporter& exporter) {
-    std::string list;
-    for (const model::Param& option : exporter.options) {
-        list += (list.empty() ? "" : ", ") + option.id;
-        if (option.type == model::ParamType::choice) list += "=" + choices_text(option);
-    }
-    return list.empty() ? "it has no options" : "there are: " + list;
-}
-
-Result<> check_option(const model::Exporter& exporter, const std::string& id, const Value& value) {
-    const model::Param* option = find_param(exporter.options, id);
-    const std::string who = std::string("exporter \"") + exporter.format + "\": ";
-    if (!option) return fail(who + "there is no option \"" + id + "\"; " + known_options(exporter));
-    if (const std::string why = misfit(*option, value); !why.empty()) return fail(who + "option \"" + id + "\"" + why);
-    return {};
-}
+std::string called(const model::Exporter& exporter) { return "exporter \"" + exporter.format + "\""; }
 
 bool has_extension(const model::Exporter& exporter, std::string_view extension) {
     return std::ranges::find(exporter.extensions, extension) != exporter.extensions.end();
@@ -59,31 +44,7 @@ Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::
 }
 
 Result<> set_option(const model::Exporter& exporter, const std::string& assignment, ParamSet& values) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0)
-        return fail("\"" + assignment + "\" is no option; write name=value");
-    const std::string id = assignment.substr(0, equals), text = assignment.substr(equals + 1);
-    const model::Param* option = find_param(exporter.options, id);
-    if (!option) return check_option(exporter, id, {});
-    Value value{.type = option->type};
-    if (option->type == model::ParamType::choice || option->type == model::ParamType::text) {
-        value.text = text;
-    } else if (option->type == model::ParamType::boolean) {
-        if (text != "true" && text != "false")
-            return fail("option \"" + id + "\": \"" + text + "\" is neither true nor false");
-        value.i = text == "true";
-    } else if (option->type == model::ParamType::integer) {
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value.i);
-        if (code != std::errc() || end != text.data() + text.size())
-            return fail("option \"" + id + "\": \"" + text + "\" is not a whole number");
-    } else {
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value.v[0]);
-        if (code != std::errc() || end != text.data() + text.size())
-            return fail("option \"" + id + "\": \"" + text + "\" is not a number");
-    }
-    RESTAGE_CHECK(check_option(exporter, id, value));
-    values.set(id, std::move(value));
-    return {};
+    return set_option(called(exporter), exporter.options, assignment, values);
 }
 
 Result<Report> export_scene(const Scene& scene, const std::string& path, const plugin::Registry& registry,
@@ -91,15 +52,11 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     RESTAGE_TRY(const plugin::ExporterEntry chosen, find_exporter(path, options.format, registry));
     const model::Exporter* exporter = chosen.table;
     for (const auto& [id, value] : options.values.entries())
-        RESTAGE_CHECK(check_option(*exporter, id, value));
+        RESTAGE_CHECK(check_option(called(*exporter), exporter->options, id, value));
     for (const Problem& problem : validate(scene))
         if (problem.severity == Problem::Severity::error) return fail(path + ": not written: " + problem.sentence);
 
-    ParamSet all; // every option, set or default, in the table's order
-    for (const model::Param& option : exporter->options) {
-        const Value* given = options.values.find(option.id);
-        all.set(option.id, given ? *given : default_value(option));
-    }
+    const ParamSet all = all_options(exporter->options, options.values);
     const std::vector<RestageValue> values = give_values(all);
     SceneReader reader(scene, registry, options.progress);
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it wrote " + path));

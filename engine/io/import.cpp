@@ -2,7 +2,9 @@
 #include "io/import.hpp"
 
 #include "base/file.hpp"
+#include "io/options.hpp"
 #include "io/scene_writer.hpp"
+#include "io/sky.hpp"
 
 #include <restage/scene_io.h>
 
@@ -64,12 +66,21 @@ std::string to_string(const ReportEntry& entry) {
     return entry.note.empty() ? line : line + ": " + entry.note;
 }
 
+Result<plugin::ImporterEntry> importer_of(const std::string& path, const plugin::Registry& registry,
+                                          const std::string& format) {
+    RESTAGE_TRY(const std::string head, read_head(path));
+    return choose(path, head, registry, format);
+}
+
 Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry& registry,
                                    const ImportOptions& options) {
     RESTAGE_TRY(const std::string head, read_head(path));
     RESTAGE_TRY(const plugin::ImporterEntry chosen, choose(path, head, registry, options.format));
     const model::Importer* importer = chosen.table;
+    for (const auto& [id, value] : options.values.entries())
+        RESTAGE_CHECK(check_option("importer \"" + importer->format + "\"", importer->options, id, value));
     SceneWriter writer(registry, options.progress);
+    writer.set_options(all_options(importer->options, options.values));
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it read " + path));
     const bool loaded = chosen.native->load(path.c_str(), &writer.table()) != 0;
     note.reset();
@@ -80,6 +91,7 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     std::optional<Jobs> own;
     Jobs& jobs = options.jobs ? *options.jobs : own.emplace();
     if (auto finished = writer.finish(jobs, options.read_images); !finished) return fail(path, finished.error());
+    make_missing_sky(writer.scene, registry, writer.report, options.progress);
     if (writer.scene.format.empty()) writer.scene.format = importer->format;
     return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format, writer.unexposed};
 }

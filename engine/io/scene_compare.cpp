@@ -105,6 +105,13 @@ class Describer {
         return m->type + list(params);
     }
 
+    std::string values(const ParamSet& params) {
+        std::map<std::string, std::string> all;
+        for (const auto& [name, v] : params.entries())
+            all[name] = value(v, 0);
+        return list(all);
+    }
+
     std::string medium(Id<Medium> id) {
         const Medium* m = scene_.media.find(id);
         return m ? "(" + shown(m->sigma_a) + ", " + shown(m->sigma_s) + ", " + shown(m->g) + ")" : "vacuum";
@@ -286,6 +293,8 @@ class Comparison {
                    (e.image ? ", " + d.image(e.image) + ", mapping " + std::to_string(int(e.mapping)) : "") +
                    (e.hidden_from_camera ? ", hidden from the camera" : "");
         };
+        if (options_.names)
+            same("sky", x->sky + describe_a_.values(x->sky_params), y->sky + describe_b_.values(y->sky_params));
         same("environment", describe(describe_a_, *x), describe(describe_b_, *y));
         if (x->image && !close(x->light_to_world, y->light_to_world, options_.transform_tolerance))
             differ("environment: turned otherwise");

@@ -219,9 +219,15 @@ struct SceneReader::Calls {
                .mapping = static_cast<std::uint32_t>(e->mapping),
                .scale = {},
                .light_to_world = {},
-               .hidden_from_camera = e->hidden_from_camera};
+               .hidden_from_camera = e->hidden_from_camera,
+               .sky_value_count = 0,
+               .sky = e->sky.c_str(),
+               .sky_values = nullptr};
         copy(e->scale, out.scale);
         copy(e->light_to_world, out.light_to_world);
+        const auto& list = r.values_.emplace_back(io::give_values(e->sky_params));
+        out.sky_values = list.data();
+        out.sky_value_count = static_cast<std::uint32_t>(list.size());
         return true;
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scene_writer.hpp"
 
+#include "io/scene_reader.hpp"
 #include "io/scene_writer_calls.hpp"
 #include "plugin/abi.hpp"
 
@@ -94,7 +95,16 @@ SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)
               .progress = Calls::progress,
               .material_table = Calls::material_table,
               .decode_image = Calls::decode_image,
-              .release_image = Calls::release_image};
+              .release_image = Calls::release_image,
+              .options = nullptr,
+              .option_count = 0};
+}
+
+void SceneWriter::set_options(ParamSet options) {
+    options_ = std::move(options);
+    given_options_ = give_values(options_);
+    table_.options = given_options_.data();
+    table_.option_count = static_cast<std::uint32_t>(given_options_.size());
 }
 
 } // namespace restage::io

@@ -18,6 +18,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace restage::io {
 
@@ -30,6 +31,8 @@ class SceneWriter : public Exchange {
     SceneWriter& operator=(const SceneWriter&) = delete;
 
     const RestageSceneWriter1& table() const { return table_; } // its ctx is this
+
+    void set_options(scene::ParamSet); // that the importer finds in its table; before load
 
     // Names what has no name, gives a scene without camera one, decodes images, validates. Call once, after load.
     Result<> finish(Jobs&, bool read_images);
@@ -62,6 +65,8 @@ class SceneWriter : public Exchange {
 
     std::map<std::string, std::unique_ptr<plugin::GivenTable>> tables_; // that the importer was given, by type
     RestageSceneWriter1 table_{};
+    scene::ParamSet options_;
+    std::vector<RestageValue> given_options_; // point into options_
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
     std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;
     std::map<void*, std::shared_ptr<const DecodedImage>> decoded_; // given to the importer

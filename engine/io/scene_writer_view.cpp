@@ -58,7 +58,9 @@ void SceneWriter::Calls::environment(void* ctx, const RestageEnvironment* given)
                                            .scale = vec3(in.scale),
                                            .light_to_world = to_world,
                                            .hidden_from_camera = in.hidden_from_camera != 0,
-                                           .origin = w.origin(in.origin)},
+                                           .origin = w.origin(in.origin),
+                                           .sky = text(in.sky),
+                                           .sky_params = w.params(in.sky_values, in.sky_value_count, "the sky")},
                                w.scene.clock};
         return 1;
     });

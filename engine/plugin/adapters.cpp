@@ -143,7 +143,9 @@ Result<model::Importer> read_importer1(const RestageImporter1& given) {
         return fail(problem);
     const RestageImporter1 in = sized(given);
     if (!in.probe || !in.load) return fail("importer \"" + text(in.format) + "\" lacks probe or load");
-    return model::Importer{text(in.format), text(in.label), split_words(text(in.extensions)), {}};
+    auto options = read_params(in.options, in.option_count);
+    if (!options) return fail("importer \"" + text(in.format) + "\": option table: " + options.error().message);
+    return model::Importer{text(in.format), text(in.label), split_words(text(in.extensions)), std::move(*options)};
 }
 
 Result<model::Exporter> read_exporter1(const RestageExporter1& given) {
@@ -178,6 +180,18 @@ Result<model::Panel> read_panel1(const RestagePanel1& given) {
     auto params = read_params(in.params, in.param_count);
     if (!params) return fail("panel \"" + text(in.id) + "\": " + params.error().message);
     return model::Panel{text(in.id), text(in.label), std::move(*params)};
+}
+
+Result<model::Sky> read_sky1(const RestageSky1& given) {
+    if (const auto problem = too_short(given.size, RESTAGE_SIZE_UP_TO(RestageSky1, make), RESTAGE_SKY1);
+        !problem.empty())
+        return fail(problem);
+    const RestageSky1 in = sized(given);
+    const std::string who = "sky \"" + text(in.type) + "\"";
+    if (!in.make) return fail(who + " lacks make");
+    auto params = read_params(in.params, in.param_count);
+    if (!params) return fail(who + ": " + params.error().message);
+    return model::Sky{text(in.type), text(in.label), text(in.tooltip), std::move(*params)};
 }
 
 } // namespace restage::plugin

@@ -9,6 +9,7 @@
 #include "model/action.hpp"
 #include "model/formats.hpp"
 #include "model/material.hpp"
+#include "model/sky.hpp"
 
 #include <restage/action.h>
 #include <restage/denoiser.h>
@@ -16,6 +17,7 @@
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
+#include <restage/sky.h>
 #include <restage/table.h>
 #include <optional>
 #include <span>
@@ -59,6 +61,7 @@ Result<model::Importer> read_importer1(const RestageImporter1&);
 Result<model::Exporter> read_exporter1(const RestageExporter1&);
 Result<model::Action> read_action1(const RestageAction1&);
 Result<model::Panel> read_panel1(const RestagePanel1&);
+Result<model::Sky> read_sky1(const RestageSky1&);
 
 std::vector<std::string> split_words(std::string_view text); // at '|'
 std::uint32_t abi_type(model::ParamType); // RestageType

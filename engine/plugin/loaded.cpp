@@ -239,6 +239,12 @@ Result<> Loaded::take_formats(const Manifest& manifest, const std::string& who) 
                            if (const auto problem = check_panel(declared); !problem.empty()) return fail(problem);
                            return PanelTable{std::move(declared), t};
                        }));
+    RESTAGE_CHECK(take(RESTAGE_SKY1, static_cast<const RestageSky1*>(nullptr), skies,
+                       [](const RestageSky1* t) -> Result<SkyTable> {
+                           RESTAGE_TRY(auto declared, read_sky1(*t));
+                           if (const auto problem = check_sky(declared); !problem.empty()) return fail(problem);
+                           return SkyTable{std::move(declared), t};
+                       }));
     return take(RESTAGE_DENOISER1, static_cast<const RestageDenoiser1*>(nullptr), denoisers,
                 [](const RestageDenoiser1* t) -> Result<Denoiser> {
                     RESTAGE_TRY(auto declared, Denoiser::read(*t));

@@ -52,6 +52,10 @@ class Loaded {
         model::Exporter declared;
         const RestageExporter1* native;
     };
+    struct SkyTable {
+        model::Sky declared;
+        const RestageSky1* native;
+    };
     std::deque<ImporterTable> importers;
     std::deque<ExporterTable> exporters;
     struct ActionTable {
@@ -64,6 +68,7 @@ class Loaded {
     };
     std::deque<ActionTable> actions;
     std::deque<PanelTable> panels;
+    std::deque<SkyTable> skies;
 
   private:
     Loaded() = default;
@@ -84,6 +89,7 @@ inline std::string_view key(const model::Importer& t) { return t.format; }
 inline std::string_view key(const model::Exporter& t) { return t.format; }
 inline std::string_view key(const model::Action& t) { return t.id; }
 inline std::string_view key(const model::Panel& t) { return t.id; }
+inline std::string_view key(const model::Sky& t) { return t.type; }
 inline std::string_view key(const Inspector& t) { return t.material_type; }
 inline std::string_view key(const Denoiser& t) { return t.type; }
 

@@ -207,7 +207,8 @@ std::string Manifest::kind() const {
 std::span<const std::string_view> known_interfaces() {
     static constexpr std::string_view all[] = {"restage.material/1",  "restage.emission/1", "restage.table/1",
                                                "restage.inspector/1", "restage.importer/1", "restage.exporter/1",
-                                               "restage.denoiser/1",  "restage.action/1",   "restage.panel/1"};
+                                               "restage.denoiser/1",  "restage.action/1",   "restage.panel/1",
+                                               "restage.sky/1"};
     return all;
 }
 

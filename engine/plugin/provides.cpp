@@ -15,6 +15,7 @@ std::vector<std::string> provides(const Registry& registry, const Entry& entry) 
     list(catalogue->exporters, "exporter ", [](const model::Exporter& m) { return m.format; });
     list(catalogue->actions, "action ", [](const model::Action& a) { return a.id; });
     list(catalogue->panels, "panel ", [](const model::Panel& p) { return p.id; });
+    list(catalogue->skies, "sky ", [](const model::Sky& s) { return s.type; });
     list(catalogue->denoisers, "denoiser ", [](const Denoiser& d) {
         const auto usable = d.available();
         return d.type + (usable ? "" : " (not available: " + usable.error().message + ")");

@@ -210,6 +210,7 @@ Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
         RESTAGE_CHECK(twice(loaded.exporters, other->loaded->exporters));
         RESTAGE_CHECK(twice(loaded.actions, other->loaded->actions));
         RESTAGE_CHECK(twice(loaded.panels, other->loaded->panels));
+        RESTAGE_CHECK(twice(loaded.skies, other->loaded->skies));
         for (const Denoiser& a : loaded.denoisers)
             for (const Denoiser& b : other->loaded->denoisers)
                 if (a.type == b.type) return taken(a.type, *other);
@@ -243,6 +244,8 @@ void Registry::publish() {
             all->actions.push_back({{&declared, entry, library}, native});
         for (const auto& [declared, native] : plugin->loaded->panels)
             all->panels.push_back({{&declared, entry, library}, native});
+        for (const auto& [declared, native] : plugin->loaded->skies)
+            all->skies.push_back({{&declared, entry, library}, native});
         for (const auto& source : plugin->loaded->materials)
             all->materials.push_back(
                 {&source->material(), entry, entry->blame("while its GLSL was being compiled"), source});
@@ -254,6 +257,7 @@ void Registry::publish() {
     };
     sort(all->materials), sort(all->importers), sort(all->exporters), sort(all->denoisers), sort(all->inspectors);
     sort(all->actions), sort(all->panels);
+    sort(all->skies);
     std::shared_ptr<const Catalogue> before = std::move(all);
     {
         std::lock_guard lock(catalogue_mutex_);

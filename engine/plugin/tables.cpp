@@ -164,7 +164,11 @@ std::string check_material(const model::Material& m, const fs::path& folder) {
 }
 
 std::string check_importer(const model::Importer& t) {
-    return check_format("importer", t.format, t.label, t.extensions);
+    if (const std::string problem = check_format("importer", t.format, t.label, t.extensions); !problem.empty())
+        return problem;
+    if (const std::string problem = check_params(t.options); !problem.empty())
+        return "importer " + quote(t.format) + ": option table: " + problem;
+    return "";
 }
 
 std::string check_exporter(const model::Exporter& t) {
@@ -201,6 +205,17 @@ std::string check_panel(const model::Panel& p) {
         if (line.type == ParamType::material || line.type == ParamType::texture)
             return "panel " + quote(p.id) + ": parameter " + quote(line.id) +
                    ": a panel holds no things of a document (MATERIAL, TEXTURE)";
+    return "";
+}
+
+std::string check_sky(const model::Sky& s) {
+    if (!is_type_name(s.type)) return "a sky without a proper type name (lower case, digits, _)";
+    const std::string who = "sky " + quote(s.type);
+    if (s.label.empty()) return who + " has no label";
+    if (const std::string problem = check_params(s.params); !problem.empty()) return who + ": " + problem;
+    for (const model::Param& p : s.params)
+        if (p.texturable || p.type == ParamType::texture || p.type == ParamType::material || p.type == ParamType::table)
+            return who + ": parameter " + quote(p.id) + ": a sky sees no textures, materials or tables";
     return "";
 }
 

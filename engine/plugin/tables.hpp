@@ -6,6 +6,7 @@
 #include "model/action.hpp"
 #include "model/formats.hpp"
 #include "model/material.hpp"
+#include "model/sky.hpp"
 
 #include <filesystem>
 #include <string>
@@ -22,6 +23,7 @@ std::string check_importer(const model::Importer&);
 std::string check_exporter(const model::Exporter&);
 std::string check_action(const model::Action&);
 std::string check_panel(const model::Panel&);
+std::string check_sky(const model::Sky&);
 bool has_table(const model::Material&); // a parameter that is a table
 
 } // namespace restage::plugin

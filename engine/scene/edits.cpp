@@ -306,7 +306,14 @@ Result<Edit> set_active_camera(const Scene& scene, Id<Camera> id) {
 
 Edit set_environment(const Scene& scene, std::optional<Environment> environment, std::string label) {
     Edit edit{std::move(label), {}};
-    edit.changes.push_back(ChangeOne<std::optional<Environment>>{scene.environment.value, std::move(environment)});
+    const auto& now = scene.environment.value;
+    if (now && !now->sky.empty() && (!environment || environment->image != now->image)) {
+        // With another image it is the plugin's no more; the one that was is nobody's.
+        if (environment && environment->sky == now->sky) environment->sky.clear(), environment->sky_params = {};
+        if (const Image* image = scene.images.find(now->image); image && users(scene, now->image).size() == 1)
+            edit.changes.push_back(Change<Image>{now->image, *image, std::nullopt});
+    }
+    edit.changes.push_back(ChangeOne<std::optional<Environment>>{now, std::move(environment)});
     return edit;
 }
 

@@ -66,6 +66,7 @@ std::size_t heap_bytes(const T& item) {
     std::size_t sum = 0;
     if constexpr (requires { item.name; }) sum += heap_bytes(item.name);
     if constexpr (requires { item.params; }) sum += heap_bytes(item.params);
+    if constexpr (requires { item.sky_params; }) sum += heap_bytes(item.sky) + heap_bytes(item.sky_params);
     if constexpr (requires { item.origin.verbatim; }) sum += heap_bytes(item.origin.verbatim);
     if constexpr (requires { item.source_file; }) sum += heap_bytes(item.source_file) + heap_bytes(item.primitive);
     if constexpr (requires { item.path; }) sum += heap_bytes(item.path);

@@ -2,6 +2,7 @@
 #include "scene/sky.hpp"
 
 #include "scene/edits.hpp"
+#include "scene/uses.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,31 @@ Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<cons
             Image{.name = name, .path = path, .encoding = scene::Encoding::srgb, .data = std::move(pixels)}});
     }
     append(edit, set_environment(scene, sky));
+    return edit;
+}
+
+Edit made_sky(const Scene& scene, const std::string& name, const std::string& type, ParamSet values,
+              std::shared_ptr<const PixelData> pixels, const glm::dvec3& up) {
+    const auto& now = scene.environment.value;
+    const bool was_made = now && !now->sky.empty();
+    Environment sky{.light_to_world = upright_sky(up)};
+    if (was_made) sky.scale = now->scale, sky.light_to_world = now->light_to_world;
+    if (now) sky.hidden_from_camera = now->hidden_from_camera;
+    sky.name = name;
+    sky.mapping = scene::Mapping::octahedral;
+    sky.sky = type;
+    sky.sky_params = std::move(values);
+    Image image{.name = name, .encoding = scene::Encoding::linear, .data = std::move(pixels)};
+    Edit edit{"Sky " + name, {}};
+    const Image* before = was_made ? scene.images.find(now->image) : nullptr;
+    if (before && users(scene, now->image).size() == 1) {
+        sky.image = now->image;
+        edit.changes.push_back(Change<Image>{sky.image, *before, std::move(image)});
+    } else {
+        sky.image = scene.images.next();
+        edit.changes.push_back(Change<Image>{sky.image, std::nullopt, std::move(image)});
+    }
+    edit.changes.push_back(ChangeOne<std::optional<Environment>>{now, std::move(sky)});
     return edit;
 }
 

@@ -22,4 +22,9 @@ Edit studio_sky(const Scene& scene, const glm::dvec3& up);
 Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<const PixelData> pixels,
                const glm::dvec3& up);
 
+// A sky plugin's picture with its values becomes the sky, under this name. Rotation, strength and whether it is seen
+// stay where the sky was a plugin's already; its picture is replaced. `pixels`: square, octahedral, +z up.
+Edit made_sky(const Scene& scene, const std::string& name, const std::string& type, ParamSet values,
+              std::shared_ptr<const PixelData> pixels, const glm::dvec3& up);
+
 } // namespace restage::scene

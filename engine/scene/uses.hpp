@@ -54,7 +54,9 @@ void visit_references(T& instance, V&& visitor) {
 }
 template <Of<std::optional<Environment>> T, class V>
 void visit_references(T& environment, V&& visitor) {
-    if (environment && environment->image) visitor(environment->image);
+    if (!environment) return;
+    if (environment->image) visitor(environment->image);
+    visit_references(environment->sky_params, visitor);
 }
 template <Of<Settings> T, class V>
 void visit_references(T& settings, V&& visitor) {

@@ -221,6 +221,7 @@ std::vector<ValueProblem> value_problems(const Environment& e) {
     Found out;
     out.transform("the environment", e.light_to_world);
     out.light("the environment", "environment", "a scale", e.scale);
+    out.params("the environment", e.sky_params);
     return out.take();
 }
 

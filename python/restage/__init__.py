@@ -25,7 +25,7 @@ _sentences.install(_core)  # before its functions get their public names
 from ._core import (
     Camera, Cameras, Cancelled, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
     Plugin, Progress, Report, ReportEntry, Selection, Session, Sky, Step, Texture, Textures,
-    load_plugins, material_types, merge, new, open, plugins, reload_plugins,
+    load_plugins, material_types, merge, new, open, plugins, reload_plugins, sky_types,
 )
 from .bsdf import Bsdf, BsdfSample
 from . import spread
@@ -60,5 +60,5 @@ __all__ = [
     "Bsdf", "BsdfSample", "Camera", "Cameras", "Cancelled", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
     "Object", "Objects", "Parameter", "Picture", "Plugin", "Progress", "Report", "ReportEntry", "Selection", "Session",
     "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins", "reload_plugins",
-    "spread",
+    "sky_types", "spread",
 ]

@@ -170,6 +170,18 @@ void bind_lights(nb::module_& m) {
         .def_prop_ro(
             "transform", [](const Environment& e) { return to_numpy(e.light_to_world); }, nb::rv_policy::automatic,
             "Rotation: array (4, 4); a panorama's pole is +z.")
+        .def_prop_ro(
+            "type", [](const Environment& e) { return e.sky; },
+            "The sky plugin that makes its image (\"sunsky\"), or \"\"; Session.make_sky.")
+        .def_prop_ro(
+            "values",
+            [](const Environment& e) {
+                nb::dict all;
+                for (const auto& [id, value] : e.sky_params.entries())
+                    all[nb::str(id.c_str())] = to_python(nullptr, value);
+                return all;
+            },
+            nb::sig("def values(self) -> dict[str, object]"), "What was set of that plugin's parameters.")
         .def_prop_ro("hidden_from_camera", [](const Environment& e) { return e.hidden_from_camera; })
         .def("__repr__", [](const Environment& e) {
             return e.image ? "<restage.Sky \"" + e.name + "\", an image>" : std::string("<restage.Sky of one colour>");

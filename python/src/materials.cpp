@@ -253,6 +253,16 @@ void bind_materials(nb::module_& m) {
         },
         "The material types of all loaded plugins: a dict from type to its table, a list of Parameter.",
         nb::sig("def material_types() -> dict[str, list[Parameter]]"));
+    m.def(
+        "sky_types",
+        [] {
+            nb::typed<nb::dict, nb::str, nb::list> types;
+            for (const auto& sky : Host::get()->registry().catalogue()->skies)
+                types[sky.table->type.c_str()] = nb::cast(parameters(sky.table->params));
+            return types;
+        },
+        "The skies of all loaded plugins: a dict from type to its table, a list of Parameter. See Session.make_sky.",
+        nb::sig("def sky_types() -> dict[str, list[Parameter]]"));
 }
 
 } // namespace restage::python

@@ -31,5 +31,6 @@ NB_MODULE(_core, m) {
     bind_geometry(session, object);
     bind_actions(m, session);
     bind_render(m, session);
+    bind_sky(session);
     bind_bsdf(m);
 }

@@ -122,7 +122,7 @@ void set_sky(const Shared& w, nb::handle image, const std::optional<Three>& colo
         }
         sky.scale = glm::vec3(1);
     } else if (color) {
-        sky.image = {};
+        sky.image = {}, sky.sky.clear(), sky.sky_params = {};
         sky.name = "constant";
     } else if (!w->scene().environment.value) {
         throw Failure("there is no sky to change; give an image or a color");

@@ -147,6 +147,7 @@ void bind_session(nb::module_&, nb::class_<Workspace>&);
 void bind_geometry(nb::class_<Workspace>&, nb::class_<Handle<scene::Instance>>&); // meshes, new cameras and groups
 void bind_actions(nb::module_&, nb::class_<Workspace>&);
 void bind_render(nb::module_&, nb::class_<Workspace>&);
+void bind_sky(nb::class_<Workspace>&); // those that plugins make
 void bind_bsdf(nb::module_&);
 
 } // namespace restage::python

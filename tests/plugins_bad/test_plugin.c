@@ -127,7 +127,8 @@ static int load(const char* path, const RestageSceneWriter1* out) {
     out->report(out->ctx, RESTAGE_DROPPED, path, 12, "light \"sun\"", "not known to the test");
     return out->progress(out->ctx, 1.0f, "done");
 }
-static const RestageImporter1 importer = {sizeof(RestageImporter1), "test", "Test format", "test", probe, load};
+static const RestageImporter1 importer = {
+    sizeof(RestageImporter1), "test", "Test format", "test", probe, load, NULL, 0};
 #endif
 
 static const RestageHost* used_host;

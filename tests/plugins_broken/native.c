@@ -80,7 +80,7 @@ static int load(const char* path, const RestageSceneWriter1* out) {
     fclose(file);
     return 1;
 }
-static const RestageImporter1 importer = {sizeof(RestageImporter1), "tri", "Triangles", "tri", probe, load};
+static const RestageImporter1 importer = {sizeof(RestageImporter1), "tri", "Triangles", "tri", probe, load, NULL, 0};
 
 /* --- an exporter of the names of all objects --------------------------------------------------------------------- */
 

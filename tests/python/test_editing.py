@@ -243,6 +243,33 @@ def test_lights_cameras_and_sky(demo, scenes):
         demo.set_sky(strength=2)
 
 
+def test_skies_of_plugins(demo, scenes, tmp_path):
+    lines = {p.id: p for p in restage.sky_types()["sunsky"]}
+    assert lines["elevation"].unit == "deg" and lines["turbidity"].range == (2, 10)
+    assert demo.sky is None or demo.sky.type == ""
+    steps = len(demo.history)
+    demo.make_sky("sunsky", elevation=12, ground=(0.1, 0.2, 0.1))
+    assert len(demo.history) == steps + 1
+    assert demo.sky.type == "sunsky" and demo.sky.is_image and demo.sky.mapping == "octahedral"
+    demo.make_sky("sunsky", turbidity=5)  # the others stay
+    assert demo.sky.values["elevation"] == 12 and demo.sky.values["turbidity"] == 5
+    demo.set_sky(strength=2)
+    assert demo.sky.type == "sunsky" and demo.sky.color == (2, 2, 2)
+    demo.save(tmp_path / "sky.restage")
+    with restage.open(tmp_path / "sky.restage") as again:
+        assert again.sky.values == demo.sky.values
+    for values, words in (({"elevatoin": 1}, "there are: mode"), ({"elevation": 91}, "out of its range"),
+                          ({"sun": "yes"}, "True or False")):
+        with pytest.raises(restage.Error, match=words):
+            demo.make_sky("sunsky", **values)
+    with pytest.raises(restage.Error, match='no sky "dome"; there are: sunsky'):
+        demo.make_sky("dome")
+    demo.set_sky(color=(1, 1, 1))
+    assert demo.sky.type == "" and demo.sky.values == {} and not demo.sky.is_image
+    demo.undo()
+    assert demo.sky.type == "sunsky"
+
+
 def test_undo_leads_back_and_redo_forward(demo, tmp_path):
     before = snapshot(demo, tmp_path, "before")
     start = len(demo.history)

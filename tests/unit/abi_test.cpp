@@ -11,6 +11,7 @@
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
+#include <restage/sky.h>
 #include <restage/table.h>
 #include <cstddef>
 
@@ -128,11 +129,13 @@ const Frozen layout[] = {
         FIELD(RestageLight, kind, 24) FIELD(RestageLight, value, 28) FIELD(RestageLight, light_to_world, 40)
         FIELD(RestageLight, cone_angle, 168) FIELD(RestageLight, cone_delta, 172)
         FIELD(RestageLight, falloff, 176) FIELD(RestageLight, flags, 180)
-    SIZE(RestageEnvironment, 184)
+    SIZE(RestageEnvironment, 200)
         FIELD(RestageEnvironment, size, 0) FIELD(RestageEnvironment, name, 8)
         FIELD(RestageEnvironment, origin, 16) FIELD(RestageEnvironment, image, 24)
         FIELD(RestageEnvironment, mapping, 28) FIELD(RestageEnvironment, scale, 32)
         FIELD(RestageEnvironment, light_to_world, 48) FIELD(RestageEnvironment, hidden_from_camera, 176)
+        FIELD(RestageEnvironment, sky_value_count, 180) FIELD(RestageEnvironment, sky, 184)
+        FIELD(RestageEnvironment, sky_values, 192)
     SIZE(RestageCamera, 192)
         FIELD(RestageCamera, size, 0) FIELD(RestageCamera, name, 8) FIELD(RestageCamera, origin, 16)
         FIELD(RestageCamera, camera_to_world, 24) FIELD(RestageCamera, fov, 152)
@@ -152,7 +155,7 @@ const Frozen layout[] = {
         FIELD(RestageDecodedImage, height, 8) FIELD(RestageDecodedImage, channels, 12)
         FIELD(RestageDecodedImage, bits, 16) FIELD(RestageDecodedImage, texels, 24)
         FIELD(RestageDecodedImage, problem, 32) FIELD(RestageDecodedImage, owner, 40)
-    SIZE(RestageSceneWriter1, 168)
+    SIZE(RestageSceneWriter1, 184)
         FIELD(RestageSceneWriter1, size, 0) FIELD(RestageSceneWriter1, ctx, 8)
         FIELD(RestageSceneWriter1, mesh, 16) FIELD(RestageSceneWriter1, image, 24)
         FIELD(RestageSceneWriter1, texture, 32) FIELD(RestageSceneWriter1, material, 40)
@@ -163,11 +166,13 @@ const Frozen layout[] = {
         FIELD(RestageSceneWriter1, settings, 112) FIELD(RestageSceneWriter1, report, 120)
         FIELD(RestageSceneWriter1, error, 128) FIELD(RestageSceneWriter1, progress, 136)
         FIELD(RestageSceneWriter1, material_table, 144) FIELD(RestageSceneWriter1, decode_image, 152)
-        FIELD(RestageSceneWriter1, release_image, 160)
-    SIZE(RestageImporter1, 48)
+        FIELD(RestageSceneWriter1, release_image, 160) FIELD(RestageSceneWriter1, options, 168)
+        FIELD(RestageSceneWriter1, option_count, 176)
+    SIZE(RestageImporter1, 64)
         FIELD(RestageImporter1, size, 0) FIELD(RestageImporter1, format, 8)
         FIELD(RestageImporter1, label, 16) FIELD(RestageImporter1, extensions, 24)
         FIELD(RestageImporter1, probe, 32) FIELD(RestageImporter1, load, 40)
+        FIELD(RestageImporter1, options, 48) FIELD(RestageImporter1, option_count, 56)
     SIZE(RestageSceneReader1, 160)
         FIELD(RestageSceneReader1, size, 0) FIELD(RestageSceneReader1, ctx, 8)
         FIELD(RestageSceneReader1, count, 16) FIELD(RestageSceneReader1, mesh, 24)
@@ -211,6 +216,17 @@ const Frozen layout[] = {
         FIELD(RestagePanel1, size, 0) FIELD(RestagePanel1, id, 8) FIELD(RestagePanel1, label, 16)
         FIELD(RestagePanel1, params, 24) FIELD(RestagePanel1, param_count, 32)
         FIELD(RestagePanel1, draw, 40)
+    SIZE(RestageSkySun, 32)
+        FIELD(RestageSkySun, size, 0) FIELD(RestageSkySun, direction, 4) FIELD(RestageSkySun, radiance, 16)
+        FIELD(RestageSkySun, angular_radius, 28)
+    SIZE(RestageSkyJob1, 48)
+        FIELD(RestageSkyJob1, size, 0) FIELD(RestageSkyJob1, width, 4) FIELD(RestageSkyJob1, pixels, 8)
+        FIELD(RestageSkyJob1, ctx, 16) FIELD(RestageSkyJob1, progress, 24) FIELD(RestageSkyJob1, sun, 32)
+        FIELD(RestageSkyJob1, error, 40)
+    SIZE(RestageSky1, 48)
+        FIELD(RestageSky1, size, 0) FIELD(RestageSky1, param_count, 4) FIELD(RestageSky1, type, 8)
+        FIELD(RestageSky1, label, 16) FIELD(RestageSky1, tooltip, 24) FIELD(RestageSky1, params, 32)
+        FIELD(RestageSky1, make, 40)
     // clang-format on
 };
 #undef SIZE
@@ -240,6 +256,7 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
     CHECK(std::string(RESTAGE_ACTION1) == "restage.action/1");
     CHECK(std::string(RESTAGE_PANEL1) == "restage.panel/1");
     CHECK(std::string(RESTAGE_EMISSION1) == "restage.emission/1");
+    CHECK(std::string(RESTAGE_SKY1) == "restage.sky/1");
     const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR,    RESTAGE_INT,     RESTAGE_BOOL, RESTAGE_ENUM,
                          RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE, RESTAGE_TABLE};
     for (int i = 0; i < 9; ++i)

@@ -55,6 +55,10 @@ class Monkey {
                     environment->hidden_from_camera =
                         environment->mapping == scene::Mapping::octahedral; // draws no number
                     environment->origin = origin();
+                    environment->sky = environment->hidden_from_camera ? "of_tomorrow" : ""; // no plugin makes it
+                    environment->sky_params = {};
+                    if (environment->hidden_from_camera)
+                        environment->sky_params.set("haze", Value::number(environment->scale.x));
                 }
                 e = set_environment(s, environment);
                 break;

@@ -31,6 +31,8 @@ std::vector<std::string> assets_of(PanelContext& editor, AssetKind kind);
 const AssetsState::Thumbnail& thumbnail_of(PanelContext& editor, const std::string& file);
 // Notes the error of the live picture, whether the panel is seen or not; once a frame.
 void follow_convergence(PanelContext& editor);
+// Takes over the sky that a plugin has made meanwhile; once a frame.
+void follow_sky(PanelContext& editor);
 
 enum class Dock { center, left, right, bottom, floating };
 

@@ -8,6 +8,7 @@
 
 #include "document/exposure.hpp"
 #include "io/material_emission.hpp"
+#include "io/sky.hpp"
 #include "param_widget.hpp"
 #include "scene/sky.hpp"
 #include "state.hpp"
@@ -125,7 +126,70 @@ void image_row(PanelContext& e, const Environment& sky) {
     ImGui::EndPopup();
 }
 
+// --- skies that plugins make
+// -----------------------------------------------------------------------------------------------------------
+
+void ask_made_sky(PanelContext& e, const plugin::SkyEntry& sky, scene::ParamSet values, std::string gesture) {
+    e.panel_state->skies.ask({sky, std::move(values), std::move(gesture)}, e.scene().environment.value);
+}
+
+void sky_param(PanelContext& e, const plugin::SkyEntry& sky, const scene::ParamSet& values, const model::Param& line) {
+    const scene::Value* set = values.find(line.id);
+    const bool fits = set && set->type == line.type;
+    const ParamAsk ask =
+        param_widget(e, line, fits ? *set : scene::default_value(line), set != nullptr, "sky." + line.id);
+    if (!ask.reset && !ask.value) return;
+    scene::ParamSet changed = values;
+    if (ask.reset)
+        changed.remove(line.id);
+    else
+        changed.set(line.id, *ask.value);
+    ask_made_sky(e, sky, std::move(changed), "sky.made." + line.id);
+}
+
+void sky_params(PanelContext& e, const Environment& now) {
+    const auto sky = io::find_sky(e.registry(), now.sky);
+    if (!sky)
+        return warning_note(fmt::format("No plugin provides \"{}\". Its picture stays, coarse where it was saved "
+                                        "without; its values are kept and written back.",
+                                        now.sky)
+                                .c_str());
+    const SkyMaking::Job* wanted = e.panel_state->skies.wanted();
+    const scene::ParamSet values = wanted && wanted->sky.table->type == now.sky ? wanted->values : now.sky_params;
+    bool advanced = false;
+    for (const model::Param& line : sky->table->params)
+        if (line.advanced)
+            advanced = true;
+        else
+            sky_param(e, *sky, values, line);
+    if (!advanced) return;
+    const bool unfolded = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_SpanAvailWidth);
+    e.mark("sky.advanced");
+    if (!unfolded) return;
+    for (const model::Param& line : sky->table->params)
+        if (line.advanced) sky_param(e, *sky, values, line);
+    ImGui::TreePop();
+}
+
 } // namespace
+
+void follow_sky(PanelContext& e) {
+    SkyMaking& skies = e.panel_state->skies;
+    auto made = skies.take(e.scene().environment.value);
+    if (!made) return;
+    if (!made->pixels) return e.notices.add(LogLevel::error, made->pixels.error().message);
+    const std::string gesture = made->job.gesture;
+    e.edit(
+        [&e, job = std::move(made->job), pixels = *made->pixels](const scene::Scene& s) {
+            scene::Edit edit =
+                scene::made_sky(s, job.sky.table->label, job.sky.table->type, job.values, pixels, e.up());
+            for (const scene::AnyChange& change : edit.changes)
+                if (const auto* sky = std::get_if<scene::ChangeOne<std::optional<Environment>>>(&change))
+                    e.panel_state->skies.made_environment(sky->after);
+            return Result<scene::Edit>(std::move(edit));
+        },
+        gesture);
+}
 
 bool has_light(const PanelContext& e) { return document::has_light(e.scene(), e.registry()); }
 
@@ -163,16 +227,17 @@ void sky_section(PanelContext& e) {
     }
     const auto& now = e.scene().environment.value;
     static constexpr const char* kinds[] = {"None", "One colour", "Image", "Neutral studio"};
-    int kind = !now ? 0 : !now->image ? 1 : 2;
+    const bool made = now && !now->sky.empty();
+    int kind = !now ? 0 : made ? 4 : !now->image ? 1 : 2;
     form_row("Sky", "What shines where the scene ends");
-    if (ImGui::BeginCombo("##kind", kinds[kind])) {
+    if (ImGui::BeginCombo("##kind", made ? now->name.c_str() : kinds[kind])) {
         for (int i = 0; i < 4; ++i) {
             if (ImGui::Selectable(kinds[i], i == kind) && i != kind) {
                 Environment sky =
                     now.value_or(Environment{.name = "Sky", .light_to_world = scene::upright_sky(e.up())});
                 if (i == 0) ask_sky(e, std::nullopt, "No sky");
                 if (i == 1) {
-                    sky.image = {};
+                    sky.image = {}, sky.sky.clear(), sky.sky_params = {};
                     ask_sky(e, sky, "Sky of one colour");
                 }
                 if (i == 3)
@@ -182,12 +247,20 @@ void sky_section(PanelContext& e) {
             }
             e.mark(std::string("sky.kind.") + kinds[i]);
         }
+        const auto catalogue = e.registry().catalogue();
+        for (const plugin::SkyEntry& sky : catalogue->skies) {
+            const bool is = made && now->sky == sky.table->type;
+            if (ImGui::Selectable(sky.table->label.c_str(), is) && !is) ask_made_sky(e, sky, {}, "");
+            tip(sky.table->tooltip.c_str());
+            e.mark("sky.kind." + sky.table->type);
+        }
         ImGui::EndCombo();
     }
     e.mark("sky.kind");
     const bool choosing = e.panel_state->scene.choose_sky;
-    if (now && now->image) e.panel_state->scene.choose_sky = false;
-    if ((now && now->image) || choosing) image_row(e, now.value_or(Environment{}));
+    if (now && now->image && !made) e.panel_state->scene.choose_sky = false;
+    if (made) sky_params(e, *now);
+    if ((now && now->image && !made) || choosing) image_row(e, now && !made ? *now : Environment{});
     if (now) {
         Environment sky = *now;
         bool changed = false;

@@ -7,6 +7,7 @@
 #include "image_loads.hpp"
 #include "material_balls.hpp"
 #include "selection.hpp"
+#include "sky_making.hpp"
 
 #include <glm/glm.hpp>
 #include <map>
@@ -96,10 +97,11 @@ struct PluginState { // actions and panels of plugins
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings that are not to come again with each frame
-    explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake) {}
+    explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake), skies(wake) {}
     // Of a scene that is no more.
     void forget_document() {
         balls.forget();
+        skies.stop();
         inspector = {};
         outliner = {};
         report = {};
@@ -111,6 +113,7 @@ struct PanelState {
 
     ImageLoads loads;
     MaterialBalls balls;
+    SkyMaking skies;
     InspectorState inspector;
     OutlinerState outliner;
     SceneState scene;

@@ -5,6 +5,7 @@
 
 #include <restage/material.h>
 #include <array>
+#include <cstdint>
 
 namespace restage::sdk {
 

@@ -175,6 +175,11 @@ typedef struct RestageEnvironment {
     float scale[3]; /* times the image; or the radiance itself */
     double light_to_world[16]; /* rotation (and mirror) */
     uint32_t hidden_from_camera; /* shines, but where the camera looks past everything it sees black */
+    uint32_t sky_value_count;
+    /* "", or the type of a sky plugin that makes the image of sky_values (restage/sky.h). To exporters the image is
+     * there all the same. An importer may leave `image` 0: the host makes it, where it has the plugin. */
+    const char* sky;
+    const RestageValue* sky_values;
 } RestageEnvironment;
 
 /* How a camera maps directions to the film, and what of RestageCamera it uses. */
@@ -274,6 +279,10 @@ typedef struct RestageSceneWriter1 {
     int (*decode_image)(void* ctx, const void* bytes, size_t size, const char* name, RestageDecodedImage* out);
     void (*release_image)(void* ctx,
                           RestageDecodedImage* image); /* once; `image` is zeroed. NULL and zeroed: nothing */
+    /* Every option of the importer's table, in its order, set or default; valid until load returns. A host of before
+     * 0.2 does not have them: look at `size`. */
+    const RestageValue* options;
+    uint32_t option_count;
 } RestageSceneWriter1;
 
 typedef struct RestageImporter1 {
@@ -285,6 +294,8 @@ typedef struct RestageImporter1 {
     int (*probe)(const char* path, const void* head, size_t head_size);
     /* [worker] 1 = done (perhaps with a report), 0 = broken: error() has been called. */
     int (*load)(const char* path, const RestageSceneWriter1* out);
+    const RestageParam* options; /* for example `up` (ENUM y|z); NULL = none. `load` finds the values at its writer */
+    uint32_t option_count;
 } RestageImporter1;
 
 /* Where an exporter reads. [worker]; handles are 1..count(kind), holes (removed things) give 0 from the getter. `size`

@@ -42,6 +42,9 @@ void Exporter::environment() {
     const Kept k = kept(*e.origin, what);
     if (e.hidden_from_camera)
         approximated(what, "pbrt has no sky that shines but is not seen by the camera: there it is seen");
+    if (e.sky && *e.sky)
+        approximated(what, std::string("pbrt knows no sky \"") + e.sky +
+                               "\": the picture that it makes is written, its values are not");
     std::array<float, 3> scale{e.scale[0], e.scale[1], e.scale[2]};
     Params params;
     std::string file;

@@ -5,6 +5,7 @@
 #include "common/bytes.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/options.hpp"
 #include "common/stage.hpp"
 #include "common/values.hpp"
 #include "object.hpp"
@@ -62,8 +63,9 @@ void load_mesh(const fs::path& path, const RestageSceneWriter1& out) {
     const bool ply = bytes.starts_with("ply") || lower(path.string()).find(".ply") != std::string::npos;
     Content content = ply ? from_ply(bytes) : from_stl(bytes);
     if (!out.progress(out.ctx, 0.9f, "making the object")) throw Cancelled{};
-    const Up up = ply ? Up::y : Up::z;
-    const Bounds bounds = add_objects(out, report, path, std::move(content));
+    const Placement placement(out, ply ? Up::y : Up::z);
+    const Up up = placement.up;
+    const Bounds bounds = add_objects(out, report, path, std::move(content), placement);
     add_camera(out, report, bounds, up);
     add_film(out);
     add_studio(out, report, up);

@@ -24,8 +24,14 @@ Rgb linear(const std::vector<float>& colors, std::size_t i) {
 
 class Maker {
   public:
-    Maker(const RestageSceneWriter1& out, Report& report, const fs::path& path, Content content)
-        : out_(out), report_(report), path_(path), name_(path.stem().string()), in_(std::move(content)) {}
+    Maker(const RestageSceneWriter1& out, Report& report, const fs::path& path, Content content,
+          const Placement& placement)
+        : out_(out),
+          report_(report),
+          path_(path),
+          name_(path.stem().string()),
+          in_(std::move(content)),
+          placement_(placement) {}
 
     Bounds run() {
         repair_normals();
@@ -113,7 +119,7 @@ class Maker {
 
     // `source`: the file an exporter may refer to instead, while the mesh is what is in it.
     void object(const MeshBuffer& mesh, const std::string& name, RestageHandle material, const std::string& source) {
-        const Matrix to_world = translation(in_.origin);
+        const Matrix to_world = placement_.of(translation(in_.origin));
         RestageInstance instance{};
         instance.name = name.c_str();
         instance.mesh = mesh.push(out_, name, source);
@@ -231,14 +237,16 @@ class Maker {
     const fs::path& path_;
     std::string name_;
     Content in_;
+    const Placement& placement_;
     Bounds bounds_;
     bool thick_ = false;
 };
 
 } // namespace
 
-Bounds add_objects(const RestageSceneWriter1& out, Report& report, const fs::path& path, Content content) {
-    return Maker(out, report, path, std::move(content)).run();
+Bounds add_objects(const RestageSceneWriter1& out, Report& report, const fs::path& path, Content content,
+                   const Placement& placement) {
+    return Maker(out, report, path, std::move(content), placement).run();
 }
 
 } // namespace restage::mesh

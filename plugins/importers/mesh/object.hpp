@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/mesh.hpp"
+#include "common/options.hpp"
 #include "common/ply.hpp"
 #include "common/report.hpp"
 
@@ -28,6 +29,7 @@ struct Content {
 
 // An object a picture, or one of its colours, or grey. A file of points or lines only gets thick ones. Returns where
 // they are. Throws ImportError where there is nothing to be seen.
-importing::Bounds add_objects(const RestageSceneWriter1&, importing::Report&, const std::filesystem::path&, Content);
+importing::Bounds add_objects(const RestageSceneWriter1&, importing::Report&, const std::filesystem::path&, Content,
+                              const importing::Placement&);
 
 } // namespace restage::mesh

@@ -5,12 +5,14 @@
 #include "common/error.hpp"
 #include "common/matrix.hpp"
 #include "common/mesh.hpp"
+#include "common/options.hpp"
 #include "common/report.hpp"
 #include "common/textures.hpp"
 #include "model.hpp"
 #include "mtl.hpp"
 
 #include <restage/scene_io.h>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -49,6 +51,8 @@ class Importer {
         RestageHandle group = 0;
     };
     void object(const MeshBuffer&, const MadeMaterial&, const Object&);
+    void gather(MeshBuffer, const MadeMaterial&, int material, const std::string& name); // for `merge`
+    void merged(); // the objects of what was gathered
     void strokes(); // of a file that has points and lines only
 
     // materials.cpp
@@ -77,6 +81,15 @@ class Importer {
     std::unordered_map<std::uint64_t, Vec3> smoothed_; // by smoothing group << 32 | vertex
     Bounds bounds_;
     std::size_t triangles_ = 0, objects_ = 0;
+    Placement placement_;
+    bool merge_ = false;
+    struct Gathered {
+        MeshBuffer mesh;
+        MadeMaterial material;
+        std::string name;
+    };
+    std::vector<Gathered> gathered_;
+    std::map<std::array<std::uint32_t, 3>, std::size_t> gathered_at_; // by material, with normals, with uvs
     bool stroked_ = false; // points and lines got a thickness
 };
 

@@ -18,7 +18,12 @@ namespace restage::obj {
 namespace fs = std::filesystem;
 
 Importer::Importer(const RestageSceneWriter1& writer, const fs::path& path, std::string_view text)
-    : out_(writer), path_(path), text_(text), report_(writer, path.string()) {}
+    : out_(writer),
+      path_(path),
+      text_(text),
+      report_(writer, path.string()),
+      placement_(writer, Up::y),
+      merge_(flag_option(writer, "merge")) {}
 
 namespace {
 
@@ -143,6 +148,7 @@ void Importer::run() {
         if (!out_.progress(out_.ctx, share, "making objects")) throw Cancelled{};
         shape(model_.shapes[i]);
     }
+    merged();
     if (model_.shapes.empty()) strokes();
     if (objects_ == 0) {
         tell_leftovers();
@@ -152,9 +158,9 @@ void Importer::run() {
     report_.kept("model", std::to_string(objects_) + " objects, " + std::to_string(triangles_) + " triangles, " +
                               std::to_string(made_.size()) + " materials");
     tell_leftovers();
-    add_camera(out_, report_, bounds_, Up::y);
+    add_camera(out_, report_, bounds_, placement_.up);
     add_film(out_);
-    add_studio(out_, report_, Up::y);
+    add_studio(out_, report_, placement_.up);
 }
 
 // A statement of one letter, and as many numbers behind it.

@@ -2,7 +2,16 @@
 // Entry point of the importer of OBJ files.
 #include "load.hpp"
 
+#include "common/options.hpp"
+
 #include <restage/scene_io.h>
+
+static const RestageParam options[] = {
+    restage::importing::units_option,
+    restage::importing::up_option,
+    RESTAGE_BOOL_PARAM("merge", "Merge", 0, 0,
+                       "Faces of one material become one object, whatever objects the file has"),
+};
 
 static const RestageImporter1 importer = {
     .size = sizeof(RestageImporter1),
@@ -11,6 +20,8 @@ static const RestageImporter1 importer = {
     .extensions = "obj",
     .probe = restage::obj::probe,
     .load = restage::obj::load,
+    .options = options,
+    .option_count = RESTAGE_COUNT(options),
 };
 
 RESTAGE_PLUGIN("org.restage.importer.obj", "0.1.0", {RESTAGE_IMPORTER1, &importer})

@@ -156,7 +156,7 @@ void Importer::object(const MeshBuffer& buffer, const MadeMaterial& made, const 
     if (made.emits) instance.flags = RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_TWO_SIDED;
     for (std::size_t i = 0; i < 3; ++i)
         instance.emission[i] = static_cast<float>(made.emission[i]);
-    const Matrix to_world = translation(model_.origin);
+    const Matrix to_world = placement_.of(translation(model_.origin));
     std::copy_n(to_world.m.begin(), 16, instance.object_to_world);
     if (!out_.instance(out_.ctx, &instance)) return;
     bounds_.add(buffer.bounds(), to_world);
@@ -168,7 +168,7 @@ void Importer::shape(const Shape& shape) {
     const std::set<int> used(shape.materials.begin(), shape.materials.end());
     const std::string name = shape.name.empty() ? path_.stem().string() : shape.name;
     RestageHandle group = 0;
-    if (used.size() > 1) {
+    if (used.size() > 1 && !merge_) {
         const RestageGroup g = {.name = name.c_str(), .parent = 0};
         group = out_.group(out_.ctx, &g);
     }
@@ -182,8 +182,35 @@ void Importer::shape(const Shape& shape) {
         const std::string own_name =
             group && id >= 0 ? name + "/" + model_.materials[static_cast<std::size_t>(id)].first : name;
         const MadeMaterial made = colored(buffer, vertices, id, own_name);
-        object(buffer, made, {own_name, group});
+        if (merge_)
+            gather(std::move(buffer), made, id, own_name);
+        else
+            object(buffer, made, {own_name, group});
     }
+}
+
+// Those that have normals, or coordinates, and those that do not stay apart: a mesh has them for all of its vertices.
+void Importer::gather(MeshBuffer buffer, const MadeMaterial& made, int id, const std::string& name) {
+    const std::array<std::uint32_t, 3> key{made.material, !buffer.normals.empty(), !buffer.uvs.empty()};
+    const auto [at, fresh] = gathered_at_.try_emplace(key, gathered_.size());
+    if (fresh) {
+        const std::string own = id >= 0 ? model_.materials[static_cast<std::size_t>(id)].first : name;
+        gathered_.push_back({std::move(buffer), made, own});
+        return;
+    }
+    MeshBuffer& all = gathered_[at->second].mesh;
+    const std::uint32_t first = all.vertex_count();
+    const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    append(all.positions, buffer.positions), append(all.normals, buffer.normals), append(all.uvs, buffer.uvs);
+    for (const std::uint32_t i : buffer.indices)
+        all.indices.push_back(first + i);
+}
+
+void Importer::merged() {
+    for (const Gathered& g : gathered_)
+        object(g.mesh, g.material, {g.name, 0});
 }
 
 void Importer::strokes() {

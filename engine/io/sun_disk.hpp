@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawing a sun into a picture of all directions: texels get the share of the disk that they cover, and their sum is
+// the disk's energy, radiance times solid angle, however coarse the picture is.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <glm/glm.hpp>
+
+namespace restage::io {
+
+struct Sun {
+    glm::dvec3 direction{0, 0, 1}; // unit, in the sky's frame
+    glm::vec3 radiance{0};
+    double angular_radius = 0.00465; // [rad]
+};
+
+double solid_angle(const Sun&); // [sr]
+// Of a point of an equal-area octahedral picture, in texels: restage_sky_direction().
+glm::dvec3 octahedral_direction(std::uint32_t width, double x, double y);
+// `picture`: square, equal-area octahedral, 3 channels.
+void draw_sun(scene::PixelData& picture, const Sun&);
+
+// The picture with each block of texels averaged; equal areas, so the light is the same. As it is where it is no wider.
+scene::PixelData coarse_sky(const scene::PixelData& picture, std::uint32_t width);
+
+} // namespace restage::io
