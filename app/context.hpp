@@ -5,6 +5,7 @@
 
 #include "base/log.hpp"
 #include "base/result.hpp"
+#include "io/services.hpp"
 #include "plugin/registry.hpp"
 #include "progress.hpp"
 
@@ -24,7 +25,7 @@ enum ExitCode : int {
 };
 
 inline plugin::RegistryOptions registry_options(bool safe_mode) {
-    return {.safe_mode = safe_mode, .quarantine = plugin::Registry::default_quarantine()};
+    return io::with_services({.safe_mode = safe_mode, .quarantine = plugin::Registry::default_quarantine()});
 }
 
 inline std::vector<plugin::SearchPath> search_paths(const std::vector<std::string>& first) {

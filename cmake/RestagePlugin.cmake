@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# restage_add_plugin(NAME <name> KIND material|importer|exporter|denoiser|sky SOURCES <files> MANIFEST plugin.json
+# restage_add_plugin(NAME <name> KIND <kind> SOURCES <files> MANIFEST plugin.json
 #                    [GLSL <files>] [FILES <files and folders>] [LINK <third-party targets>])
+# <kind>: material, texture, importer, exporter, denoiser, sky, action or panel. Of a bundle it is the chief one: part of
+# the folder's name and nothing else.
 # The build system's half of the SDK, here and (find_package(Restage)) for plugins outside of this repository.
 # Builds lib/restage/plugins/<kind>-<name>/ in the build tree: <name>.so, its manifest, its GLSL and what else it needs at
 # run time (FILES). A plugin sees the SDK headers and the third-party targets it names, nothing of the engine.
@@ -30,11 +32,11 @@ endfunction()
 
 function(restage_add_plugin)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;KIND;MANIFEST" "SOURCES;GLSL;FILES;LINK")
-    set(usage "restage_add_plugin(NAME n KIND material|importer|exporter|denoiser|sky SOURCES .. MANIFEST plugin.json)")
+    set(usage "restage_add_plugin(NAME n KIND <kind> SOURCES .. MANIFEST plugin.json)")
     if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_SOURCES OR NOT arg_MANIFEST)
         message(FATAL_ERROR "${usage}: incomplete, or not understood: '${arg_UNPARSED_ARGUMENTS}'")
     endif()
-    if(NOT arg_KIND MATCHES "^(material|importer|exporter|denoiser|sky)$")
+    if(NOT arg_KIND MATCHES "^(material|texture|importer|exporter|denoiser|sky|action|panel)$")
         message(FATAL_ERROR "${usage}: plugin '${arg_NAME}' has the unknown kind '${arg_KIND}'")
     endif()
     set(target restage_${arg_KIND}_${arg_NAME})
@@ -46,7 +48,7 @@ function(restage_add_plugin)
     if(TARGET restage_warnings)
         target_link_libraries(${target} PRIVATE restage_warnings)
     endif()
-    if(arg_KIND MATCHES "^(material|sky)$")
+    if(NOT arg_KIND MATCHES "^(importer|exporter|denoiser)$")
         # It may be loaded anew. GNU's unique symbols would pin what was before in memory.
         target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
     endif()

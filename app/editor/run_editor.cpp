@@ -6,6 +6,7 @@
 #include "editor.hpp"
 #include "farewell.hpp"
 #include "files.hpp"
+#include "io/services.hpp"
 #include "plugin/registry.hpp"
 #include "render/material_composer.hpp"
 #include "saving.hpp"
@@ -85,8 +86,8 @@ Result<int> run_editor(const RunOptions& options) {
         if (level != LogLevel::debug) std::fprintf(stderr, "restage: %.*s\n", int(line.size()), line.data());
         notices.add(level, std::string(line));
     });
-    plugin::Registry registry(
-        log, {.safe_mode = options.plugins.safe_mode, .quarantine = plugin::Registry::default_quarantine()});
+    plugin::Registry registry(log, io::with_services({.safe_mode = options.plugins.safe_mode,
+                                                      .quarantine = plugin::Registry::default_quarantine()}));
     registry.scan(options.plugins.paths);
 
     std::filesystem::path config = options.config_dir;

@@ -78,8 +78,8 @@ Scene everything_scene() {
     b.add(Instance{.name = "hidden", .mesh = full, .material = diffuse, .hidden = true});
     apply(b.scene, *remove_instances(b.scene, std::vector{removed}));
     apply(b.scene, *remove(b.scene, gone));
-    for (const auto kind : {scene::LightKind::point, scene::LightKind::spot, scene::LightKind::distant})
-        b.add(Light{.name = "light", .kind = kind, .light_to_world = at(1)});
+    for (const LightKindRow& row : light_kinds)
+        b.add(Light{.name = "light", .kind = row.kind, .light_to_world = at(1)});
     const auto first = b.add(Camera{.name = "first", .lens_radius = 0.1f, .focal_distance = 4});
     b.add(Camera{.name = "second", .screen_window = glm::vec4(-1, 1, -0.5f, 0.5f)});
     apply(b.scene, *set_active_camera(b.scene, first));

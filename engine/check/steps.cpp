@@ -72,29 +72,43 @@ const std::vector<Step>& denoiser_steps() {
          "values that are not looked at before they are used, threads that write to one place, or an answer of "
          "progress() that is ignored",
          "run()"},
+        {"denoise-leaks", "a hundred runs, of which some are stopped, leave nothing behind", check_denoise_leaks,
+         "a buffer that is not freed where run() returns early", "run()"},
     };
     return steps;
 }
 
 const std::vector<Step>& importer_steps() {
     static const std::vector<Step> steps = {
-        {"probe", "noise is answered, not crashed on", check_probe, "reading past the end of the head", "probe()"},
-        {"read", "its files twice the same; cut, changed and as noise an answer", check_read,
+        {"probe", "noise and beginnings of its files are answered, its own files recognized", check_probe,
+         "reading past the end of the head", "probe()"},
+        {"read", "its files twice the same; changed and as noise an answer", check_read,
          "counts, offsets and indices of a file that are believed", "load()"},
         {"options", "its files are read with each option at its ends, twice the same", check_read_options,
          "a choice that is not told apart, or a value that is divided by", "load()"},
-        {"stop", "it ends when progress says so", check_read_stop, "an answer of progress() that is ignored", "load()"},
+        {"cut", "its files cut short get an answer", check_read_cut, "a length of a file that is believed", "load()"},
+        {"stop", "it ends at whichever call of progress says so", check_read_stop,
+         "an answer of progress() that is ignored", "load()"},
+        {"read-leaks", "a hundred loads, of which some are refused and stopped, leave nothing behind", check_read_leaks,
+         "what is not freed, or not closed, where load() returns early", "load()"},
     };
     return steps;
 }
 
 const std::vector<Step>& exporter_steps() {
     static const std::vector<Step> steps = {
-        {"write", "something of everything, each option, twice the same bytes, a stop, a place that cannot be written",
-         check_write,
+        {"write", "something of everything, each option, twice the same bytes", check_write,
          "getters that return 0 (removed things, no environment) and optional pointers that are used "
          "unseen; or hash tables whose order gets into the file",
          "save()"},
+        {"write-stop", "it ends at whichever call of progress says so, and the old file stays", check_write_stop,
+         "an answer of progress() that is ignored, or a file that is written in place", "save()"},
+        {"place", "a place that cannot be written is refused, a full disk noticed, and the old file stays",
+         check_write_place, "writes whose result is not looked at, or a file that is written in place", "save()"},
+        {"roundtrip", "what an importer makes of its file is what was written", check_roundtrip,
+         "matrices that are transposed, indices off by one, or numbers with too few digits", "save() or load()"},
+        {"write-leaks", "a hundred saves, of which some are stopped, leave nothing behind", check_write_leaks,
+         "what is not freed, or not closed, where save() returns early", "save()"},
     };
     return steps;
 }

@@ -14,7 +14,9 @@ Result<StepResult> check_reload(Subject&);
 Result<StepResult> check_probe(Subject&);
 Result<StepResult> check_read(Subject&);
 Result<StepResult> check_read_options(Subject&);
+Result<StepResult> check_read_cut(Subject&);
 Result<StepResult> check_read_stop(Subject&);
+Result<StepResult> check_read_leaks(Subject&);
 // steps_exporter.cpp
 Result<StepResult> check_write(Subject&);
 // steps_sky.cpp
@@ -22,10 +24,17 @@ Result<StepResult> check_sky(Subject&);
 Result<StepResult> check_sky_params(Subject&);
 Result<StepResult> check_sky_stop(Subject&);
 Result<StepResult> check_sky_runs(Subject&);
+// steps_exporter_stop.cpp
+Result<StepResult> check_write_stop(Subject&);
+Result<StepResult> check_write_place(Subject&);
+Result<StepResult> check_write_leaks(Subject&);
+// steps_roundtrip.cpp
+Result<StepResult> check_roundtrip(Subject&);
 // steps_denoiser.cpp
 Result<StepResult> check_denoise(Subject&);
 Result<StepResult> check_denoise_sizes(Subject&);
 Result<StepResult> check_denoise_robust(Subject&);
+Result<StepResult> check_denoise_leaks(Subject&);
 // steps_inspector.cpp
 Result<StepResult> check_inspector(Subject&);
 Result<StepResult> check_tables(Subject&);

@@ -2,6 +2,7 @@
 // Denoisers: a constant picture of any size stays what it is, with all guides, some or none; pixels that are no numbers
 // do no harm; whoever asks it to stop is heard; the same picture twice gives the same bytes.
 #include "check/steps.hpp"
+#include "check/workplace.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -198,7 +199,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
     if (const std::string bad = lab.run(job, p, "120x75 pixels, with progress"); !bad.empty())
         return StepResult::failed(bad);
     const std::size_t all = stop.calls;
-    for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / 8, 1)) {
+    for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / s.size(64, 8), 1)) {
         stop = {0, k};
         s.doing(fmt::format("run(), stopped at call {} of progress()", k));
         const bool done = lab.d.run(job).has_value();
@@ -208,6 +209,22 @@ Result<StepResult> check_denoise_robust(Subject& s) {
     }
     return StepResult::passed({{"pictures", double(lab.runs)}, {"calls of progress()", double(all)}},
                               all == 0 ? "it never asks progress(): nobody can stop it" : "");
+}
+
+Result<StepResult> check_denoise_leaks(Subject& s) {
+    if (const std::string why = unavailable(s); !why.empty()) return StepResult::skip(why);
+    Lab lab{s};
+    Picture p(24, 16, 0.5f);
+    std::size_t run = 0;
+    return check_nothing_left("run(), to its end and stopped,", [&]() -> Result<> {
+        if (const std::string bad = lab.run(p.job(run % 4), p, p.describe(run % 4)); !bad.empty()) return fail(bad);
+        plugin::DenoiseJob job = p.job(both);
+        std::size_t calls = 0;
+        job.progress = [&](double) { return calls++ < run % 3; };
+        (void)lab.d.run(job);
+        ++run;
+        return {};
+    });
 }
 
 } // namespace restage::check

@@ -8,6 +8,7 @@
 #include "document/project.hpp"
 #include "io/export.hpp"
 #include "io/import.hpp"
+#include "io/services.hpp"
 #include "render/material_composer.hpp"
 #include "scene/edits.hpp"
 
@@ -232,7 +233,7 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
     RESTAGE_TRY(const std::filesystem::path bin, executable_dir());
     const auto plugins = bin.parent_path() / "lib/restage/plugins";
     Log silent([](LogLevel, std::string_view) {});
-    plugin::Registry registry(silent);
+    plugin::Registry registry(silent, io::with_services());
     const plugin::SearchPath paths[] = {
         {s.folder, true}, {plugins / "importer-pbrt", true}, {plugins / "exporter-pbrt", true}};
     registry.scan(paths);

@@ -2,8 +2,8 @@
 // Steps that every plugin takes, whatever it provides: manifest, loading with its tables, reloading.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
+#include "io/services.hpp"
 
-#include "base/file.hpp"
 #include "plugin/manifest.hpp"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ Result<StepResult> check_reload(Subject& s) {
     for (int i = 0; i < warm_up + times; ++i) {
         if (i == warm_up) before = resources();
         Log silent([](LogLevel, std::string_view) {});
-        plugin::Registry registry(silent);
+        plugin::Registry registry(silent, io::with_services());
         const plugin::SearchPath path[] = {{s.folder, true}};
         registry.scan(path);
         for (const plugin::Entry* e : registry.entries())

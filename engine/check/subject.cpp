@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "io/services.hpp"
 
 #include <fmt/format.h>
 #include <chrono>
@@ -43,7 +44,7 @@ Subject::Subject(fs::path f, CheckOptions o, std::function<void()> a)
 
 Result<> Subject::load() {
     log_lines.clear();
-    registry_ = std::make_unique<plugin::Registry>(log_);
+    registry_ = std::make_unique<plugin::Registry>(log_, io::with_services());
     const plugin::SearchPath path[] = {{folder, true}};
     registry_->scan(path);
     for (const plugin::Entry* e : registry_->entries())

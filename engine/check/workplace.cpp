@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <locale>
+#include <fstream>
 #include <random>
 #include <sstream>
 #if defined(__GLIBC__)

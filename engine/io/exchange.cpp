@@ -30,8 +30,17 @@ void Exchange::raise(const char* file, std::uint32_t line, std::uint32_t column,
 }
 
 bool Exchange::proceed(float done, const char* what) {
-    if (!cancelled_ && progress_ && !progress_(done, text(what))) cancelled_ = true;
+    if (cancelled_)
+        ++unheard_;
+    else if (progress_ && !progress_(done, text(what)))
+        cancelled_ = true;
     return !cancelled_;
+}
+
+std::string Exchange::how_stopped() const {
+    constexpr std::size_t patience = 100; // several threads may be on their way
+    return ": stopped on request" +
+           (unheard_ <= patience ? "" : "; the plugin went on and asked " + std::to_string(unheard_) + " times more");
 }
 
 glm::dmat4 matrix(const double m[16]) {

@@ -17,6 +17,8 @@ class Exchange {
   public:
     const std::string& error() const { return error_; } // "file:line:column: message"; "" = none was raised
     bool cancelled() const { return cancelled_; }
+    // ": stopped on request", and of a plugin that does not listen that it went on: `restage check` looks for it.
+    std::string how_stopped() const;
 
     Report report;
 
@@ -51,6 +53,7 @@ class Exchange {
     Progress progress_;
     std::string error_;
     bool cancelled_ = false;
+    std::size_t unheard_ = 0; // calls of progress after the first that said stop
 };
 
 inline std::string text(const char* c) { return c ? c : ""; }

@@ -63,7 +63,7 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     const bool saved = chosen.native->save(path.c_str(), &reader.table(), values.data(),
                                            static_cast<std::uint32_t>(values.size())) != 0;
     note.reset();
-    if (reader.cancelled()) return cancelled(path + ": stopped on request");
+    if (reader.cancelled()) return cancelled(path + reader.how_stopped());
     if (!reader.error().empty()) return fail(reader.error());
     if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" gave up and did not say why");
     return std::move(reader.report);

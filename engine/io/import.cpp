@@ -84,8 +84,7 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it read " + path));
     const bool loaded = chosen.native->load(path.c_str(), &writer.table()) != 0;
     note.reset();
-    writer.drop_decoded();
-    if (writer.cancelled()) return cancelled(path + ": stopped on request");
+    if (writer.cancelled()) return cancelled(path + writer.how_stopped());
     if (!writer.error().empty()) return fail(writer.error());
     if (!loaded) return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");
     std::optional<Jobs> own;

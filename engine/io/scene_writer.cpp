@@ -94,8 +94,6 @@ SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)
               .error = Calls::error,
               .progress = Calls::progress,
               .material_table = Calls::material_table,
-              .decode_image = Calls::decode_image,
-              .release_image = Calls::release_image,
               .options = nullptr,
               .option_count = 0};
 }

@@ -22,8 +22,6 @@
 
 namespace restage::io {
 
-struct DecodedImage;
-
 class SceneWriter : public Exchange {
   public:
     SceneWriter(const plugin::Registry&, Progress);
@@ -36,9 +34,6 @@ class SceneWriter : public Exchange {
 
     // Names what has no name, gives a scene without camera one, decodes images, validates. Call once, after load.
     Result<> finish(Jobs&, bool read_images);
-
-    // Call once load has returned: what the importer decoded and did not release goes.
-    void drop_decoded();
 
     scene::Scene scene;
     bool unexposed = false; // RestageFilm::unexposed
@@ -69,8 +64,6 @@ class SceneWriter : public Exchange {
     std::vector<RestageValue> given_options_; // point into options_
     std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
     std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;
-    std::map<void*, std::shared_ptr<const DecodedImage>> decoded_; // given to the importer
-    std::string decode_problem_;
 };
 
 } // namespace restage::io

@@ -30,10 +30,6 @@ struct SceneWriter::Calls {
     static RestageHandle material(void* ctx, const RestageMaterialDesc* in);
     static RestageHandle medium(void* ctx, const RestageMedium* in);
 
-    // scene_writer_decode.cpp
-    static int decode_image(void* ctx, const void* bytes, std::size_t size, const char* name, RestageDecodedImage* out);
-    static void release_image(void* ctx, RestageDecodedImage* image);
-
     // scene_writer_view.cpp
     static RestageHandle light(void* ctx, const RestageLight* in);
     static void environment(void* ctx, const RestageEnvironment* in);

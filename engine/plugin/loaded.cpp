@@ -8,7 +8,6 @@
 #include "plugin/tables.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <ranges>
 
@@ -29,7 +28,21 @@ void host_log(const RestageHost* host, int level, const char* line) {
 }
 
 const void* host_service(const RestageHost* host, const char* id) {
-    return id && std::strcmp(id, RESTAGE_LOG) == 0 ? &reinterpret_cast<const Host*>(host)->log_table : nullptr;
+    const Host& self = *reinterpret_cast<const Host*>(host);
+    const std::string_view wanted = id ? id : "";
+    if (wanted == RESTAGE_LOG) return &self.log_table;
+    const auto found = std::ranges::find(self.services, wanted, &HostService::id);
+    return found == self.services.end() ? nullptr : found->table;
+}
+
+HostOffer offer_of(const RegistryOptions& options) {
+    HostOffer offer{.version = version(), .interfaces = {}, .services = {RESTAGE_LOG}};
+    offer.interfaces.assign(known_interfaces().begin(), known_interfaces().end());
+    for (const MaterialAdapter& adapter : options.material_adapters)
+        offer.interfaces.emplace_back(adapter.interface_id);
+    for (const HostService& service : options.services)
+        offer.services.emplace_back(service.id);
+    return offer;
 }
 
 // All tables of an interface.
@@ -46,21 +59,22 @@ Result<std::vector<const void*>> query_all(const RestagePlugin& plugin, const ch
 } // namespace
 
 Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manifest& manifest,
-                                             std::span<const MaterialAdapter> materials, Log& log) {
+                                             const RegistryOptions& host, Log& log) {
     const std::string file = (folder / "plugin.json").string();
-    RESTAGE_CHECK(check_needs(manifest, version(), file));
+    RESTAGE_CHECK(check_needs(manifest, offer_of(host), file));
     std::error_code code;
     for (const fs::path& needed : manifest.files)
         if (!fs::exists(folder / needed, code))
             return fail(file + ": \"files\": " + (folder / needed).string() + " is missing");
     std::unique_ptr<Loaded> loaded(new Loaded);
-    if (!manifest.library.empty()) RESTAGE_CHECK(loaded->open_library(folder, manifest, log));
-    RESTAGE_CHECK(loaded->take_materials(folder, manifest, materials, log));
+    if (!manifest.library.empty()) RESTAGE_CHECK(loaded->open_library(folder, manifest, host.services, log));
+    RESTAGE_CHECK(loaded->take_materials(folder, manifest, host.material_adapters, log));
     if (loaded->table_) RESTAGE_CHECK(loaded->take_formats(manifest, (folder / manifest.library).string()));
     return loaded;
 }
 
-Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, Log& log) {
+Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, std::span<const HostService> services,
+                              Log& log) {
     const fs::path library = folder / manifest.library;
     std::error_code code;
     if (!fs::exists(library, code)) {
@@ -96,7 +110,8 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
     host_ = {.c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = version(), .service = host_service},
              .log_table = {.size = sizeof(RestageLog1), .log = host_log},
              .log = &log,
-             .id = manifest.id};
+             .id = manifest.id,
+             .services = services};
     table_ = table;
     if (table->init && !table->init(&host_.c)) return fail(library.string() + ": its init function reports failure");
     running_ = true;

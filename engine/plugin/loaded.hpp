@@ -13,6 +13,7 @@
 #include "plugin/library.hpp"
 #include "plugin/manifest.hpp"
 #include "plugin/material_source.hpp"
+#include "plugin/registry.hpp"
 
 #include <restage/plugin.h>
 #include <deque>
@@ -28,15 +29,15 @@ struct Host { // one per opening, so that its log lines carry the plugin's name
     RestageLog1 log_table;
     Log* log;
     std::string id;
+    std::span<const HostService> services;
 };
 
 class Loaded {
   public:
     // Judges, in this order: what it needs, files there, library opens, entry symbol, entry abi and size, id and
-    // version as promised, init, tables. The error is the sentence that refuses the plugin. `materials`: revisions of
-    // their interface, the newest first.
+    // version as promised, init, tables. The error is the sentence that refuses the plugin.
     static Result<std::unique_ptr<Loaded>> open(const std::filesystem::path& folder, const Manifest& manifest,
-                                                std::span<const MaterialAdapter> materials, Log& log);
+                                                const RegistryOptions& host, Log& log);
     ~Loaded();
     Loaded(const Loaded&) = delete;
 
@@ -72,7 +73,8 @@ class Loaded {
 
   private:
     Loaded() = default;
-    Result<> open_library(const std::filesystem::path& folder, const Manifest& manifest, Log& log);
+    Result<> open_library(const std::filesystem::path& folder, const Manifest& manifest,
+                          std::span<const HostService> services, Log& log);
     Result<> take_materials(const std::filesystem::path& folder, const Manifest&,
                             std::span<const MaterialAdapter> adapters, Log&);
     Result<> take_formats(const Manifest&, const std::string& who); // and what else has no GLSL

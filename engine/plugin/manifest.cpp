@@ -212,28 +212,23 @@ std::span<const std::string_view> known_interfaces() {
     return all;
 }
 
-std::span<const std::string_view> offered_services() {
-    static constexpr std::string_view all[] = {"restage.log/1"};
-    return all;
-}
-
-Result<> check_needs(const Manifest& manifest, const std::string& host_version, const std::string& file) {
+Result<> check_needs(const Manifest& manifest, const HostOffer& offer, const std::string& file) {
     if (const auto conditions = conditions_of(manifest.needs_host))
         for (const auto& [least, version] : *conditions) {
-            const auto host = version_of(host_version).value_or(std::array<int, 3>{});
+            const auto host = version_of(offer.version).value_or(std::array<int, 3>{});
             if (least ? host < version : host >= version)
-                return fail(file + ": needs Restage " + manifest.needs_host + ", this is " + host_version +
+                return fail(file + ": needs Restage " + manifest.needs_host + ", this is " + offer.version +
                             (least ? ": the plugin is too new; update the program"
                                    : ": the plugin is too old; update the plugin"));
         }
-    const auto has = [](std::span<const std::string_view> list, const std::string& id) {
+    const auto has = [](const std::vector<std::string_view>& list, const std::string& id) {
         return std::find(list.begin(), list.end(), id) != list.end();
     };
     for (const std::string& id : manifest.needs_interfaces)
-        if (!has(offered_services(), id) && !has(known_interfaces(), id))
+        if (!has(offer.services, id) && !has(offer.interfaces, id))
             return fail(file + ": needs " + id + ", which this program does not have: update the program");
     if (std::none_of(manifest.provides.begin(), manifest.provides.end(),
-                     [&](const std::string& id) { return has(known_interfaces(), id); }))
+                     [&](const std::string& id) { return has(offer.interfaces, id); }))
         return fail(file + ": provides " + manifest.provides[0] +
                     ", which this program cannot use: the plugin is too new; update the program");
     return {};

@@ -50,10 +50,12 @@ struct Manifest {
 Result<Manifest> parse_manifest(const std::string& text, const std::string& file);
 Result<Manifest> read_manifest(const std::filesystem::path& file);
 
-// What this program can use of a plugin, and what it offers to one.
-std::span<const std::string_view> known_interfaces();
-std::span<const std::string_view> offered_services();
-// Does a program of this version fulfil what the manifest needs? The error is the sentence that refuses the plugin.
-Result<> check_needs(const Manifest&, const std::string& host_version, const std::string& file);
+std::span<const std::string_view> known_interfaces(); // that this program can use of a plugin
+struct HostOffer {
+    std::string version; // of the program
+    std::vector<std::string_view> interfaces, services; // that it can use of a plugin, and that it offers to one
+};
+// Does the program fulfil what the manifest needs? The error is the sentence that refuses the plugin.
+Result<> check_needs(const Manifest&, const HostOffer&, const std::string& file);
 
 } // namespace restage::plugin

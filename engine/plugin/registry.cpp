@@ -176,7 +176,7 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
     std::shared_ptr<Loaded> loaded;
     {
         const CrashNote note(entry.blame("while it was being loaded"));
-        RESTAGE_TRY(loaded, Loaded::open(entry.folder, manifest, options_.material_adapters, log_));
+        RESTAGE_TRY(loaded, Loaded::open(entry.folder, manifest, options_, log_));
     }
     RESTAGE_CHECK(unique(plugin, *loaded));
     if (judged && judge_)

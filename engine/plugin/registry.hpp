@@ -115,10 +115,17 @@ struct SearchPath {
     bool own = false;             // the program's own plugins
 };
 
+// What the host offers to plugins besides the log, from the modules above.
+struct HostService {
+    const char* id;    // "restage.image/1"
+    const void* table; // alive as long as the program
+};
+
 struct RegistryOptions {
     bool safe_mode = false; // the program's own plugins only
     std::filesystem::path quarantine; // folder, see Quarantine; empty: crashes are not remembered
     std::span<const MaterialAdapter> material_adapters = {}; // empty: those of plugin/adapters.hpp
+    std::span<const HostService> services = {}; // io/services.hpp has them
 };
 
 // What became of a plugin whose files changed.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host.hpp"
+#include "io/services.hpp"
 
 #include "render/material_composer.hpp"
 
@@ -87,7 +88,7 @@ Host::Host(const fs::path& home)
           const std::lock_guard lock(queue_mutex_);
           queue_.emplace_back(level, line);
       }),
-      registry_(log_, {.quarantine = plugin::Registry::default_quarantine()}) {
+      registry_(log_, io::with_services({.quarantine = plugin::Registry::default_quarantine()})) {
     registry_.scan(plugin::Registry::default_paths(home));
     registry_.set_judge(render::material_judge(home / "share/restage/shaders"));
 }

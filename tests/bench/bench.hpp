@@ -3,6 +3,7 @@
 // that end the process with a sentence.
 #pragma once
 
+#include "io/services.hpp"
 #include "plugin/registry.hpp"
 #include "render/renderer.hpp"
 
@@ -52,7 +53,7 @@ Seconds time(F&& f) {
 
 struct Plugins {
     Log log;
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     Plugins() {
         log.set_threshold(LogLevel::warning);
         registry.scan(plugin::Registry::default_paths());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/log.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "temporary_folder.hpp"
@@ -32,7 +33,7 @@ using Folder = TemporaryFolder;
 
 class Importers {
   public:
-    Importers() : registry(log_) {
+    Importers() : registry(log_, io::with_services()) {
         const plugin::SearchPath path[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
         registry.scan(path);
     }

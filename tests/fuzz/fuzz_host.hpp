@@ -2,6 +2,9 @@
 // What the fuzz targets of importers share: a host that takes everything, and one file a process.
 #pragma once
 
+#include "common/picture.hpp"
+
+#include <restage/image.h>
 #include <restage/scene_io.h>
 #include <unistd.h>
 #include <cstdint>
@@ -48,16 +51,25 @@ inline RestageSceneWriter1 host() {
             .material_table = [](void*, const char*, uint32_t* count) -> const RestageParam* {
                 *count = 0;
                 return nullptr;
+            }};
+}
+
+// Four texels, whatever the bytes: the decoders have a target of their own (fuzz_image).
+inline const RestageHost& services() {
+    static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255, 9, 9, 9, 0, 130, 120, 250, 255};
+    static const RestageImageService1 images{
+        .size = sizeof(RestageImageService1),
+        .decode =
+            [](const RestageHost*, const void*, uint64_t, const char*, RestageDecodedImage* out) {
+                *out = {.width = 2, .height = 2, .channels = 4, .bits = 8, .texels = texels, .problem = ""};
+                return 1;
             },
-            .decode_image =
-                [](void*, const void*, size_t, const char*, RestageDecodedImage* out) {
-                    // Four texels, whatever the bytes: the decoders have a target of their own (fuzz_image).
-                    static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255,
-                                                           9, 9,   9,   0, 130, 120, 250, 255};
-                    *out = {.width = 2, .height = 2, .channels = 4, .bits = 8, .texels = texels, .problem = ""};
-                    return 1;
-                },
-            .release_image = [](void*, RestageDecodedImage* image) { *image = {}; }};
+        .release = [](const RestageHost*, RestageDecodedImage* image) { *image = {}; }};
+    static const RestageHost host{RESTAGE_ABI, sizeof(RestageHost), "fuzz",
+                                  [](const RestageHost*, const char* id) -> const void* {
+                                      return std::string_view(id) == RESTAGE_IMAGE_SERVICE ? &images : nullptr;
+                                  }};
+    return host;
 }
 
 // Writes the bytes to a file with that extension and hands it to the importer. What follows a line "@@" goes into a
@@ -78,6 +90,7 @@ inline void import(const uint8_t* data, std::size_t size, const std::string& ext
     write(folder / (extension == ".obj" ? "beside.mtl" : "beside.bin"),
           cut == all.npos ? std::string_view() : all.substr(cut + mark.size()));
     handles = 0;
+    importing::use_host_pictures(&services());
     const RestageSceneWriter1 writer = host();
     load(path.c_str(), &writer);
 }

@@ -52,7 +52,7 @@ TEST_CASE("a hundred reloads of a material's library lose nothing", "[reload]") 
 TEST_CASE("registries that come and go lose nothing", "[reload]") {
     Log silent([](LogLevel, std::string_view) {});
     for (int i = 0; i < 100; ++i) {
-        plugin::Registry registry(silent);
+        plugin::Registry registry(silent, io::with_services());
         const auto plugins = restage::test::build_dir() / "lib/restage/plugins";
         const plugin::SearchPath paths[] = {{material_folder(), true}, {plugins / "importer-obj", true}};
         registry.scan(paths);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/bench.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 
 #include <stdexcept>
@@ -24,7 +25,7 @@ Bench::Bench()
     : log_([](LogLevel level, std::string_view line) {
           if (level == LogLevel::error) throw std::runtime_error(std::string(line));
       }),
-      registry_(log_) {
+      registry_(log_, io::with_services()) {
     const plugin::SearchPath paths[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
     registry_.scan(paths);
     for (const plugin::Entry* entry : registry_.entries())

@@ -11,16 +11,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-#if defined(NATIVE_IMPORTER_CRASHES) || defined(NATIVE_EXPORTER_CRASHES) || defined(NATIVE_INSPECTOR_CRASHES) || \
-    defined(NATIVE_TABLE_CRASHES)
+#if defined(NATIVE_IMPORTER_CRASHES) || defined(NATIVE_IMPORTER_CUT) || defined(NATIVE_EXPORTER_CRASHES) || \
+    defined(NATIVE_INSPECTOR_CRASHES) || defined(NATIVE_TABLE_CRASHES)
 static int* volatile nowhere;
+#endif
+
+#if defined(NATIVE_IMPORTER_LOSES) || defined(NATIVE_EXPORTER_LOSES) || defined(NATIVE_DENOISER_LOSES)
+char* volatile lost; /* the last of those that are never freed */
 #endif
 
 /* --- an importer of lines "x y size": a triangle each ---------------------------------------------------------- */
 
 static int probe(const char* path, const void* head, size_t size) {
     (void)path;
+#if defined(NATIVE_IMPORTER_SURE)
+    (void)head;
+    return size >= 4 ? 1000 : 0;
+#elif defined(NATIVE_IMPORTER_DENIES)
+    (void)head;
+    return size > 1u << 20;
+#else
     return size >= 4 && memcmp(head, "#tri", 4) == 0 ? 100 : 0;
+#endif
 }
 
 static int load(const char* path, const RestageSceneWriter1* out) {
@@ -33,6 +45,8 @@ static int load(const char* path, const RestageSceneWriter1* out) {
     }
 #if defined(NATIVE_IMPORTER_CRASHES)
     *nowhere = 1;
+#elif defined(NATIVE_IMPORTER_LOSES)
+    lost = (char*)malloc(100);
 #endif
     while (fgets(line, sizeof line, file)) {
         double x, y, size;
@@ -72,9 +86,14 @@ static int load(const char* path, const RestageSceneWriter1* out) {
         instance.object_to_world[0] = instance.object_to_world[5] = instance.object_to_world[10] = size;
         instance.object_to_world[12] = x, instance.object_to_world[13] = y, instance.object_to_world[15] = 1;
         out->instance(out->ctx, &instance);
+#if defined(NATIVE_IMPORTER_CUT)
+        if (!strchr(line, '\n')) *nowhere = 1; /* a line that ends with the file */
+#endif
         if (!out->progress(out->ctx, 0.5f, "reading")) {
+#if !defined(NATIVE_IMPORTER_DEAF)
             fclose(file);
             return 0;
+#endif
         }
     }
     fclose(file);
@@ -84,13 +103,42 @@ static const RestageImporter1 importer = {sizeof(RestageImporter1), "tri", "Tria
 
 /* --- an exporter of the names of all objects --------------------------------------------------------------------- */
 
+#if defined(NATIVE_EXPORTER_IN_PLACE)
+static void give_up(FILE* file, const char* part) {
+    fclose(file);
+    (void)part;
+}
+#else
+static void give_up(FILE* file, const char* part) {
+    fclose(file);
+#if !defined(NATIVE_EXPORTER_LITTERS)
+    remove(part);
+#else
+    (void)part;
+#endif
+}
+#endif
+
 static int save(const char* path, const RestageSceneReader1* in, const RestageValue* options, uint32_t count) {
     const uint32_t objects = in->count(in->ctx, RESTAGE_KIND_INSTANCE);
+    char part[4096];
     uint32_t i;
-    FILE* file = fopen(path, "wb");
+    int bad;
+    FILE* file;
     (void)options, (void)count;
+#if defined(NATIVE_EXPORTER_IN_PLACE)
+    snprintf(part, sizeof part, "%s", path);
+#else
+    snprintf(part, sizeof part, "%s.part", path);
+#endif
+#if defined(NATIVE_EXPORTER_LOSES)
+    lost = (char*)malloc(100);
+#endif
+    file = fopen(part, "wb");
     if (!file) {
+#if !defined(NATIVE_EXPORTER_SILENT)
         in->error(in->ctx, path, "cannot be written");
+#endif
         return 0;
     }
     for (i = 1; i <= objects; ++i) {
@@ -102,10 +150,14 @@ static int save(const char* path, const RestageSceneReader1* in, const RestageVa
             continue;
         }
         fprintf(file, "%s\n", instance.name);
+#if defined(NATIVE_EXPORTER_DEAF)
+        in->progress(in->ctx, (float)i / (float)objects, "writing");
+#else
         if (!in->progress(in->ctx, (float)i / (float)objects, "writing")) {
-            fclose(file);
+            give_up(file, part);
             return 0;
         }
+#endif
     }
 #if defined(NATIVE_EXPORTER_VARIES)
     {
@@ -113,7 +165,21 @@ static int save(const char* path, const RestageSceneReader1* in, const RestageVa
         fprintf(file, "%d\n", ++times);
     }
 #endif
+    bad = fflush(file) != 0 || ferror(file);
+#if defined(NATIVE_EXPORTER_CARELESS)
+    bad = 0;
+#endif
+    if (bad) {
+        in->error(in->ctx, path, "cannot be written: is the disk full?");
+        give_up(file, part);
+        return 0;
+    }
     fclose(file);
+    if (strcmp(part, path) != 0 && rename(part, path) != 0) {
+        in->error(in->ctx, path, "cannot be replaced");
+        remove(part);
+        return 0;
+    }
     return 1;
 }
 static const RestageExporter1 exporter = {sizeof(RestageExporter1), "names", "Names", "names", NULL, 0, save};
@@ -129,7 +195,9 @@ static int run(const RestageDenoiseJob* job, const char** reason) {
     const size_t count = (size_t)job->width * job->height * 3;
     size_t i;
     *reason = "";
-#if defined(NATIVE_DENOISER_SIZE)
+#if defined(NATIVE_DENOISER_LOSES)
+    lost = (char*)malloc(100);
+#elif defined(NATIVE_DENOISER_SIZE)
     if (job->width != 96 || job->height != 64) {
         *reason = "only 96x64";
         return 0;
@@ -145,9 +213,19 @@ static int run(const RestageDenoiseJob* job, const char** reason) {
 #if defined(NATIVE_DENOISER_GUIDES)
         job->output[i] += 0 * job->albedo[i]; /* may be NULL */
 #endif
+#if defined(NATIVE_DENOISER_DARKENS)
+        job->output[i] *= 0.9f;
+#elif defined(NATIVE_DENOISER_VARIES)
+        {
+            static float drift = 1;
+            job->output[i] *= drift += 1e-7f;
+        }
+#endif
         if (i % 1024 == 0 && job->progress && !job->progress(job->progress_ctx, (double)i / (double)count)) {
+#if !defined(NATIVE_DENOISER_DEAF)
             *reason = "stopped";
             return 0;
+#endif
         }
     }
 #if defined(NATIVE_DENOISER_OVERRUNS)

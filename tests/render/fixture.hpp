@@ -2,6 +2,7 @@
 // Renders small scenes on the test device with both tracers, and says how far a mean is from its closed form.
 #pragma once
 
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "render/renderer.hpp"
@@ -15,7 +16,7 @@ namespace restage::tests {
 
 struct Plugins { // of the build tree
     Log log;
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     Plugins() {
         const plugin::SearchPath path{restage::test::build_dir() / "lib/restage/plugins", true};
         registry.scan({&path, 1});

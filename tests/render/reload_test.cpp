@@ -2,6 +2,7 @@
 // A material whose plugin is loaded anew while it is rendered: the picture follows, a version that does not compile
 // changes nothing, and nothing of the old versions stays.
 #include "base/file.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "render/checks.hpp"
 #include "render/material_composer.hpp"
@@ -39,7 +40,7 @@ struct Paint { // our plugins, and one that the test edits
     Log log{[this](LogLevel level, std::string_view line) {
         if (level == LogLevel::error) said += std::string(line) + "\n";
     }};
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     Paint() {
         write("vec3(m.gray)", one);
         const std::filesystem::path shaders = restage::test::source_dir() / "shaders";

@@ -2,6 +2,7 @@
 // The Site that materials may ask for: its numbers against closed forms, in both tracers, with a material that shows
 // them as its albedo under a white sky, which one sample of the BSDF finds without noise.
 #include "fixture.hpp"
+#include "io/services.hpp"
 #include "render/material_composer.hpp"
 #include "scene_builder.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 struct Dots { // our plugins, and the one that shows its Site
     Log log;
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     Dots() {
         const plugin::SearchPath paths[] = {{restage::test::build_dir() / "lib/restage/plugins", true},
                                             {restage::test::source_dir() / "tests/plugins_site", true}};

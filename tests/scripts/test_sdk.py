@@ -5,6 +5,7 @@ tree against what was installed, checked and rendered. And what plugins that cra
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 from pathlib import Path
@@ -33,10 +34,10 @@ def installed(tmp_path_factory):
     return prefix
 
 
-def build(folder, prefix):
+def build(folder, prefix, kind="material"):
     run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release")
     run("cmake", "--build", folder / "build")
-    return folder / "build" / "lib" / "restage" / "plugins" / f"material-{folder.name}"
+    return folder / "build" / "lib" / "restage" / "plugins" / f"{kind}-{folder.name}"
 
 
 def picture(restage, plugins, scene, out):
@@ -85,13 +86,20 @@ def test_new_plugin_refuses(installed, tmp_path):
     assert "full/file: is there already, and no folder" in said("velours", "--folder", "full/file")
     assert "--label: quotes, backslashes" in said("velours", "--label", 'So "soft"')
     assert '"nonsense" is not in reverse-DNS form' in said("velours", "--id", "nonsense")
+    assert 'there is an importer "pbrt" already' in said("pbrt", "--kind", "importer")
+    assert 'there is a denoiser "oidn" already' in said("oidn", "--kind", "denoiser")
+    assert "an exporter is written in cpp" in said("soup", "--kind", "exporter", "--language", "json")
+    assert '"no-dash" cannot be the name of an importer' in said("no-dash", "--kind", "importer")
     assert [p.name for p in tmp_path.iterdir()] == ["full"], "a failed command leaves nothing behind"
+    unknown = run(restage, "new-plugin", "x", "--kind", "nonsense", ok=False, cwd=tmp_path)
+    assert unknown.returncode != 0 and "importer" in unknown.stderr
 
 
 def test_the_tutorial(installed, tmp_path):
     """docs/plugins.md, literally: what it says to type is typed, and what it says happens happens."""
     restage = installed / "bin" / "restage"
     text = (SOURCE / "docs" / "plugins.md").read_text()
+    text, _, _ = text.partition("\n## The other kinds\n")
     blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.S)
     row, ui, file_row, reader = (b for language, b in blocks if language == "c")
     (glsl,) = (b for language, b in blocks if language == "glsl")
@@ -126,6 +134,93 @@ def test_the_tutorial(installed, tmp_path):
     (plugin / "silk.dat").write_bytes(bytes(3))
     failed = run(restage, "check", plugin, "--quick", "--only", "params", ok=False)
     assert failed.returncode == 1 and "silk.dat: is no list of floats" in failed.stdout
+
+
+def section(heading):
+    """Of docs/plugins.md: the line that makes the plugin, and the blocks of code."""
+    text = (SOURCE / "docs" / "plugins.md").read_text()
+    text = text.split(f"\n### {heading}\n")[1].split("\n## ")[0].split("\n### ")[0]
+    (make,) = re.findall(r"^    restage (new-plugin .*)$", text, re.M)
+    return shlex.split(make), re.findall(r"```c(?:pp)?\n(.*?)```", text, re.S)
+
+
+def made(installed, tmp_path, heading):
+    """The plugin of a tutorial as it is written at first, built and checked."""
+    make, blocks = section(heading)
+    run(installed / "bin" / "restage", *make, cwd=tmp_path)
+    folder, kind = tmp_path / make[1], make[make.index("--kind") + 1]
+    files = [f for f in folder.rglob("*") if f.is_file()]
+    assert not [f for f in files if "@" in f.read_text() or "NAME" in f.name], "a placeholder was left"
+    plugin = build(folder, installed, kind)
+    run(installed / "bin" / "restage", "check", plugin)
+    return folder, plugin, blocks
+
+
+def change(source, before, after):
+    text = source.read_text()
+    assert text.count(before) == 1, before
+    source.write_text(text.replace(before, after))
+
+
+def test_the_importer_of_the_tutorial(installed, tmp_path):
+    restage = installed / "bin" / "restage"
+    folder, plugin, (lamp,) = made(installed, tmp_path, "An importer")
+    sample = folder / "samples" / "pyramid.tris"
+
+    def info():
+        return json.loads(run(restage, "--plugin-path", plugin.parent, "info", sample, "--json").stdout)
+
+    assert info()["objects"] == 2 and info()["lights"]["point"] == 0
+    change(folder / "tris.cpp", "        // Further keywords go here.\n", lamp)
+    sample.write_text(sample.read_text() + "lamp 2 -2 3 40\nnonsense 1\n")
+    build(folder, installed, "importer")
+    run(restage, "check", plugin, "--quick")
+    assert info()["lights"]["point"] == 1
+    assert info()["report_counts"]["dropped"] == 1
+    sample.write_text(sample.read_text() + "lamp 2\n")
+    refused = run(restage, "--plugin-path", plugin.parent, "info", sample, ok=False)
+    assert refused.returncode == 1 and "pyramid.tris:24:1: expected: lamp X Y Z INTENSITY" in refused.stderr
+
+
+def test_the_exporter_of_the_tutorial(installed, tmp_path):
+    restage = installed / "bin" / "restage"
+    folder, plugin, (row, options) = made(installed, tmp_path, "An exporter")
+    cornell = SOURCE / "scenes" / "cornell" / "cornell.pbrt"
+
+    def extent(*arguments):
+        run(restage, "--plugin-path", plugin.parent, "convert", cornell, tmp_path / "out.soup", *arguments)
+        lines = (tmp_path / "out.soup").read_text().splitlines()
+        assert sum(line.startswith("o ") for line in lines) > 3 and sum(line.startswith("f ") for line in lines) > 10
+        return max(float(word) for line in lines if line.startswith("v ") for word in line.split()[1:])
+
+    before = extent("--set", "hidden=true")
+    source = folder / "soup.cpp"
+    change(source, "};\n\n// The values of the table", row + "};\n\n// The values of the table")
+    text = source.read_text()
+    source.write_text(text[: text.index("struct Options")] + options + text[text.index("\nclass Writing") :])
+    change(source, "number(m[row] * p[0] + m[row + 4] * p[1] + m[row + 8] * p[2] + m[row + 12]);",
+           "number(options_.scale * (m[row] * p[0] + m[row + 4] * p[1] + m[row + 8] * p[2] + m[row + 12]));")
+    build(folder, installed, "exporter")
+    run(restage, "check", plugin, "--quick")
+    assert extent("--set", "scale=0.25") == pytest.approx(before / 4, rel=1e-5)
+
+
+def test_the_denoiser_of_the_tutorial(installed, tmp_path):
+    restage = installed / "bin" / "restage"
+    folder, plugin, (radius,) = made(installed, tmp_path, "A denoiser")
+    cornell = SOURCE / "scenes" / "cornell" / "cornell.pbrt"
+
+    def denoised(quality):
+        out = tmp_path / f"{quality}.png"
+        run(restage, "-q", "--plugin-path", plugin.parent, "render", cornell, "-o", out, "--spp", "4", "--size", "32x32",
+            "--denoise", quality, "--denoiser", "smooth")
+        return out.read_bytes()
+
+    assert denoised("fast") == denoised("high")
+    change(folder / "smooth.c", "    const int radius = 3;\n", radius)
+    build(folder, installed, "denoiser")
+    run(restage, "check", plugin, "--quick")
+    assert denoised("fast") != denoised("high")
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@
 #include "editor/panels/state.hpp"
 #include "editor/theme.hpp"
 #include "editor/viewport.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
@@ -175,7 +176,7 @@ class Headless {
 
     Log log_{[](LogLevel, std::string_view) {}};
     editor::Notices notices_;
-    plugin::Registry registry_{log_};
+    plugin::Registry registry_{log_, io::with_services()};
     ImGuiTestEngine* engine_ = nullptr;
     std::unique_ptr<editor::Editor> editor_;
 };

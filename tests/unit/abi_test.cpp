@@ -8,6 +8,7 @@
 #include <restage/action.h>
 #include <restage/denoiser.h>
 #include <restage/emission.h>
+#include <restage/image.h>
 #include <restage/inspector.h>
 #include <restage/material.h>
 #include <restage/scene_io.h>
@@ -85,6 +86,14 @@ const Frozen layout[] = {
         FIELD(RestageEmission1, size, 0) FIELD(RestageEmission1, reserved, 4)
         FIELD(RestageEmission1, type, 8) FIELD(RestageEmission1, radiance, 16)
         FIELD(RestageEmission1, scale, 24) FIELD(RestageEmission1, two_sided, 32)
+    SIZE(RestageDecodedImage, 48)
+        FIELD(RestageDecodedImage, size, 0) FIELD(RestageDecodedImage, width, 4)
+        FIELD(RestageDecodedImage, height, 8) FIELD(RestageDecodedImage, channels, 12)
+        FIELD(RestageDecodedImage, bits, 16) FIELD(RestageDecodedImage, texels, 24)
+        FIELD(RestageDecodedImage, problem, 32) FIELD(RestageDecodedImage, owner, 40)
+    SIZE(RestageImageService1, 24)
+        FIELD(RestageImageService1, size, 0) FIELD(RestageImageService1, decode, 8)
+        FIELD(RestageImageService1, release, 16)
     SIZE(RestageOriginValue, 24)
         FIELD(RestageOriginValue, size, 0) FIELD(RestageOriginValue, reserved, 4)
         FIELD(RestageOriginValue, id, 8) FIELD(RestageOriginValue, text, 16)
@@ -150,12 +159,7 @@ const Frozen layout[] = {
     SIZE(RestageSettings, 24)
         FIELD(RestageSettings, size, 0) FIELD(RestageSettings, max_depth, 4)
         FIELD(RestageSettings, samples, 8) FIELD(RestageSettings, origin, 16)
-    SIZE(RestageDecodedImage, 48)
-        FIELD(RestageDecodedImage, size, 0) FIELD(RestageDecodedImage, width, 4)
-        FIELD(RestageDecodedImage, height, 8) FIELD(RestageDecodedImage, channels, 12)
-        FIELD(RestageDecodedImage, bits, 16) FIELD(RestageDecodedImage, texels, 24)
-        FIELD(RestageDecodedImage, problem, 32) FIELD(RestageDecodedImage, owner, 40)
-    SIZE(RestageSceneWriter1, 184)
+    SIZE(RestageSceneWriter1, 168)
         FIELD(RestageSceneWriter1, size, 0) FIELD(RestageSceneWriter1, ctx, 8)
         FIELD(RestageSceneWriter1, mesh, 16) FIELD(RestageSceneWriter1, image, 24)
         FIELD(RestageSceneWriter1, texture, 32) FIELD(RestageSceneWriter1, material, 40)
@@ -165,9 +169,8 @@ const Frozen layout[] = {
         FIELD(RestageSceneWriter1, camera_medium, 96) FIELD(RestageSceneWriter1, film, 104)
         FIELD(RestageSceneWriter1, settings, 112) FIELD(RestageSceneWriter1, report, 120)
         FIELD(RestageSceneWriter1, error, 128) FIELD(RestageSceneWriter1, progress, 136)
-        FIELD(RestageSceneWriter1, material_table, 144) FIELD(RestageSceneWriter1, decode_image, 152)
-        FIELD(RestageSceneWriter1, release_image, 160) FIELD(RestageSceneWriter1, options, 168)
-        FIELD(RestageSceneWriter1, option_count, 176)
+        FIELD(RestageSceneWriter1, material_table, 144) FIELD(RestageSceneWriter1, options, 152)
+        FIELD(RestageSceneWriter1, option_count, 160)
     SIZE(RestageImporter1, 64)
         FIELD(RestageImporter1, size, 0) FIELD(RestageImporter1, format, 8)
         FIELD(RestageImporter1, label, 16) FIELD(RestageImporter1, extensions, 24)
@@ -257,6 +260,7 @@ TEST_CASE("numbers and ids of the ABI are as they were released", "[abi]") {
     CHECK(std::string(RESTAGE_PANEL1) == "restage.panel/1");
     CHECK(std::string(RESTAGE_EMISSION1) == "restage.emission/1");
     CHECK(std::string(RESTAGE_SKY1) == "restage.sky/1");
+    CHECK(std::string(RESTAGE_IMAGE_SERVICE) == "restage.image/1");
     const int types[] = {RESTAGE_FLOAT, RESTAGE_COLOR,    RESTAGE_INT,     RESTAGE_BOOL, RESTAGE_ENUM,
                          RESTAGE_TEXT,  RESTAGE_MATERIAL, RESTAGE_TEXTURE, RESTAGE_TABLE};
     for (int i = 0; i < 9; ++i)

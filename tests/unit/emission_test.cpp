@@ -6,6 +6,7 @@
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/material_emission.hpp"
+#include "io/services.hpp"
 #include "plugin_folder.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -125,7 +126,7 @@ TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[em
     }
     const std::filesystem::path all = restage::test::build_dir() / "lib/restage/plugins";
     Log log{[](LogLevel, std::string_view) {}};
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     registry.scan(std::vector<plugin::SearchPath>{{all / "importer-pbrt", true}, {all / "material-diffuse", true}});
     document::Session session{registry};
     REQUIRE(session.open(folder.file("out.pbrt")));

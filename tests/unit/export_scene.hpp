@@ -5,6 +5,7 @@
 
 #include "base/file.hpp"
 #include "io/export.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
@@ -21,7 +22,7 @@ namespace restage::test {
 
 struct Plugins { // everything that was built
     Log log{[](LogLevel, std::string_view) {}};
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     Plugins() {
         registry.scan(
             std::vector<plugin::SearchPath>{{restage::test::build_dir() / "lib" / "restage" / "plugins", true}});

@@ -2,6 +2,7 @@
 // Denoiser plugins: every one that is there makes a noisy picture better and reports progress; oidn without its library
 // says so. The library is fetched by tools/setup, so its absence is a failure here, not a reason to skip.
 #include "image_test_files.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 
@@ -53,7 +54,7 @@ double mean_square_error(const std::vector<float>& a, const std::vector<float>& 
 
 class Plugins {
   public:
-    Plugins() : registry_(log_) {
+    Plugins() : registry_(log_, io::with_services()) {
         const plugin::SearchPath path[] = {{restage::test::build_dir() / "lib/restage/plugins", true}};
         registry_.scan(path);
     }

@@ -92,38 +92,6 @@ TEST_CASE("an import ends in a scene with a report", "[io]") {
     CHECK(imported->report.count(Fate::dropped) == 1);
 }
 
-TEST_CASE("the host decodes pictures for importers, and errors name them", "[io]") {
-    Pushed p;
-    const auto path = restage::test::source_dir() / "tests/data/images/grey16.png";
-    RestageDecodedImage image{};
-    REQUIRE(p.out.decode_image(p.out.ctx, nullptr, 0, path.string().c_str(), &image) == 1);
-    CHECK(image.width == 16);
-    CHECK(image.height == 8);
-    CHECK(image.channels == 1);
-    REQUIRE(image.bits == 16);
-    CHECK(static_cast<const std::uint16_t*>(image.texels)[3] == 3 * 256 + 77);
-    CHECK(std::string(image.problem).empty());
-
-    const auto bytes = read_file(restage::test::source_dir() / "tests/data/images/rgba8.png");
-    REQUIRE(bytes);
-    RestageDecodedImage embedded{};
-    REQUIRE(p.out.decode_image(p.out.ctx, bytes->data(), bytes->size(), "image 3", &embedded) == 1);
-    CHECK(embedded.bits == 8);
-    CHECK(embedded.channels == 4);
-    p.out.release_image(p.out.ctx, &image);
-    CHECK(image.texels == nullptr);
-    p.out.release_image(p.out.ctx, &image); // nothing is left to release
-    CHECK(static_cast<const std::uint8_t*>(embedded.texels)[3] == 128);
-
-    CHECK(p.out.decode_image(p.out.ctx, bytes->data(), 50, "image 3", &image) == 0);
-    CHECK(image.texels == nullptr);
-    CHECK(std::string(image.problem).starts_with("image 3: truncated"));
-    CHECK(p.out.decode_image(p.out.ctx, nullptr, 0, "/no/such.png", &image) == 0);
-    CHECK(std::string(image.problem).starts_with("/no/such.png: cannot be opened"));
-    CHECK(p.writer.report.entries.empty()); // what is said of it is the importer's
-    p.writer.drop_decoded();
-}
-
 TEST_CASE("a file nobody knows is refused with what is known", "[io]") {
     TestImporter test;
     const auto unknown = import_scene(test.file("a.xyz", "something else"), test.registry);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/import.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 #include "scene/tables.hpp"
@@ -47,7 +48,7 @@ class ModelFiles {
     test::TemporaryFolder folder_;
 
   public:
-    plugin::Registry registry{log_};
+    plugin::Registry registry{log_, io::with_services()};
 };
 
 // Is there such a line in the report, at that place ("file:line", or a part of it), that says that?

@@ -4,6 +4,7 @@
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -69,7 +70,7 @@ TEST_CASE("pbrt's hair, by its colour, its absorption or its pigments", "[pbrt]"
 TEST_CASE("pbrt's hair without its plugin keeps its colour, and the report says why", "[pbrt]") {
     const std::filesystem::path all = restage::test::build_dir() / "lib/restage/plugins";
     Log log{[](LogLevel, std::string_view) {}};
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     registry.scan(std::vector<plugin::SearchPath>{
         {all / "importer-pbrt", true}, {all / "exporter-pbrt", true}, {all / "material-diffuse", true}});
     REQUIRE(registry.find_importer("pbrt"));

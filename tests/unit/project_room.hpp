@@ -7,6 +7,7 @@
 #include "document/project_fields.hpp"
 #include "document/session.hpp"
 #include "io/image_file.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "scene/bounds.hpp"
 #include "temporary_folder.hpp"
@@ -59,7 +60,7 @@ LightSource "point" "rgb I" [ 3 3 3 ] "point3 from" [ 2 3 -2 ]
 
 struct Fixture {
     Log log{[](LogLevel, std::string_view) {}};
-    plugin::Registry registry{log};
+    plugin::Registry registry{log, io::with_services()};
     TemporaryFolder own;
     const fs::path& folder = own.path();
     Fixture() {

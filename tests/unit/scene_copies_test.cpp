@@ -2,6 +2,7 @@
 // Copies of tables and scenes share what has not changed: a frame of a drag among many objects copies none of the
 // others.
 #include "document/session.hpp"
+#include "io/services.hpp"
 #include "scene/edit.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -120,7 +121,7 @@ TEST_CASE("a table that was moved from is empty") {
 
 TEST_CASE("a frame of a drag among many objects copies no other object") {
     Log log;
-    const plugin::Registry registry(log);
+    const plugin::Registry registry(log, io::with_services());
     document::Session session(registry);
     session.adopt(crowd(20'000));
     Scene shown = session.scene(); // what the live picture has

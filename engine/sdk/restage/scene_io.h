@@ -229,18 +229,6 @@ typedef struct RestageSettings {
 
 typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_DROPPED = 2 } RestageFate;
 
-/* A picture decoded by the host, for an importer that must look inside one: a channel of it, its alpha, its mean, or a
- * picture that is no file. Where the picture is a file and all of it is used, RestageImage.path is better. */
-typedef struct RestageDecodedImage {
-    RESTAGE_SIZE(RestageDecodedImage);
-    uint32_t width, height; /* row 0 is the top */
-    uint32_t channels; /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha */
-    uint32_t bits; /* of a number: 8 (uint8_t), 16 (uint16_t) as stored, not linear; 32 (float): linear */
-    const void* texels; /* width * height * channels numbers, without gaps between the rows */
-    const char* problem; /* "" or, where the picture could be shown in spite of it, what is wrong with the file */
-    void* owner; /* the host's own */
-} RestageDecodedImage;
-
 #define RESTAGE_IMPORTER1 "restage.importer/1"
 #define RESTAGE_EXPORTER1 "restage.exporter/1"
 
@@ -270,17 +258,7 @@ typedef struct RestageSceneWriter1 {
     int (*progress)(void* ctx, float done, const char* what);
     /* Is there a material plugin for `type`? Its table, or NULL. */
     const RestageParam* (*material_table)(void* ctx, const char* type, uint32_t* count);
-    /* Decodes a picture: PNG, JPEG, WebP, BMP, TGA, HDR, EXR, PFM, told apart by content. `bytes`: the file's, up to
-     * 5 GiB, and `name` what messages call it; or NULL, and then `name` is the path of the file to read. 1 = done, and
-     * `out` is valid until it is given to release_image, or load returns. 0 = it cannot be: `out->problem` says why,
-     * and names the file; it is valid until the next call of decode_image, the other fields are zero, and there is
-     * nothing to release. Nothing is reported: that is the importer's. [worker], as the functions above. A host of
-     * before 0.2 has neither function: look at `size`. */
-    int (*decode_image)(void* ctx, const void* bytes, size_t size, const char* name, RestageDecodedImage* out);
-    void (*release_image)(void* ctx,
-                          RestageDecodedImage* image); /* once; `image` is zeroed. NULL and zeroed: nothing */
-    /* Every option of the importer's table, in its order, set or default; valid until load returns. A host of before
-     * 0.2 does not have them: look at `size`. */
+    /* Every option of the importer's table, in its order, set or default; valid until load returns. */
     const RestageValue* options;
     uint32_t option_count;
 } RestageSceneWriter1;

@@ -29,8 +29,8 @@ int save(const char* path, const RestageSceneReader1* in, const RestageValue* va
         const std::filesystem::path target(path);
         Output output(target);
         if (!Exporter(*in, read_options(values, count), output).run(target.filename().string())) return 0; // stopped
+        if (!in->progress(in->ctx, 1, "done")) return 0; // the last that can stop it: nothing is in its place yet
         output.commit();
-        in->progress(in->ctx, 1, "done");
         return 1;
     } catch (const ExportError& e) {
         in->error(in->ctx, e.file.empty() ? path : e.file.c_str(), e.what());

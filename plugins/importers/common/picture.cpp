@@ -10,27 +10,34 @@ namespace {
 
 double linear_to_srgb(double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
-std::optional<Picture> decode(const RestageSceneWriter1& out, const void* bytes, std::size_t size,
-                              const std::string& name, std::string& reason) {
-    if (out.size < offsetof(RestageSceneWriter1, release_image) + sizeof out.release_image || !out.decode_image) {
-        reason = name + ": this version of the program decodes no pictures for importers";
+// Of the library, from init to shutdown.
+const RestageHost* host = nullptr;
+const RestageImageService1* service = nullptr;
+
+std::optional<Picture> decode(const void* bytes, std::size_t size, const std::string& name, std::string& reason) {
+    if (!service) {
+        reason = name + ": this program decodes no pictures for importers";
         return std::nullopt;
     }
-    RestageDecodedImage image{};
-    if (!out.decode_image(out.ctx, bytes, size, name.c_str(), &image)) {
-        reason = image.problem ? image.problem : name + ": it cannot be decoded";
-        return std::nullopt;
-    }
-    // The writer outlives every picture: both end with load().
-    const auto release = [&out](RestageDecodedImage* done) {
-        out.release_image(out.ctx, done);
+    auto* image = new RestageDecodedImage{};
+    std::shared_ptr<RestageDecodedImage> kept(image, [](RestageDecodedImage* done) {
+        service->release(host, done);
         delete done;
-    };
-    std::shared_ptr<RestageDecodedImage> kept(new RestageDecodedImage(image), release);
-    return Picture{image.width, image.height, image.channels, image.problem ? image.problem : "", std::move(kept)};
+    });
+    if (!service->decode(host, bytes, size, name.c_str(), image)) {
+        reason = image->problem ? image->problem : name + ": it cannot be decoded";
+        return std::nullopt;
+    }
+    return Picture{image->width, image->height, image->channels, image->problem ? image->problem : "", std::move(kept)};
 }
 
 } // namespace
+
+int use_host_pictures(const RestageHost* given) {
+    host = given;
+    service = static_cast<const RestageImageService1*>(host->service(host, RESTAGE_IMAGE_SERVICE));
+    return service ? 1 : 0;
+}
 
 bool Picture::alpha_varies() const {
     const std::size_t count = std::size_t{width} * height;
@@ -55,14 +62,13 @@ double Picture::value(std::size_t pixel, unsigned channel) const {
     }
 }
 
-std::optional<Picture> decode_picture(const RestageSceneWriter1& out, std::string_view bytes, const std::string& name,
-                                      std::string& reason) {
+std::optional<Picture> decode_picture(std::string_view bytes, const std::string& name, std::string& reason) {
     static constexpr char nothing = 0; // null means a file
-    return decode(out, bytes.empty() ? &nothing : bytes.data(), bytes.size(), name, reason);
+    return decode(bytes.empty() ? &nothing : bytes.data(), bytes.size(), name, reason);
 }
 
-std::optional<Picture> read_picture(const RestageSceneWriter1& out, const std::string& path, std::string& reason) {
-    return decode(out, nullptr, 0, path, reason);
+std::optional<Picture> read_picture(const std::string& path, std::string& reason) {
+    return decode(nullptr, 0, path, reason);
 }
 
 double srgb_to_linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }

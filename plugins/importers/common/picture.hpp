@@ -5,7 +5,7 @@
 
 #include "common/values.hpp"
 
-#include <restage/scene_io.h>
+#include <restage/image.h>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,7 +14,10 @@
 
 namespace restage::importing {
 
-// Row 0 is the top. Copies share the texels; none may outlive load().
+// For RESTAGE_PLUGIN_INIT: asks the host for its decoder. 1: it has one.
+int use_host_pictures(const RestageHost*);
+
+// Row 0 is the top. Copies share the texels; none may outlive the plugin.
 struct Picture {
     std::uint32_t width = 0, height = 0, channels = 0; // 1 grey, 2 grey + alpha, 3, 4 with alpha
     std::string problem{};                             // what is wrong with a file that can be shown all the same
@@ -28,9 +31,8 @@ struct Picture {
 };
 
 // PNG, JPEG, WebP, BMP, TGA, HDR, EXR, PFM. nullopt: `reason` says why, and names the file (`name`).
-std::optional<Picture> decode_picture(const RestageSceneWriter1&, std::string_view bytes, const std::string& name,
-                                      std::string& reason);
-std::optional<Picture> read_picture(const RestageSceneWriter1&, const std::string& path, std::string& reason);
+std::optional<Picture> decode_picture(std::string_view bytes, const std::string& name, std::string& reason);
+std::optional<Picture> read_picture(const std::string& path, std::string& reason);
 
 double srgb_to_linear(double); // IEC 61966-2-1
 Rgb average_color(const Picture&, bool srgb);

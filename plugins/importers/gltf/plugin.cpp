@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry point of the importer of glTF.
+#include "common/picture.hpp"
 #include "load.hpp"
 
 #include <restage/scene_io.h>
@@ -13,4 +14,5 @@ static const RestageImporter1 importer = {
     .load = restage::gltf::load,
 };
 
-RESTAGE_PLUGIN("org.restage.importer.gltf", "0.1.0", {RESTAGE_IMPORTER1, &importer})
+RESTAGE_PLUGIN_INIT("org.restage.importer.gltf", "0.1.0", restage::importing::use_host_pictures, NULL,
+                    {RESTAGE_IMPORTER1, &importer})

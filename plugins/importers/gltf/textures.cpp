@@ -71,13 +71,13 @@ const Picture* Importer::picture(int index) {
     const std::string what = image.uri.empty() ? "image " + std::to_string(index) : decode_uri(image.uri);
     std::string reason;
     if (!image.uri.empty()) {
-        it->second = read_picture(out_, locate(image.uri).string(), reason);
+        it->second = read_picture(locate(image.uri).string(), reason);
     } else if (image.bufferView >= 0) {
         const auto bytes = view_bytes(model_, image.bufferView, what);
-        it->second = decode_picture(out_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, what, reason);
+        it->second = decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, what, reason);
     } else {
         const auto& bytes = image.image;
-        it->second = decode_picture(out_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, what, reason);
+        it->second = decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, what, reason);
     }
     if (!it->second)
         report_.dropped("image " + quote(image.uri.empty() ? std::to_string(index) : decode_uri(image.uri)), reason);

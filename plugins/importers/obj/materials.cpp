@@ -72,7 +72,7 @@ RestageHandle Importer::scalar_texture(const Slot& slot, double factor, bool inv
 RestageHandle Importer::alpha_texture(const Slot& slot, double factor) {
     const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     std::string reason;
-    const auto picture = read_picture(out_, path, reason);
+    const auto picture = read_picture(path, reason);
     if (!picture || !picture->alpha_varies())
         return scalar_texture(slot, factor); // the host says what is wrong with it
     const std::string name = slot.material + " " + slot.key;
@@ -84,7 +84,7 @@ RestageHandle Importer::alpha_texture(const Slot& slot, double factor) {
 void Importer::bump(const Slot& slot, Values& values) {
     const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     std::string reason;
-    const auto picture = read_picture(out_, path, reason);
+    const auto picture = read_picture(path, reason);
     if (picture && looks_like_normals(*picture)) {
         report_.approximated(slot.what(), "the picture holds normals, not heights; it is used as a normal map",
                              slot.line, slot.library.string());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry point of the importer of OBJ files.
+#include "common/picture.hpp"
 #include "load.hpp"
 
 #include "common/options.hpp"
@@ -24,4 +25,5 @@ static const RestageImporter1 importer = {
     .option_count = RESTAGE_COUNT(options),
 };
 
-RESTAGE_PLUGIN("org.restage.importer.obj", "0.1.0", {RESTAGE_IMPORTER1, &importer})
+RESTAGE_PLUGIN_INIT("org.restage.importer.obj", "0.1.0", restage::importing::use_host_pictures, NULL,
+                    {RESTAGE_IMPORTER1, &importer})

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exporters that are stopped, that have nowhere to write, and that run a hundred times: what was there stays, and
+// nothing is left behind.
+#include "check/export_scenes.hpp"
+#include "check/steps.hpp"
+#include "check/workplace.hpp"
+
+#include "io/export.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#if !defined(_WIN32)
+#include <sys/resource.h>
+#include <csignal>
+#endif
+
+namespace restage::check {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* old_text = "what was there before\n";
+
+// An export to a file that is there already.
+struct Place {
+    Subject& s;
+    const scene::Scene scene = everything_scene();
+    const TemporaryFolder folder;
+    const fs::path file = folder.path / ("scene." + s.exporter->extensions[0]);
+    io::ExportOptions options{.progress = {}, .format = s.exporter->format, .values = {}};
+
+    Result<io::Report> save(const fs::path& path, const std::string& what) {
+        s.doing("save() of a scene with something of everything, " + what);
+        auto done = io::export_scene(scene, path.string(), s.registry(), options);
+        s.alive();
+        return done;
+    }
+    Result<> put_old_file() const {
+        std::error_code ignored;
+        fs::remove_all(folder.path, ignored);
+        fs::create_directories(folder.path, ignored);
+        return write_scratch(file, old_text);
+    }
+    // "" or what is wrong, after a save() that came to nothing.
+    std::string after(const std::string& what) const {
+        bool stays = false;
+        for (const auto& [name, text] : contents_of(folder.path)) {
+            if (name == file.filename().string())
+                stays = text == old_text;
+            else if (name.find('/') == std::string::npos)
+                return what + ": it leaves " + name + " beside the file";
+        }
+        return stays ? "" : what + ": the file that was there is gone or changed";
+    }
+    // The same, of one that should have been refused.
+    std::string refused(const Result<io::Report>& done, const std::string& what) const {
+        if (done) return what + ": save() returns 1";
+        if (done.error().message.ends_with("gave up and did not say why"))
+            return what + ": save() returns 0, and error() was not called";
+        return "";
+    }
+};
+
+// Files of this process grow no longer than this, as on a disk that is full.
+class FullDisk {
+  public:
+#if defined(_WIN32)
+    explicit FullDisk(std::size_t) {}
+    static constexpr bool possible = false;
+#else
+    explicit FullDisk(std::size_t bytes) : before_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &limit_);
+        rlimit small = limit_;
+        small.rlim_cur = bytes;
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &limit_);
+        std::signal(SIGXFSZ, before_);
+    }
+    static constexpr bool possible = true;
+#endif
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+#if !defined(_WIN32)
+  private:
+    void (*before_)(int);
+    rlimit limit_{};
+#endif
+};
+
+} // namespace
+
+Result<StepResult> check_write_stop(Subject& s) {
+    Place place{s};
+    std::size_t calls = 0, stop_at = ~std::size_t{0}, stops = 0;
+    place.options.progress = [&](float, std::string_view) { return ++calls < stop_at; };
+    RESTAGE_CHECK(place.put_old_file());
+    RESTAGE_CHECK(place.save(place.file, "to its end"));
+    const std::size_t all = calls;
+    for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / s.size(4096, 16), 1)) {
+        const std::string what = fmt::format("stopped at call {} of {} of progress()", k, all);
+        RESTAGE_CHECK(place.put_old_file());
+        calls = 0, stop_at = k, ++stops;
+        if (place.save(place.file, what)) return StepResult::failed(what + ", save() goes on");
+        if (const std::string problem = place.after(what); !problem.empty()) return StepResult::failed(problem);
+    }
+    return StepResult::passed({{"calls of progress()", double(all)}, {"stopped", double(stops)}},
+                              all == 0 ? "it never asks progress(): nobody can stop it" : "");
+}
+
+Result<StepResult> check_write_place(Subject& s) {
+    Place place{s};
+    RESTAGE_CHECK(place.put_old_file());
+    RESTAGE_CHECK(place.save(place.file, "to its end"));
+    std::size_t largest = 0;
+    for (const auto& [name, text] : contents_of(place.folder.path))
+        largest = std::max(largest, text.size());
+    RESTAGE_CHECK(place.put_old_file());
+    std::string what = "to a path that leads through a file";
+    std::string problem = place.refused(place.save(place.file / place.file.filename(), what), what);
+    if (problem.empty()) problem = place.after(what);
+    if (!problem.empty()) return StepResult::failed(problem);
+
+    what = "to a path that is a folder";
+    std::error_code code;
+    fs::remove(place.file, code);
+    fs::create_directories(place.file / "not empty", code);
+    problem = place.refused(place.save(place.file, what), what);
+    if (problem.empty() && !fs::is_directory(place.file / "not empty", code)) problem = what + ": the folder is gone";
+    if (!problem.empty()) return StepResult::failed(problem);
+
+    std::string not_done = "no file it writes is long enough to try a full disk";
+    if (FullDisk::possible && largest > 1) {
+        not_done.clear();
+        what = "to a disk that is full";
+        RESTAGE_CHECK(place.put_old_file());
+        // Longer than the old file's text, which is written afresh.
+        const auto done = [&] {
+            const FullDisk full(largest / 2);
+            return place.save(place.file, what);
+        }();
+        problem = place.refused(done, what);
+        if (problem.empty()) problem = place.after(what);
+        if (!problem.empty()) return StepResult::failed(problem);
+    }
+    return StepResult::passed({{"longest file", double(largest), "bytes"}}, not_done);
+}
+
+Result<StepResult> check_write_leaks(Subject& s) {
+    Place place{s};
+    std::size_t run = 0;
+    const io::Progress stopping = [calls = std::size_t{0}, &run](float, std::string_view) mutable {
+        return calls++ % 4 < run % 4;
+    };
+    return check_nothing_left("save(), to its end, stopped and to no place,", [&]() -> Result<> {
+        RESTAGE_CHECK(place.put_old_file());
+        place.options.progress = {};
+        RESTAGE_CHECK(place.save(place.file, "again and again"));
+        (void)place.save(place.file / "nowhere", "to a path that leads through a file, again and again");
+        place.options.progress = stopping;
+        (void)place.save(place.file, "stopped, again and again");
+        s.log_lines.clear();
+        ++run;
+        return {};
+    });
+}
+
+} // namespace restage::check
