@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import_options.hpp"
 
+#include "document/document.hpp"
 #include "document/exposure.hpp"
 #include "io/options.hpp"
 #include "io/strict.hpp"

@@ -34,7 +34,9 @@ int run(int argc, char** argv) {
     program.fallthrough(); // options of the program are understood after the command as well
     program.failure_message([](const CLI::App* app, const CLI::Error& error) { return usage_sentence(*app, error); });
     program.footer(
-        "Exit codes: 0 done, 1 failed, 2 command line not understood. Data goes to stdout, the log to stderr.");
+        "Exit codes: 0 done, 1 failed, 2 command line not understood, 128 + N stopped by signal N. Data goes to "
+        "stdout, the "
+        "log to stderr.");
     program.add_flag_callback("-v,--verbose", [&] { context.log.set_threshold(restage::LogLevel::debug); }, "Log more");
     program.add_flag_callback(
         "-q,--quiet",

@@ -250,10 +250,16 @@ Result<void> denoise_picture(Context& context, const RenderOptions& o, Picture& 
                                                    : plugin::DenoiseQuality::high;
     RESTAGE_TRY(const auto chosen, render::choose_denoiser(context.registry(), o.denoiser));
     ProgressBar bar(context.quiet);
-    RESTAGE_TRY(picture.denoised, render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {
-                    bar.show(done, "denoising");
-                    return true;
-                }));
+    const bool before = interrupted(); // while it was rendered: what is there is still denoised
+    auto denoised = render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {
+        bar.show(done, "denoising");
+        return before || !interrupted();
+    });
+    if (!denoised && denoised.error().cancelled()) {
+        context.log.warning("denoising was stopped: the picture is written as it was rendered");
+        return {};
+    }
+    RESTAGE_TRY(picture.denoised, std::move(denoised));
     picture.denoiser = render::denoiser_label(chosen, quality);
     return {};
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# restage_add_plugin(NAME <name> KIND <kind> SOURCES <files> MANIFEST plugin.json
+# restage_add_plugin(NAME <name> KIND <kind> [SOURCES <files>] MANIFEST plugin.json
 #                    [GLSL <files>] [FILES <files and folders>] [LINK <third-party targets>])
 # <kind>: material, texture, importer, exporter, denoiser, sky, action or panel. Of a bundle it is the chief one: part of
 # the folder's name and nothing else.
@@ -33,7 +33,7 @@ endfunction()
 function(restage_add_plugin)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;KIND;MANIFEST" "SOURCES;GLSL;FILES;LINK")
     set(usage "restage_add_plugin(NAME n KIND <kind> SOURCES .. MANIFEST plugin.json)")
-    if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_SOURCES OR NOT arg_MANIFEST)
+    if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_MANIFEST)
         message(FATAL_ERROR "${usage}: incomplete, or not understood: '${arg_UNPARSED_ARGUMENTS}'")
     endif()
     if(NOT arg_KIND MATCHES "^(material|texture|importer|exporter|denoiser|sky|action|panel)$")
@@ -43,21 +43,25 @@ function(restage_add_plugin)
     # A folder of its own for each plugin; an importer and an exporter may share a name, so the kind is part of it.
     set(folder "${RESTAGE_PLUGIN_DIR}/${arg_KIND}-${arg_NAME}")
 
-    add_library(${target} MODULE ${arg_SOURCES})
-    target_link_libraries(${target} PRIVATE restage_sdk ${arg_LINK})
-    if(TARGET restage_warnings)
-        target_link_libraries(${target} PRIVATE restage_warnings)
+    if(arg_SOURCES)
+        add_library(${target} MODULE ${arg_SOURCES})
+        target_link_libraries(${target} PRIVATE restage_sdk ${arg_LINK})
+        if(TARGET restage_warnings)
+            target_link_libraries(${target} PRIVATE restage_warnings)
+        endif()
+        set_target_properties(${target} PROPERTIES
+            PREFIX "" OUTPUT_NAME "${arg_NAME}"
+            C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+            LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${folder}")
+        install(TARGETS ${target} LIBRARY DESTINATION "${folder}")
+    else() # no native code
+        add_custom_target(${target} ALL)
     endif()
-    if(NOT arg_KIND MATCHES "^(importer|exporter|denoiser)$")
+    if(arg_SOURCES AND NOT arg_KIND MATCHES "^(importer|exporter|denoiser)$")
         # It may be loaded anew. GNU's unique symbols would pin what was before in memory.
         target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
     endif()
-    set_target_properties(${target} PROPERTIES
-        PREFIX "" OUTPUT_NAME "${arg_NAME}"
-        C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-        LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${folder}")
     restage_place_files(${target} "${CMAKE_BINARY_DIR}/${folder}" ${arg_MANIFEST} ${arg_GLSL} ${arg_FILES})
-    install(TARGETS ${target} LIBRARY DESTINATION "${folder}")
     install(FILES ${arg_MANIFEST} ${arg_GLSL} DESTINATION "${folder}")
     foreach(file IN LISTS arg_FILES)
         get_filename_component(absolute "${file}" ABSOLUTE)

@@ -41,7 +41,7 @@ void main() {
     }
     SceneData scene;
     scene.params = push.params;
-    Material m = material_fetch(scene, job.config * push.words, vec4(0));
+    Material m = material_fetch(scene, job.config * push.words, texture_at_uv(vec4(0)));
 #ifdef MATERIAL_SITE // one for all: what is compared must be of the same place
     m.site = Site(vec2(0.31, 0.57), vec2(1e-3, 0), vec2(0, 1e-3), vec3(0.31, 0.57, 0.11), vec3(1e-3, 0, 0), vec3(0, 1e-3, 0),
                   vec3(0.31, 0.57, 0.11), vec3(0, 0, 1), 1e-3, 0x9e3779b9u);

@@ -115,9 +115,7 @@ void add_check(CLI::App& program, Context& context) {
     command->add_option("--seed", o->check.seed, "Seed of all random numbers: that of a report replays its failure")
         ->capture_default_str();
     std::vector<std::string> names;
-    for (const auto* steps : {&check::plugin_steps(), &check::material_steps(), &check::denoiser_steps(),
-                              &check::importer_steps(), &check::exporter_steps(), &check::action_steps(),
-                              &check::panel_steps()})
+    for (const auto* steps : check::all_steps())
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
     command->add_option("--only", o->check.only, "Take this step alone (manifest and load come with it)")

@@ -70,6 +70,8 @@ std::string Editor::probe() const {
     if (sky) {
         const glm::dvec3 x(sky->light_to_world[0]);
         j["sky_x"] = {x.x, x.y, x.z}; // where its own x axis points
+        for (const auto& [name, value] : sky->sky_params.entries())
+            j["sky_values"][name] = value.scalar();
     }
     const glm::dvec3 eye(camera().camera_to_world[3]);
     j["camera"] = {eye.x, eye.y, eye.z};

@@ -9,6 +9,7 @@
 #include "io/services.hpp"
 #include "plugin/registry.hpp"
 #include "render/material_composer.hpp"
+#include "render/texture_composer.hpp"
 #include "saving.hpp"
 #include "viewport.hpp"
 #include "window.hpp"
@@ -95,7 +96,8 @@ Result<int> run_editor(const RunOptions& options) {
     if (const std::string problem = prepare(config); !problem.empty())
         log.warning("layout, preferences and recovery files will not be kept: " + problem);
     RESTAGE_TRY(const auto bin, executable_dir());
-    registry.set_judge(render::material_judge(bin.parent_path() / "share/restage/shaders"));
+    registry.set_judge(render::material_judge(bin.parent_path() / "share/restage/shaders"),
+                       render::texture_judge(bin.parent_path() / "share/restage/shaders"));
 
     // Frames are asked for from threads before and after the window's life: GLFW ignores that.
     Editor editor(registry, log, notices,

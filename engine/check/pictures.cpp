@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/pictures.hpp"
 
+#include "base/base64.hpp"
 #include "base/file.hpp"
 #include "io/image_file.hpp"
 
@@ -19,19 +20,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-std::string base64(std::string_view bytes) {
-    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            out += i + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 63];
-    }
-    return out;
-}
-
 Result<std::string> image_tag(const scene::PixelData& image, const fs::path& folder, const std::string& caption) {
     const fs::path file = folder / "restage-check-picture.png";
     RESTAGE_CHECK(io::write_png(file.string(), image));
@@ -41,7 +29,7 @@ Result<std::string> image_tag(const scene::PixelData& image, const fs::path& fol
     return fmt::format(
         "<figure><img src=\"data:image/png;base64,{}\" width=\"{}\" "
         "height=\"{}\"><figcaption>{}</figcaption></figure>\n",
-        base64(png), image.width, image.height, caption);
+        encode_base64(png), image.width, image.height, caption);
 }
 
 // In the plane of incidence, from the left horizon of the front over the pole and round the back.

@@ -173,8 +173,9 @@ std::string markdown(std::span<const PluginReport> reports) {
     for (std::size_t i = 0; i <= steps.size(); ++i)
         out += "---|";
     out += "\n";
-    const std::vector<Step>* const other_steps[] = {&plugin_steps(), &importer_steps(), &exporter_steps(),
-                                                    &denoiser_steps(), &action_steps(), &panel_steps()};
+    std::vector<const std::vector<Step>*> other_steps;
+    for (const auto* list : all_steps())
+        if (list != &material_steps()) other_steps.push_back(list);
     std::string others, details;
     for (const PluginReport& r : reports) {
         std::vector<std::string> tables;
@@ -212,9 +213,7 @@ std::string markdown(std::span<const PluginReport> reports) {
         out += "\n## Other plugins\n\n| plugin | kind |" + names + "\n|---|---|" + line + "\n" + others;
     }
     out += "\n## Steps\n\n";
-    for (const auto* list :
-         {&plugin_steps(), &material_steps(), &importer_steps(), &exporter_steps(), &denoiser_steps(), &action_steps(),
-          &panel_steps()})
+    for (const auto* list : all_steps())
         for (const Step& s : *list)
             out += fmt::format("- **{}**: {}\n", s.name, s.tests);
     return out + "\n## Figures\n" + details;

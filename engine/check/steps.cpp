@@ -63,6 +63,24 @@ const std::vector<Step>& material_steps() {
     return steps;
 }
 
+const std::vector<Step>& texture_steps() {
+    static const std::vector<Step> steps = {
+        {"texture-glsl", "the GLSL of a texture compiles, in both colour modes", check_texture_glsl,
+         "see the line that the message names; the GLSL knows <restage/v1/...> and its own files. Colours of its own are "
+         "made by texture_color()"},
+        {"texture-names", "every name of a texture starts with its prefix", check_texture_names,
+         "the code of all textures and of a material stands in one shader"},
+        {"texture-values", "a texture is finite, and the same twice, whatever the parameters and places",
+         check_texture_values, "a division by what may be 0, the root or logarithm of something below 0, normalize(0)"},
+        {"texture-params", "each parameter of a texture changes something", check_texture_params,
+         "a line of the table that the GLSL does not read, or a range in which it does nothing"},
+        {"texture-native", "the native evaluation of a texture is the GLSL's", check_texture_native,
+         "the index of a value (4 a line of the table), rounding of a whole number, or a formula that was changed once",
+         "eval()"},
+    };
+    return steps;
+}
+
 const std::vector<Step>& denoiser_steps() {
     static const std::vector<Step> steps = {
         {"denoise", "a constant picture stays what it is", check_denoise, "a scale that is not undone", "run()"},
@@ -154,9 +172,16 @@ const std::vector<Step>& sky_steps() {
     return steps;
 }
 
+std::span<const std::vector<Step>* const> all_steps() {
+    static const std::vector<Step>* const lists[] = {
+        &plugin_steps(),   &material_steps(), &texture_steps(), &sky_steps(),   &importer_steps(),
+        &exporter_steps(), &denoiser_steps(), &action_steps(),  &panel_steps(),
+    };
+    return lists;
+}
+
 const Step* find_step(const std::string& name) {
-    for (const auto* list : {&plugin_steps(), &material_steps(), &denoiser_steps(), &importer_steps(),
-                             &exporter_steps(), &action_steps(), &panel_steps(), &sky_steps()})
+    for (const auto* list : all_steps())
         for (const Step& step : *list)
             if (name == step.name) return &step;
     return nullptr;

@@ -47,6 +47,15 @@ Result<StepResult> check_panel(Subject&);
 Result<StepResult> check_glsl(Subject&);
 Result<StepResult> check_names(Subject&);
 Result<StepResult> check_cost(Subject&);
+// Do the files of a plugin that were compiled keep their names to its prefix?
+Result<StepResult> check_names_in(const Subject&, const gpu::Spirv&, const std::string& prefix,
+                                  const std::string& glsl_file);
+// steps_texture.cpp
+Result<StepResult> check_texture_glsl(Subject&);
+Result<StepResult> check_texture_names(Subject&);
+Result<StepResult> check_texture_values(Subject&);
+Result<StepResult> check_texture_params(Subject&);
+Result<StepResult> check_texture_native(Subject&);
 // steps_params.cpp
 Result<StepResult> check_params(Subject&);
 // steps_sound.cpp

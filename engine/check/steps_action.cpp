@@ -111,7 +111,7 @@ Result<StepResult> check_act(Subject& s) {
     const auto patience = std::chrono::seconds(s.size(40, 8)); // for random parameters, which may ask for much
     for (const Sample& sample : samples()) {
         const Ids all = objects_of(sample.scene);
-        for (std::size_t k = 0; k < s.size(24, 6); ++k) {
+        for (std::size_t k = 0; k < s.size(60, 24); ++k) {
             if (k > 1 && std::chrono::steady_clock::now() - start > patience) break;
             const ParamSet values = k == 0 ? ParamSet() : random_values(s.action.table->params, e);
             for (const Ids& selection : selections(e, *s.action.table, all)) {

@@ -142,11 +142,16 @@ Result<StepResult> check_glsl(Subject& s) {
 Result<StepResult> check_names(Subject& s) {
     if (!has_glsl(s)) return StepResult::skip(no_glsl);
     RESTAGE_TRY(const gpu::Spirv spirv, compile(s));
-    const std::string prefix = std::string(s.table().prefix) + "_";
+    return check_names_in(s, spirv, s.table().prefix, s.table().glsl_file);
+}
+
+Result<StepResult> check_names_in(const Subject& s, const gpu::Spirv& spirv, const std::string& of,
+                                  const std::string& glsl_file) {
+    const std::string prefix = of + "_";
     std::size_t count = 0;
     std::error_code code;
     const fs::path folder = fs::weakly_canonical(s.folder, code);
-    const fs::path main = fs::weakly_canonical(s.folder / s.table().glsl_file, code);
+    const fs::path main = fs::weakly_canonical(s.folder / glsl_file, code);
     std::set<fs::path> files{main};
     for (const fs::path& file : spirv.files) { // its own, not the library's
         const fs::path path = fs::weakly_canonical(file, code);
@@ -159,7 +164,7 @@ Result<StepResult> check_names(Subject& s) {
         const std::string name = file.filename().string();
         for (const Definition& d : forbidden)
             return StepResult::failed(
-                fmt::format("{}:{}: declares \"{}\": a material has no bindings, buffers or "
+                fmt::format("{}:{}: declares \"{}\": a plugin has no bindings, buffers or "
                             "shared memory of its own; its parameters arrive in {}Params",
                             name, d.line, d.name, prefix));
         for (const Definition& d : found)

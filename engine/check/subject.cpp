@@ -195,6 +195,11 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
         run_all(material_steps(), m.table->type);
         if (measured && broken.empty() && subject.table().has_code()) measured();
     }
+    for (const auto& entry : subject.registry().textures()) {
+        broken.clear();
+        subject.texture = entry;
+        run_all(texture_steps(), entry.table->type);
+    }
     broken.clear();
     for (const auto& entry : subject.registry().denoisers()) {
         subject.denoiser = entry.table;

@@ -54,6 +54,7 @@ class Subject {
     plugin::ActionEntry action;
     plugin::PanelEntry panel;
     plugin::SkyEntry sky;
+    std::optional<plugin::TextureEntry> texture;
     // The material that the following steps are about.
     void choose(const plugin::MaterialEntry& material);
     const model::Material& table() const { return *table_; }
@@ -98,12 +99,14 @@ struct Step {
 };
 const std::vector<Step>& plugin_steps();   // of every plugin, once
 const std::vector<Step>& material_steps(); // of every material of the plugin
+const std::vector<Step>& texture_steps();
 const std::vector<Step>& denoiser_steps();
 const std::vector<Step>& importer_steps();
 const std::vector<Step>& exporter_steps();
 const std::vector<Step>& action_steps();
 const std::vector<Step>& panel_steps();
 const std::vector<Step>& sky_steps();
+std::span<const std::vector<Step>* const> all_steps(); // every list, in the order of reports
 const Step* find_step(const std::string& name); // null: there is none
 
 // All steps in order. `begun` is called before each, `done` after it; `measured` after those of a material whose GLSL

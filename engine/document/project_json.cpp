@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "document/project_json.hpp"
 
+#include "base/base64.hpp"
 #include "scene/bounds.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -51,58 +51,21 @@ bool read_number(const json& j, float& x) {
     return true;
 }
 
-// --- base64 (RFC 4648, 4)
-// ----------------------------------------------------------------------------------------------
+// --- arrays of numbers, as base64
 
 namespace {
 
-constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
 template <class T>
 std::string encode(const std::vector<T>& values) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-    const std::size_t size = values.size() * sizeof(T);
-    std::string text;
-    text.reserve((size + 2) / 3 * 4);
-    for (std::size_t i = 0; i < size; i += 3) {
-        std::uint32_t word = std::uint32_t(bytes[i]) << 16;
-        if (i + 1 < size) word |= std::uint32_t(bytes[i + 1]) << 8;
-        if (i + 2 < size) word |= bytes[i + 2];
-        text += alphabet[word >> 18];
-        text += alphabet[word >> 12 & 63];
-        text += i + 1 < size ? alphabet[word >> 6 & 63] : '=';
-        text += i + 2 < size ? alphabet[word & 63] : '=';
-    }
-    return text;
+    return encode_base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
 template <class T>
 bool decode(const json& j, std::vector<T>& values) {
     if (!j.is_string()) return false;
-    static const std::array<int, 256> value_of = [] {
-        std::array<int, 256> table;
-        table.fill(-1);
-        for (std::size_t i = 0; i < alphabet.size(); ++i)
-            table[static_cast<unsigned char>(alphabet[i])] = int(i);
-        return table;
-    }();
-    std::string_view text = j.get_ref<const std::string&>();
-    if (text.size() % 4) return false;
-    while (text.ends_with('='))
-        text.remove_suffix(1);
-    std::string bytes;
-    bytes.reserve(text.size() * 3 / 4);
-    std::uint32_t word = 0;
-    int bits = 0;
-    for (const char c : text) {
-        const int digit = value_of[static_cast<unsigned char>(c)];
-        if (digit < 0) return false;
-        word = word << 6 | std::uint32_t(digit);
-        bits += 6;
-        if (bits < 8) continue;
-        bits -= 8;
-        bytes += char(word >> bits & 255);
-    }
+    const auto decoded = decode_base64(j.get_ref<const std::string&>());
+    if (!decoded) return false;
+    const std::string& bytes = *decoded;
     if (bytes.size() % sizeof(T)) return false;
     values.resize(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());

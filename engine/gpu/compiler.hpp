@@ -26,11 +26,13 @@ struct ShaderSource {
     std::map<std::string, std::string> files;
     // Looked in before the compiler's own include folders.
     std::vector<std::filesystem::path> include_dirs;
-    // Whose files #include <plugin/...> finds. They are confined: they may include <restage/v1/...> from the compiler's
-    // folders and files of this one, declare no memory and use no built-in variables. Empty: none.
-    std::filesystem::path plugin_folder = {};
-    // What files on disk held at some time, by absolute, lexically normal path: read instead of the disk. May be null.
-    std::shared_ptr<const std::map<std::filesystem::path, std::string>> texts = nullptr;
+    // Whose files #include <plugin/...> finds: <plugin/file> in the first, <plugin:1/file> in the second, and so on.
+    // They are confined: they may include <restage/v1/...> from the compiler's folders and files of their own one,
+    // declare no memory and use no built-in variables.
+    std::vector<std::filesystem::path> plugin_folders = {};
+    // What files on disk held at some time, by absolute, lexically normal path: read instead of the disk. Some may be
+    // null.
+    std::vector<std::shared_ptr<const std::map<std::filesystem::path, std::string>>> texts = {};
 };
 
 struct Spirv {

@@ -4,6 +4,7 @@
 #include "base/file.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <string_view>
 
@@ -55,11 +56,11 @@ struct Found {
     std::string name;
     std::string text;
     std::filesystem::path folder; // empty: in memory
-    bool plugin = false;          // of a plugin's folder, not the host's
+    std::filesystem::path plugin; // the plugin's folder that it is of; empty: the host's
 };
 
 constexpr std::string_view library = "restage/v1/";
-constexpr std::string_view plugin_prefix = "plugin/";
+constexpr std::string_view plugin_prefix = "plugin"; // <plugin/file>, <plugin:1/file>
 constexpr const char* plugin_rule = "a plugin's GLSL may include <restage/v1/...> and files of its own folder";
 
 bool is_word(char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
@@ -97,12 +98,14 @@ class Expander {
     ExpandedSource run() {
         ids_.push_back({});
         result_.names.push_back(source_.name);
-        expand(source_.text, 0, {}, false);
+        expand(source_.text, 0, {}, {});
         return std::move(result_);
     }
 
   private:
-    void expand(std::string_view text, std::size_t number, const std::filesystem::path& folder, bool plugin) {
+    void expand(std::string_view text, std::size_t number, const std::filesystem::path& folder,
+                const std::filesystem::path& its_plugin) {
+        const bool plugin = !its_plugin.empty();
         stack_.push_back(number);
         CommentTracker comments;
         std::size_t line_number = 0;
@@ -115,7 +118,7 @@ class Expander {
             std::string_view rest;
             const std::string_view word = comment ? std::string_view() : directive(line, rest);
             if (word == "include") {
-                include(rest, folder, plugin);
+                include(rest, folder, its_plugin);
                 result_.text += "#line " + std::to_string(line_number + 1) + " " + std::to_string(number) + "\n";
             } else if (word == "pragma" && rest == "once") {
                 result_.text += "\n"; // the wrapper around the file does it
@@ -133,13 +136,14 @@ class Expander {
         stack_.pop_back();
     }
 
-    void include(std::string_view rest, const std::filesystem::path& folder, bool plugin) {
+    void include(std::string_view rest, const std::filesystem::path& folder, const std::filesystem::path& its_plugin) {
+        const bool plugin = !its_plugin.empty();
         const char close = !rest.empty() && rest.front() == '<' ? '>' : '"';
         const auto end = rest.find(close, 1);
         if (rest.empty() || (rest.front() != '"' && rest.front() != '<') || end == std::string_view::npos)
             return error("#include needs a file name in quotes");
         const std::string name(rest.substr(1, end - 1));
-        const std::optional<Found> file = plugin         ? find_for_plugin(name, close == '>', folder)
+        const std::optional<Found> file = plugin         ? find_for_plugin(name, close == '>', folder, its_plugin)
                                           : close == '>' ? find_angled(name)
                                                          : find(name, folder);
         if (!file)
@@ -166,7 +170,7 @@ class Expander {
 
     std::optional<Found> find(const std::string& name, const std::filesystem::path& folder) {
         if (const auto in_memory = source_.files.find(name); in_memory != source_.files.end())
-            return Found{"memory:" + name, name, in_memory->second, {}};
+            return Found{"memory:" + name, name, in_memory->second, {}, {}};
         if (!folder.empty())
             if (auto file = load(folder / name)) return file;
         for (const auto& dir : source_.include_dirs)
@@ -176,17 +180,25 @@ class Expander {
         return {};
     }
 
-    // <plugin/...>: of the plugin's folder, and nowhere else.
+    // <plugin/...>, <plugin:1/...>: of that plugin's folder, and nowhere else.
     std::optional<Found> find_angled(const std::string& name) {
-        if (!name.starts_with(plugin_prefix)) return find(name, {});
-        return source_.plugin_folder.empty() ? std::nullopt
-                                             : load_plugin(source_.plugin_folder / name.substr(plugin_prefix.size()));
+        const std::size_t slash = name.find('/');
+        if (!name.starts_with(plugin_prefix) || slash == std::string::npos) return find(name, {});
+        const std::string which = name.substr(plugin_prefix.size(), slash - plugin_prefix.size());
+        std::size_t i = 0;
+        if (which.size() > 1 && which[0] == ':')
+            std::from_chars(which.data() + 1, which.data() + which.size(), i);
+        else if (!which.empty())
+            return find(name, {});
+        if (i >= source_.plugin_folders.size()) return {};
+        return load_plugin(source_.plugin_folders[i] / name.substr(slash + 1), source_.plugin_folders[i]);
     }
 
-    std::optional<Found> find_for_plugin(const std::string& name, bool angled, const std::filesystem::path& folder) {
+    std::optional<Found> find_for_plugin(const std::string& name, bool angled, const std::filesystem::path& folder,
+                                         const std::filesystem::path& plugin) {
         if (!angled) {
-            if (auto file = load_plugin(folder / name)) return file;
-            return load_plugin(source_.plugin_folder / name);
+            if (auto file = load_plugin(folder / name, plugin)) return file;
+            return load_plugin(plugin / name, plugin);
         }
         if (!name.starts_with(library) || name.find("..") != std::string::npos) return {};
         for (const auto& dir : dirs_)
@@ -205,19 +217,22 @@ class Expander {
     }
 
     // Null where the path leads out of the plugin's folder.
-    std::optional<Found> load_plugin(const std::filesystem::path& path) {
-        const auto within = path.lexically_normal().lexically_relative(source_.plugin_folder.lexically_normal());
+    std::optional<Found> load_plugin(const std::filesystem::path& path, const std::filesystem::path& plugin) {
+        const auto within = path.lexically_normal().lexically_relative(plugin.lexically_normal());
         if (within.empty() || *within.begin() == "..") return {};
         auto file = load(path);
-        if (file) file->plugin = true;
+        if (file) file->plugin = plugin;
         return file;
     }
 
     std::optional<Found> load(const std::filesystem::path& path) {
         std::error_code failed;
-        if (source_.texts)
-            if (const auto kept = source_.texts->find(path.lexically_normal()); kept != source_.texts->end())
-                return Found{"kept:" + kept->first.string(), kept->first.string(), kept->second, path.parent_path()};
+        for (const auto& texts : source_.texts) {
+            if (!texts) continue;
+            if (const auto kept = texts->find(path.lexically_normal()); kept != texts->end())
+                return Found{
+                    "kept:" + kept->first.string(), kept->first.string(), kept->second, path.parent_path(), {}};
+        }
         if (!std::filesystem::is_regular_file(path, failed)) return {};
         std::filesystem::path real = std::filesystem::weakly_canonical(path, failed);
         if (failed) real = path;
@@ -226,7 +241,8 @@ class Expander {
         if (std::find(result_.files.begin(), result_.files.end(), real) == result_.files.end())
             result_.files.push_back(real);
         // Relative includes are relative to where the file was found, not to where a link points.
-        return Found{"disk:" + real.string(), path.lexically_normal().string(), std::move(*text), path.parent_path()};
+        return Found{
+            "disk:" + real.string(), path.lexically_normal().string(), std::move(*text), path.parent_path(), {}};
     }
 
     std::size_t number_of(const Found& file) {

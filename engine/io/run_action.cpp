@@ -70,7 +70,6 @@ Result<ActionResult> run_action(const Scene& scene, const plugin::Registry& regi
     const bool done = entry.native->run(&reader.table(), &selection, values.empty() ? nullptr : values.data(),
                                         static_cast<std::uint32_t>(values.size()), &writer.edits()) != 0;
     note.reset();
-    writer.drop_decoded();
     if (run.late) *run.late = writer.late();
     const std::string who = action.label + ": ";
     if (writer.cancelled() || reader.cancelled()) return cancelled(who + "stopped on request");

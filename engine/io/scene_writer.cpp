@@ -72,6 +72,26 @@ const RestageParam* SceneWriter::Calls::material_table(void* ctx, const char* ty
     return lines;
 }
 
+const RestageParam* SceneWriter::Calls::texture_table(void* ctx, const char* type, std::uint32_t* count) {
+    if (count) *count = 0;
+    const RestageParam* lines = nullptr;
+    guarded(ctx, "texture_table", [&](SceneWriter& w) -> RestageHandle {
+        const auto entry = w.registry_.find_texture(text(type));
+        if (!entry) return 0;
+        auto& given = w.tables_["texture " + entry->table->type]; // the importer may look at it until it is done
+        if (!given) {
+            std::vector<model::Param> params = entry->table->params;
+            if (entry->table->mapped)
+                params.insert(params.end(), model::mapping_params().begin(), model::mapping_params().end());
+            given = std::make_unique<plugin::GivenTable>(params);
+        }
+        if (count) *count = given->count();
+        lines = given->lines();
+        return 1;
+    });
+    return lines;
+}
+
 SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)
     : Exchange(std::move(progress)), registry_(registry) {
     scene.clock = 1;
@@ -95,7 +115,8 @@ SceneWriter::SceneWriter(const plugin::Registry& registry, Progress progress)
               .progress = Calls::progress,
               .material_table = Calls::material_table,
               .options = nullptr,
-              .option_count = 0};
+              .option_count = 0,
+              .texture_table = Calls::texture_table};
 }
 
 void SceneWriter::set_options(ParamSet options) {

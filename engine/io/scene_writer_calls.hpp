@@ -43,6 +43,7 @@ struct SceneWriter::Calls {
     static void error(void* ctx, const char* file, std::uint32_t line, std::uint32_t column, const char* message);
     static int progress(void* ctx, float done, const char* what);
     static const RestageParam* material_table(void* ctx, const char* type, std::uint32_t* count);
+    static const RestageParam* texture_table(void* ctx, const char* type, std::uint32_t* count);
 };
 
 template <class T>

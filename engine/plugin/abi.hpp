@@ -5,13 +5,22 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <string>
 #include <type_traits>
 
 namespace restage::plugin {
 
 // Bytes of a struct up to and with a member: what every revision of it has.
 #define RESTAGE_SIZE_UP_TO(type, member) (offsetof(type, member) + sizeof(type::member))
+
+// "" or why a table is too short to be read at all.
+inline std::string too_short(std::uint32_t size, std::size_t needed, const char* interface_id) {
+    if (size >= needed) return "";
+    return std::string("its table ") + interface_id + " has " + std::to_string(size) + " bytes, " +
+           std::to_string(needed) + " are needed: rebuild it with this SDK";
+}
 
 // What a shorter one lacks keeps its default; what a longer one has beyond is not looked at.
 template <class T>

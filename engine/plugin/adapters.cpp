@@ -11,13 +11,6 @@ namespace {
 
 std::string text(const char* c) { return c ? c : ""; }
 
-// "" or why the table is too short to be read.
-std::string too_short(std::uint32_t size, std::size_t needed, const char* interface_id) {
-    if (size >= needed) return "";
-    return std::string("its table ") + interface_id + " has " + std::to_string(size) + " bytes, " +
-           std::to_string(needed) + " are needed: rebuild it with this SDK";
-}
-
 } // namespace
 
 // The two enumerations have one order.
@@ -127,6 +120,30 @@ Result<model::Material> read_material1(const void* table) {
 std::span<const MaterialAdapter> material_adapters() {
     static constexpr MaterialAdapter all[] = {{RESTAGE_MATERIAL1, read_material1}};
     return all;
+}
+
+Result<DeclaredTexture> read_texture1(const RestageTexture1& given) {
+    if (const auto problem = too_short(given.size, RESTAGE_SIZE_UP_TO(RestageTexture1, param_count), RESTAGE_TEXTURE1);
+        !problem.empty())
+        return fail(problem);
+    const RestageTexture1 in = sized(given);
+    const auto has = [&](std::uint32_t flag) { return (in.flags & flag) != 0; };
+    DeclaredTexture out{.texture = {.type = text(in.type),
+                                    .label = text(in.label),
+                                    .prefix = text(in.prefix),
+                                    .glsl_file = text(in.glsl_file),
+                                    .tooltip = text(in.tooltip),
+                                    .params = {},
+                                    .image = has(RESTAGE_TEXTURE_IMAGE),
+                                    .mapped = has(RESTAGE_TEXTURE_MAPPED),
+                                    .site = has(RESTAGE_TEXTURE_SITE)},
+                        .eval = in.eval};
+    const std::string who = "texture \"" + out.texture.type + "\": ";
+    if (out.eval && out.texture.site) return fail(who + "with SITE it can have no native evaluation");
+    auto params = read_params(in.params, in.param_count);
+    if (!params) return fail(who + params.error().message);
+    out.texture.params = std::move(*params);
+    return out;
 }
 
 Result<DeclaredEmission> read_emission1(const RestageEmission1& given) {

@@ -10,6 +10,7 @@
 #include "model/formats.hpp"
 #include "model/material.hpp"
 #include "model/sky.hpp"
+#include "plugin/texture_source.hpp"
 
 #include <restage/action.h>
 #include <restage/denoiser.h>
@@ -19,6 +20,7 @@
 #include <restage/scene_io.h>
 #include <restage/sky.h>
 #include <restage/table.h>
+#include <restage/texture.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,6 +37,12 @@ std::span<const MaterialAdapter> material_adapters();
 
 Result<model::Material> read_material1(const void* table);
 Result<std::vector<model::Param>> read_params(const RestageParam* params, std::uint32_t count);
+
+struct DeclaredTexture {
+    model::Texture texture;
+    TextureEval eval = nullptr;
+};
+Result<DeclaredTexture> read_texture1(const RestageTexture1&);
 
 // A table of the model as plugins see it. An empty table has a pointer, too: it is there.
 class GivenTable {

@@ -15,10 +15,9 @@ std::string reason_text(const char* reason) { return reason && *reason ? reason 
 } // namespace
 
 Result<Denoiser> Denoiser::read(const RestageDenoiser1& table) {
-    if (table.size < RESTAGE_SIZE_UP_TO(RestageDenoiser1, run))
-        return fail("its table " RESTAGE_DENOISER1 " has " + std::to_string(table.size) + " bytes, " +
-                    std::to_string(RESTAGE_SIZE_UP_TO(RestageDenoiser1, run)) +
-                    " are needed: rebuild it with this SDK");
+    if (const auto problem = too_short(table.size, RESTAGE_SIZE_UP_TO(RestageDenoiser1, run), RESTAGE_DENOISER1);
+        !problem.empty())
+        return fail(problem);
     Denoiser out;
     out.type = table.type ? table.type : "";
     out.label = table.label ? table.label : "";

@@ -78,10 +78,9 @@ constexpr RestageUi1 table{
 } // namespace
 
 Result<Inspector> Inspector::read(const RestageInspector1& given) {
-    if (given.size < RESTAGE_SIZE_UP_TO(RestageInspector1, draw))
-        return fail("its table " RESTAGE_INSPECTOR1 " has " + std::to_string(given.size) + " bytes, " +
-                    std::to_string(RESTAGE_SIZE_UP_TO(RestageInspector1, draw)) +
-                    " are needed: rebuild it with this SDK");
+    if (const auto problem = too_short(given.size, RESTAGE_SIZE_UP_TO(RestageInspector1, draw), RESTAGE_INSPECTOR1);
+        !problem.empty())
+        return fail(problem);
     Inspector out;
     out.material_type = given.type ? given.type : "";
     if (!given.draw) return fail("the inspector of \"" + out.material_type + "\" lacks draw");

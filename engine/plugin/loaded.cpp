@@ -69,6 +69,7 @@ Result<std::unique_ptr<Loaded>> Loaded::open(const fs::path& folder, const Manif
     std::unique_ptr<Loaded> loaded(new Loaded);
     if (!manifest.library.empty()) RESTAGE_CHECK(loaded->open_library(folder, manifest, host.services, log));
     RESTAGE_CHECK(loaded->take_materials(folder, manifest, host.material_adapters, log));
+    if (manifest.provides_any("restage.texture")) RESTAGE_CHECK(loaded->take_textures(folder, manifest));
     if (loaded->table_) RESTAGE_CHECK(loaded->take_formats(manifest, (folder / manifest.library).string()));
     return loaded;
 }
@@ -205,6 +206,44 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
                         "\" has a table as a parameter, and nothing reads it: " + RESTAGE_TABLE1 + " is missing");
         materials.push_back(std::make_shared<const MaterialSource>(std::move(m), folder, glsl,
                                                                    reader == table_readers.end() ? nullptr : *reader));
+    }
+    return {};
+}
+
+Result<> Loaded::take_textures(const fs::path& folder, const Manifest& manifest) {
+    const std::string file = (folder / "plugin.json").string(), library = (folder / manifest.library).string();
+    std::vector<DeclaredTexture> declared;
+    if (table_ && std::ranges::find(manifest.provides, RESTAGE_TEXTURE1) != manifest.provides.end()) {
+        RESTAGE_TRY(const auto tables, query_all(*table_, RESTAGE_TEXTURE1, library));
+        for (const void* table : tables) {
+            auto texture = read_texture1(*static_cast<const RestageTexture1*>(table));
+            if (!texture) return fail(library + ": " + texture.error().message);
+            declared.push_back(std::move(*texture));
+        }
+    }
+    const std::size_t native = declared.size();
+    RESTAGE_TRY(const std::string text, read_file(file));
+    RESTAGE_TRY(auto described, parse_textures(text, file));
+    for (model::Texture& t : described)
+        declared.push_back({std::move(t)});
+    if (declared.empty()) return fail(file + ": provides no restage.texture/1, though \"provides\" lists it");
+    RESTAGE_TRY(const auto glsl, read_glsl(folder));
+    for (std::size_t i = 0; i < declared.size(); ++i) {
+        auto& [texture, eval] = declared[i];
+        const std::string& from = i < native ? library : file;
+        if (const std::string problem = check_texture(texture, folder); !problem.empty())
+            return fail(from + ": " + problem);
+        const auto taken = [&](std::string_view kind, std::string_view type) {
+            return fail(from + ": texture \"" + texture.type + "\": the prefix \"" + texture.prefix +
+                        "\" is already taken by " + std::string(kind) + " \"" + std::string(type) + "\"");
+        };
+        for (const auto& other : textures) {
+            if (other->texture().type == texture.type) return fail(from + ": provides \"" + texture.type + "\" twice");
+            if (other->texture().prefix == texture.prefix) return taken("texture", other->texture().type);
+        }
+        for (const auto& other : materials)
+            if (other->material().prefix == texture.prefix) return taken("material", other->material().type);
+        textures.push_back(std::make_shared<const TextureSource>(std::move(texture), folder, glsl, eval));
     }
     return {};
 }

@@ -14,6 +14,7 @@
 #include "plugin/manifest.hpp"
 #include "plugin/material_source.hpp"
 #include "plugin/registry.hpp"
+#include "plugin/texture_source.hpp"
 
 #include <restage/plugin.h>
 #include <deque>
@@ -42,6 +43,7 @@ class Loaded {
     Loaded(const Loaded&) = delete;
 
     std::vector<std::shared_ptr<const MaterialSource>> materials;
+    std::vector<std::shared_ptr<const TextureSource>> textures;
     std::vector<std::shared_ptr<TableReader>> table_readers;
     std::deque<Inspector> inspectors; // deques: catalogues point into them
     std::deque<Denoiser> denoisers;
@@ -77,6 +79,7 @@ class Loaded {
                           std::span<const HostService> services, Log& log);
     Result<> take_materials(const std::filesystem::path& folder, const Manifest&,
                             std::span<const MaterialAdapter> adapters, Log&);
+    Result<> take_textures(const std::filesystem::path& folder, const Manifest&);
     Result<> take_formats(const Manifest&, const std::string& who); // and what else has no GLSL
 
     std::optional<Library> library_;
@@ -87,6 +90,7 @@ class Loaded {
 
 // "conductor", "pbrt", "oidn": what a table is found by.
 inline std::string_view key(const model::Material& t) { return t.type; }
+inline std::string_view key(const model::Texture& t) { return t.type; }
 inline std::string_view key(const model::Importer& t) { return t.format; }
 inline std::string_view key(const model::Exporter& t) { return t.format; }
 inline std::string_view key(const model::Action& t) { return t.id; }

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t longest_manifest = 1 << 20;
 
-constexpr std::string_view known_keys[] = {"id",      "version", "licence",   "provides",  "needs",
-                                           "library", "files",   "materials", "exceptions"};
+constexpr std::string_view known_keys[] = {"id",      "version", "licence",   "provides", "needs",
+                                           "library", "files",   "materials", "textures", "exceptions"};
 
 // Where a key of the outermost object stands: the byte of its opening quote. `text` is an object, and JSON.
 std::size_t place_of_key(const std::string& text, const std::string& key) {
@@ -208,7 +208,7 @@ std::span<const std::string_view> known_interfaces() {
     static constexpr std::string_view all[] = {"restage.material/1",  "restage.emission/1", "restage.table/1",
                                                "restage.inspector/1", "restage.importer/1", "restage.exporter/1",
                                                "restage.denoiser/1",  "restage.action/1",   "restage.panel/1",
-                                               "restage.sky/1"};
+                                               "restage.sky/1",       "restage.texture/1"};
     return all;
 }
 
@@ -260,7 +260,10 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
     out.has_materials = object.contains("materials"); // material_json.cpp reads them
     if (out.has_materials && !out.provides_any("restage.material"))
         return fail(file + ": has \"materials\", and \"provides\" does not list restage.material/1");
-    if (object.contains("library") || !out.has_materials) {
+    const bool has_textures = object.contains("textures"); // texture_json.cpp
+    if (has_textures && !out.provides_any("restage.texture"))
+        return fail(file + ": has \"textures\", and \"provides\" does not list restage.texture/1");
+    if (object.contains("library") || !(out.has_materials || has_textures)) {
         RESTAGE_TRY(const std::string library, text_of(object, "library", file));
         RESTAGE_TRY(out.library, inner_path(library, "library", file));
         if (!out.library.has_extension()) out.library += Library::extension();

@@ -18,6 +18,9 @@
 //       "choices": ["a", "b"],                     of an enum; its default is one of them
 //       "flags": ["texturable", "advanced"] }],
 //     "emission": { "radiance": "glow", "scale": "brightness", "two_sided": "both" } }]   ids of params; see emission.h
+// and so do textures (restage/texture.h), with the same "params":
+//   "textures": [{ "type": "weave", "label": "Weave", "prefix": "weave", "glsl": "weave.glsl", "tooltip": "Threads.",
+//     "flags": ["mapped"], "params": [...] }]      image mapped site
 #pragma once
 
 #include "base/result.hpp"

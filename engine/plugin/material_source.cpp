@@ -2,6 +2,7 @@
 #include "plugin/material_source.hpp"
 
 #include "base/file.hpp"
+#include "plugin/table_digest.hpp"
 
 namespace restage::plugin {
 
@@ -11,20 +12,6 @@ namespace {
 
 constexpr std::size_t most_glsl = 16 << 20;
 constexpr int deepest_folder = 4;
-
-// Numbers and texts of a table, one after the other: what two tables must share to be the same.
-class Digest {
-  public:
-    void text(std::string_view t) { hash_ = hash64(t, hash_ + 1); }
-    template <class T>
-    void number(T v) {
-        hash_ = hash64(&v, sizeof v, hash_);
-    }
-    std::uint64_t value() const { return hash_; }
-
-  private:
-    std::uint64_t hash_ = 0;
-};
 
 } // namespace
 
@@ -59,21 +46,13 @@ MaterialSource::MaterialSource(model::Material material, fs::path folder, std::s
                             m.additive, m.site, m.emission.has_value()})
         digest.number(flag);
     for (model::Param& p : material_.params) {
-        for (const std::string& text : {p.id, p.label, p.unit, choices_text(p), p.file, p.tooltip})
-            digest.text(text);
-        for (const int n : {int(p.type), int(p.texturable), int(p.advanced), p.int_min, p.int_max, p.int_def})
-            digest.number(n);
-        for (const float v : {p.min, p.max, p.def[0], p.def[1], p.def[2], p.def[3]})
-            digest.number(v);
+        digest.param(p);
         if (!p.file.empty()) p.file = (folder_ / p.file).lexically_normal().string();
     }
     if (m.emission)
         for (const std::string& text : {m.emission->radiance, m.emission->scale, m.emission->two_sided})
             digest.text(text);
-    for (const auto& [path, text] : *glsl_) {
-        digest.text(path.lexically_relative(folder_).generic_string());
-        digest.text(text);
-    }
+    digest.files(*glsl_, folder_);
     revision_ = digest.value();
 }
 

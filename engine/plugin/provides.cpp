@@ -11,6 +11,7 @@ std::vector<std::string> provides(const Registry& registry, const Entry& entry) 
     };
     const auto catalogue = registry.catalogue();
     list(catalogue->materials, "material ", [](const model::Material& m) { return m.type; });
+    list(catalogue->textures, "texture ", [](const model::Texture& t) { return t.type; });
     list(catalogue->importers, "importer ", [](const model::Importer& m) { return m.format; });
     list(catalogue->exporters, "exporter ", [](const model::Exporter& m) { return m.format; });
     list(catalogue->actions, "action ", [](const model::Action& a) { return a.id; });

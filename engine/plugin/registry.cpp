@@ -183,6 +183,10 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
         for (const auto& source : loaded->materials)
             RESTAGE_CHECK(judge_({&source->material(), std::make_shared<const Entry>(entry),
                                   entry.blame("while its GLSL was being compiled"), source}));
+    if (judged && texture_judge_)
+        for (const auto& source : loaded->textures)
+            RESTAGE_CHECK(texture_judge_({&source->texture(), std::make_shared<const Entry>(entry),
+                                          entry.blame("while its GLSL was being compiled"), source}));
     if (plugin.loaded) replaced_.push_back(std::move(plugin.loaded)); // who renders with its tables has copies of them
     plugin.loaded = std::move(loaded);
     entry.manifest = manifest;
@@ -222,6 +226,26 @@ Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
                     return fail(who + ": material \"" + mine.type + "\": the prefix \"" + mine.prefix +
                                 "\" is already taken by material \"" + theirs.type + "\" of " + other->entry.name());
             }
+        for (const auto& a : loaded.textures)
+            for (const auto& b : other->loaded->textures)
+                if (a->texture().type == b->texture().type) return taken(a->texture().type, *other);
+        // In a shader the code of materials and textures stands together.
+        const auto apart = [&](const Loaded& one, const Loaded& two) -> Result<> {
+            for (const auto& a : one.textures) {
+                const auto same = [&](const auto& declared) -> Result<> {
+                    if (declared.prefix != a->texture().prefix) return {};
+                    return fail(who + ": the prefix \"" + declared.prefix + "\" is already taken by " +
+                                other->entry.name());
+                };
+                for (const auto& b : two.textures)
+                    RESTAGE_CHECK(same(b->texture()));
+                for (const auto& b : two.materials)
+                    if (b->material().has_code()) RESTAGE_CHECK(same(b->material()));
+            }
+            return {};
+        };
+        RESTAGE_CHECK(apart(loaded, *other->loaded));
+        RESTAGE_CHECK(apart(*other->loaded, loaded));
     }
     return {};
 }
@@ -249,6 +273,9 @@ void Registry::publish() {
         for (const auto& source : plugin->loaded->materials)
             all->materials.push_back(
                 {&source->material(), entry, entry->blame("while its GLSL was being compiled"), source});
+        for (const auto& source : plugin->loaded->textures) // with the library: its native evaluation is code of it
+            all->textures.push_back({&source->texture(), entry, entry->blame("while its GLSL was being compiled"),
+                                     std::shared_ptr<const TextureSource>(plugin->loaded, source.get())});
         for (const auto& reader : plugin->loaded->table_readers)
             reader->set_blame(entry->blame("while it read a table"));
     }
@@ -257,7 +284,7 @@ void Registry::publish() {
     };
     sort(all->materials), sort(all->importers), sort(all->exporters), sort(all->denoisers), sort(all->inspectors);
     sort(all->actions), sort(all->panels);
-    sort(all->skies);
+    sort(all->skies), sort(all->textures);
     std::shared_ptr<const Catalogue> before = std::move(all);
     {
         std::lock_guard lock(catalogue_mutex_);
@@ -318,6 +345,9 @@ std::shared_ptr<const Catalogue> Registry::catalogue() const {
 }
 std::optional<MaterialEntry> Registry::find_material(std::string_view type) const {
     return find_in(catalogue()->materials, type);
+}
+std::optional<TextureEntry> Registry::find_texture(std::string_view type) const {
+    return find_in(catalogue()->textures, type);
 }
 std::optional<ImporterEntry> Registry::find_importer(std::string_view format) const {
     return find_in(catalogue()->importers, format);

@@ -155,9 +155,14 @@ class Registry {
     // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Denoisers need a new start.
     std::vector<Reload> reload_changed();
     Result<> reload(const Entry& plugin); // this one, changed or not
-    // Asked before a material is taken by reload_changed: does its GLSL compile? See render/material_types.hpp.
+    // Asked before a material or texture is taken by reload_changed: does its GLSL compile? See
+    // render/material_composer.hpp and texture_composer.hpp.
     using Judge = std::function<Result<>(const MaterialEntry&)>;
-    void set_judge(Judge judge) { judge_ = std::move(judge); }
+    using TextureJudge = std::function<Result<>(const TextureEntry&)>;
+    void set_judge(Judge judge, TextureJudge texture_judge = {}) {
+        judge_ = std::move(judge);
+        texture_judge_ = std::move(texture_judge);
+    }
     // [any] Grows with each change of the lists.
     std::uint64_t version() const { return version_; }
 
@@ -171,10 +176,12 @@ class Registry {
     std::shared_ptr<const Catalogue> catalogue() const;
     // [any] Of the newest catalogue. nullopt = no plugin provides it.
     std::optional<MaterialEntry> find_material(std::string_view type) const;
+    std::optional<TextureEntry> find_texture(std::string_view type) const;
     std::optional<ImporterEntry> find_importer(std::string_view format) const;
     std::optional<ExporterEntry> find_exporter(std::string_view format) const;
     std::optional<DenoiserEntry> find_denoiser(std::string_view type) const;
     std::vector<MaterialEntry> materials() const { return catalogue()->materials; }
+    std::vector<TextureEntry> textures() const { return catalogue()->textures; }
     std::vector<ImporterEntry> importers() const { return catalogue()->importers; }
     std::vector<ExporterEntry> exporters() const { return catalogue()->exporters; }
     std::vector<DenoiserEntry> denoisers() const { return catalogue()->denoisers; }
@@ -194,6 +201,7 @@ class Registry {
     RegistryOptions options_;
     Quarantine quarantine_;
     Judge judge_;
+    TextureJudge texture_judge_;
     std::vector<std::unique_ptr<Plugin>> plugins_;
     std::atomic<std::uint64_t> version_{0};
     std::vector<std::shared_ptr<Loaded>> replaced_; // closed on the main thread, when nobody uses them any more

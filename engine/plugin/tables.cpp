@@ -55,6 +55,15 @@ std::string check_param(const model::Param& p) {
     return "";
 }
 
+std::string check_glsl(const std::string& file, const fs::path& folder, const std::string& who) {
+    if (file.empty()) return who + " names no GLSL file";
+    const fs::path glsl = fs::path(file).lexically_normal();
+    if (glsl.is_absolute() || glsl.has_root_name() || *glsl.begin() == "..")
+        return who + ": the GLSL file " + quote(file) + " is outside of the plugin's folder";
+    std::error_code code;
+    return fs::is_regular_file(folder / glsl, code) ? "" : who + ": " + (folder / glsl).string() + " is missing";
+}
+
 bool has_param(const model::Material& m, std::string_view id, ParamType type) {
     const model::Param* p = m.find(id);
     return p && p->type == type;
@@ -107,7 +116,7 @@ bool is_glsl_identifier(std::string_view name) {
     return letters && !is_glsl_word(name);
 }
 
-bool is_taken_prefix(std::string_view prefix) { return prefix == "material"; }
+bool is_taken_prefix(std::string_view prefix) { return prefix == "material" || prefix == "texture"; }
 
 bool is_type_name(std::string_view name) {
     return !name.empty() && name[0] >= 'a' && name[0] <= 'z' && std::all_of(name.begin(), name.end(), [](char c) {
@@ -153,14 +162,31 @@ std::string check_material(const model::Material& m, const fs::path& folder) {
                        has_param(m, "amount", ParamType::number)
                    ? ""
                    : who + ": a mix needs the parameters first, second (MATERIAL) and amount (FLOAT)";
-    if (!m.has_code()) return "";
-    if (m.glsl_file.empty()) return who + " names no GLSL file";
-    const fs::path glsl = fs::path(m.glsl_file).lexically_normal();
-    if (glsl.is_absolute() || glsl.has_root_name() || *glsl.begin() == "..")
-        return who + ": the GLSL file " + quote(m.glsl_file) + " is outside of the plugin's folder";
-    std::error_code code;
-    if (!fs::is_regular_file(folder / glsl, code)) return who + ": " + (folder / glsl).string() + " is missing";
-    return "";
+    return m.has_code() ? check_glsl(m.glsl_file, folder, who) : "";
+}
+
+std::string check_texture(const model::Texture& t, const fs::path& folder) {
+    if (!is_type_name(t.type)) return "a texture without a proper type name (lower case, digits, _)";
+    const std::string who = "texture " + quote(t.type);
+    if (t.label.empty()) return who + " has no label";
+    if (!is_glsl_identifier(t.prefix) || t.prefix.back() == '_')
+        return who + ": its prefix " + quote(t.prefix) + " is no GLSL identifier, or ends with an underscore";
+    if (is_taken_prefix(t.prefix))
+        return who + ": its prefix " + quote(t.prefix) + " is taken: functions around it begin with it";
+    if (const std::string problem = check_params(t.params); !problem.empty()) return who + ": " + problem;
+    constexpr std::size_t most_operands = 16; // bits in the first word of an operation, render/texture_program.hpp
+    std::size_t operands = 0;
+    for (const model::Param& p : t.params) {
+        const std::string param = who + ": parameter " + quote(p.id);
+        if (p.type > ParamType::text) return param + ": a texture has numbers, colours, choices and texts only";
+        if (p.id == "average" || (t.image && p.id == "image") ||
+            (t.mapped && find_param(model::mapping_params(), p.id)))
+            return param + " belongs to the host";
+        operands += p.texturable;
+    }
+    if (operands > most_operands)
+        return who + ": " + std::to_string(operands) + " texturable parameters; 16 are possible";
+    return check_glsl(t.glsl_file, folder, who);
 }
 
 std::string check_importer(const model::Importer& t) {

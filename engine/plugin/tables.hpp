@@ -7,6 +7,7 @@
 #include "model/formats.hpp"
 #include "model/material.hpp"
 #include "model/sky.hpp"
+#include "model/texture.hpp"
 
 #include <filesystem>
 #include <string>
@@ -19,6 +20,7 @@ bool is_taken_prefix(std::string_view);    // by the functions that call a mater
 bool is_type_name(std::string_view);       // lower_snake, as scene files write it
 std::string check_params(model::ParamTable);
 std::string check_material(const model::Material&, const std::filesystem::path& folder); // its emission, too
+std::string check_texture(const model::Texture&, const std::filesystem::path& folder);
 std::string check_importer(const model::Importer&);
 std::string check_exporter(const model::Exporter&);
 std::string check_action(const model::Action&);

@@ -48,7 +48,15 @@ struct QueryContext {
     bool borders;   // asks for borders of media, not for surfaces
     bool shadow;    // asks for what stops light
     glm::vec3 origin, direction; // of the ray in world space: Embree moves it into that of instances
+    std::vector<EmbreeScene::Undecided>* undecided; // null: decide by what is known
 };
+
+// Is the hit put aside? Then the ray goes on.
+bool put_aside(const GpuScene& scene, const QueryContext& query, const EmbreeScene::Undecided& hit) {
+    if (!query.undecided || !scene.undecided(hit.instance)) return false;
+    if (!(query.shadow && (scene.instances()[hit.instance].flags & INSTANCE_PASSES))) query.undecided->push_back(hit);
+    return true;
+}
 
 // What would hit_filter say of this hit of a ray in world space?
 bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance,
@@ -69,7 +77,9 @@ std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, 
     GpuScene::QuadricHit hits[2];
     const int n = scene.meet_quadric(instance, query.origin, query.direction, range, hits);
     for (int i = 0; i < n; ++i) // the far one where the near one lets rays pass
-        if (passes_filter(scene, query, instance, hits[i])) return hits[i];
+        if (!put_aside(scene, query, {hits[i].t, instance, 0, hits[i].uv, hits[i].leaves}) &&
+            passes_filter(scene, query, instance, hits[i]))
+            return hits[i];
     return std::nullopt;
 }
 
@@ -107,6 +117,10 @@ void hit_filter(const RTCFilterFunctionNArguments* args) {
         const unsigned instance = args->context->instID[0], prim = RTCHitN_primID(args->hit, n, i);
         const glm::vec2 bary(RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i));
         const auto flags = scene->instances()[instance].flags;
+        if (put_aside(*scene, query, {RTCRayN_tfar(args->ray, n, i), instance, prim, bary, prim})) {
+            args->valid[i] = 0;
+            continue;
+        }
         if (flags & INSTANCE_HAS_ALPHA) {
             const float o[3] = {RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
                                 RTCRayN_org_z(args->ray, n, i)};
@@ -274,12 +288,13 @@ void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChang
     if (changed) rtcCommitScene(top.scene);
 }
 
-void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray) const {
+void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray, std::vector<Undecided>* undecided) const {
     if (!can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach_)) return;
     QueryContext context;
     init_context(context.embree);
     context.borders = &top == &borders_;
     context.shadow = false;
+    context.undecided = undecided;
     context.origin = ray.origin;
     context.direction = ray.direction;
 #if RESTAGE_EMBREE_MAJOR == 3
@@ -292,7 +307,9 @@ void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray) const {
 #endif
 }
 
-void EmbreeScene::intersect(shared::RayHit& ray) const { intersect(surfaces_, ray); }
+void EmbreeScene::intersect(shared::RayHit& ray, std::vector<Undecided>* undecided) const {
+    intersect(surfaces_, ray, undecided);
+}
 
 EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint32_t medium) const {
     const glm::vec3& direction = stretch.direction;
@@ -307,7 +324,7 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
     for (;;) {
         ray.tfar = stretch.t_end;
         ray.geom = ray.inst = NONE;
-        intersect(borders_, ray);
+        intersect(borders_, ray, nullptr);
         depth += scene_->absorption(medium) * (ray.tfar - t);
         if (ray.inst == NONE) return {glm::exp(-depth), medium};
         medium = scene_->medium_behind(ray.inst, ray.prim, {ray.u, ray.v}, direction);
@@ -317,7 +334,7 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
     }
 }
 
-void EmbreeScene::occluded(shared::ShadowRay& shadow) const {
+void EmbreeScene::occluded(shared::ShadowRay& shadow, std::vector<Undecided>* undecided) const {
     if (!can_be_asked(shadow.origin, shadow.direction, shadow.tnear, shadow.tfar, reach_)) {
         shadow.tfar = -INFINITY; // no light comes along what is no ray
         return;
@@ -326,6 +343,7 @@ void EmbreeScene::occluded(shared::ShadowRay& shadow) const {
     init_context(context.embree);
     context.borders = false;
     context.shadow = true;
+    context.undecided = undecided;
     context.origin = shadow.origin;
     context.direction = shadow.direction;
 #if RESTAGE_EMBREE_MAJOR == 3

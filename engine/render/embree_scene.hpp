@@ -25,8 +25,16 @@ class EmbreeScene {
 
     // In place, on the kernels' memory: `ray` is a shared::RayHit, `shadow` a shared::ShadowRay. Thread-safe between
     // updates. intersect leaves inst == NONE on a miss; occluded sets tfar to -inf when something is in the way.
-    void intersect(shared::RayHit& ray) const;
-    void occluded(shared::ShadowRay& shadow) const;
+    // Hits that no native code can decide (GpuScene::undecided) are passed and added to `undecided`, in no order;
+    // without that, textures' averages decide them.
+    struct Undecided {
+        float t = 0;
+        std::uint32_t instance = 0, prim = 0;
+        glm::vec2 bary{0};
+        std::uint32_t choice = 0; // see GpuScene::stops
+    };
+    void intersect(shared::RayHit& ray, std::vector<Undecided>* undecided = nullptr) const;
+    void occluded(shared::ShadowRay& shadow, std::vector<Undecided>* undecided = nullptr) const;
 
     // What is left of light on its way along a ray from t_start to t_end, and the medium there: Beer-Lambert between
     // the borders of media that the ray passes, nearest first; what a border says behind it holds (pbrt 4ed, 11.4).
@@ -48,7 +56,7 @@ class EmbreeScene {
     };
     EmbreeScene() = default;
     void update(Instances&, const GpuScene&, const SceneChanges&, bool (GpuScene::*wanted)(std::uint32_t) const);
-    void intersect(const Instances&, shared::RayHit&) const;
+    void intersect(const Instances&, shared::RayHit&, std::vector<Undecided>*) const;
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
     bool copies_ = false;

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <optional>
 
 namespace restage::render {
 namespace {
@@ -22,6 +23,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: stays near the caches, amortises a submit
 constexpr std::uint32_t group_size = 64;      // of the kernels
 constexpr std::size_t chunk = 2048;           // paths a job
+constexpr std::size_t most_asked = 1 << 18;   // undecided hits in a submit
 constexpr std::size_t ahead = 3; // paths that are fetched before their turn: kernels left them in another cache
 constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
 
@@ -138,6 +140,11 @@ class EmbreeTracer final : public Tracer {
             active_[i] = i;
         for (std::uint32_t bounce = 0;; ++bounce) {
             trace_rays(scene, bounce >= data.max_depth);
+            if (scene.any_undecided()) {
+                RESTAGE_TRY(const bool decided, decide(scene, bounce >= data.max_depth, keep_going));
+                if (!decided) return false;
+            }
+            queue_hits();
             if (active_.empty() && !escaped_) break;
             RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
             if (!ready) return false;
@@ -181,8 +188,29 @@ class EmbreeTracer final : public Tracer {
                !(scene.instances()[instance].flags & INSTANCE_EMITS);
     }
 
+    // Rays of one chunk that met what no native code can decide, and all those hits.
+    struct Open {
+        std::uint32_t path = 0;
+        bool shadow = false;
+        float distance = 0; // of a shadow ray
+        std::size_t first = 0, count = 0; // of `hits`
+    };
+    struct Undecided {
+        std::vector<EmbreeScene::Undecided> hits;
+        std::vector<Open> open;
+    };
+
+    // Light that arrives along a shadow ray whose way is free.
+    void add_light(const GpuScene& scene, std::uint32_t path, float distance) {
+        const shared::ShadowRay& shadow = shadows_.span<shared::ShadowRay>()[path];
+        glm::vec3 c = shadow.contribution;
+        if (scene.features().borders)
+            c *= embree_->pass_borders({shadow.origin, shadow.direction, 0, distance}, shadow.medium).transmittance;
+        paths_.span<shared::PathState>()[path].radiance += c;
+    }
+
     // Adds what the shadow rays of these paths found lit. Returns how many rays there were.
-    std::uint32_t trace_shadows(const GpuScene& scene, std::span<const std::uint32_t> active) {
+    std::uint32_t trace_shadows(const GpuScene& scene, std::span<const std::uint32_t> active, Undecided* undecided) {
         auto shadows = shadows_.span<shared::ShadowRay>();
         auto paths = paths_.span<shared::PathState>();
         std::uint32_t traced = 0;
@@ -195,24 +223,40 @@ class EmbreeTracer final : public Tracer {
             if (!(shadow.tfar > 0)) continue;
             ++traced;
             const float distance = shadow.tfar;
-            embree_->occluded(shadow);
-            if (shadow.tfar > 0) {
-                glm::vec3 c = shadow.contribution;
-                if (scene.features().borders)
-                    c *= embree_->pass_borders({shadow.origin, shadow.direction, 0, distance}, shadow.medium)
-                             .transmittance;
-                paths[active[a]].radiance += c;
-            }
+            const std::size_t first = undecided ? undecided->hits.size() : 0;
+            embree_->occluded(shadow, undecided ? &undecided->hits : nullptr);
+            const bool is_free = shadow.tfar > 0;
             shadow.tfar = -1;
+            if (undecided && !is_free) undecided->hits.resize(first);
+            if (undecided && undecided->hits.size() > first)
+                undecided->open.push_back({active[a], true, distance, first, undecided->hits.size() - first});
+            else if (is_free)
+                add_light(scene, active[a], distance);
         }
         return traced;
     }
 
+    // Who shades this hit, or this miss? `material`: of a hit, where it is known already.
+    std::uint8_t shader_of(const GpuScene& scene, std::uint32_t i, bool last_vertex,
+                           std::optional<std::uint32_t> material = std::nullopt) {
+        shared::RayHit& ray = rays_.span<shared::RayHit>()[i];
+        shared::PathState& path = paths_.span<shared::PathState>()[i];
+        if (scene.features().borders) {
+            const auto passed = embree_->pass_borders({ray.origin, ray.direction, ray.tnear, ray.tfar}, path.medium);
+            path.throughput *= passed.transmittance;
+            path.medium = passed.medium;
+        }
+        if (ray.inst == NONE) return scene.features().environment ? type_escape : type_none;
+        if (last_vertex && ends_unlit(scene, path, ray.inst)) return type_none;
+        ray.geom = material ? *material : scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
+        if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter let it stand: cannot be
+        return std::uint8_t(scene.materials()[ray.geom].type);
+    }
+
     // Next hits of these paths: types_ says who shades each, `count` has how many of each type.
     std::uint32_t trace_closest(const GpuScene& scene, std::span<const std::uint32_t> active, bool last_vertex,
-                                std::array<std::uint32_t, 256>& count) {
+                                std::array<std::uint32_t, 256>& count, Undecided* undecided) {
         auto rays = rays_.span<shared::RayHit>();
-        auto paths = paths_.span<shared::PathState>();
         std::uint32_t traced = 0;
         for (std::size_t a = 0; a < active.size(); ++a) {
             if (a + ahead < active.size()) {
@@ -224,20 +268,9 @@ class EmbreeTracer final : public Tracer {
             if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
                 ++traced;
                 ray.geom = ray.inst = NONE;
-                embree_->intersect(ray);
-                if (scene.features().borders) {
-                    const auto passed =
-                        embree_->pass_borders({ray.origin, ray.direction, ray.tnear, ray.tfar}, paths[i].medium);
-                    paths[i].throughput *= passed.transmittance;
-                    paths[i].medium = passed.medium;
-                }
-                if (ray.inst == NONE) {
-                    type = scene.features().environment ? type_escape : type_none;
-                } else if (!last_vertex || !ends_unlit(scene, paths[i], ray.inst)) {
-                    ray.geom = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
-                    if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter let it stand: cannot be
-                    type = std::uint8_t(scene.materials()[ray.geom].type);
-                }
+                if (undecided && intersect_undecided(scene, i, *undecided)) continue;
+                if (!undecided) embree_->intersect(ray);
+                type = shader_of(scene, i, last_vertex);
             }
             types_[i] = type;
             ++count[type];
@@ -245,21 +278,122 @@ class EmbreeTracer final : public Tracer {
         return traced;
     }
 
-    // Shadow rays of the last vertex, then the next hits, for the active paths in natural order. Afterwards `queue_`
-    // holds the hit paths sorted by type, type_count_ their numbers, active_ those that will be shaded.
+    // Finds the nearest hit, and those before it that are undecided. True: there are some.
+    bool intersect_undecided(const GpuScene& scene, std::uint32_t i, Undecided& undecided) {
+        shared::RayHit& ray = rays_.span<shared::RayHit>()[i];
+        auto& hits = undecided.hits;
+        const std::size_t first = hits.size();
+        embree_->intersect(ray, &hits);
+        if (ray.inst != NONE) // those behind it do not matter
+            hits.erase(std::remove_if(hits.begin() + std::ptrdiff_t(first), hits.end(),
+                                      [&](const auto& hit) { return hit.t >= ray.tfar; }),
+                       hits.end());
+        if (ray.inst != NONE && scene.undecided(ray.inst)) // a mix without gaps: nothing filters its mesh
+            hits.push_back({ray.tfar, ray.inst, ray.prim, {ray.u, ray.v}, ray.prim});
+        if (hits.size() == first) return false;
+        std::sort(hits.begin() + std::ptrdiff_t(first), hits.end(),
+                  [](const auto& a, const auto& b) { return a.t < b.t; });
+        undecided.open.push_back({.path = i, .first = first, .count = hits.size() - first});
+        return true;
+    }
+
+    // Asks the device about all hits that were put aside, and ends what waits for them. False: keep_going said to stop.
+    Result<bool> decide(const GpuScene& scene, bool last_vertex, const std::function<bool()>& keep_going) {
+        std::vector<shared::HitAsked> asked;
+        for (const Undecided& u : undecided_)
+            for (const auto& hit : u.hits)
+                asked.push_back({hit.instance, hit.prim, hit.bary});
+        if (asked.empty()) return true;
+        RESTAGE_TRY(const bool ready, kernels_.need_decide(keep_going));
+        if (!ready) return false;
+        if (!asked_) {
+            RESTAGE_TRY(asked_, c_.device.create_buffer(most_asked * sizeof(shared::HitAsked),
+                                                        gpu::BufferKind::readback, "undecided hits"));
+            RESTAGE_TRY(decided_, c_.device.create_buffer(most_asked * sizeof(shared::HitDecided),
+                                                          gpu::BufferKind::readback, "decided hits"));
+        }
+        std::vector<shared::HitDecided> decided(asked.size());
+        for (std::size_t first = 0; first < asked.size(); first += most_asked) {
+            const std::size_t n = std::min(most_asked, asked.size() - first);
+            std::copy_n(asked.data() + first, n, asked_.span<shared::HitAsked>().data());
+            const shared::DecidePush push{scene.address(), asked_.address(), decided_.address(), std::uint32_t(n), 0};
+            RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
+                list.dispatch(kernels_.decide(), gpu::push_bytes(push),
+                              (std::uint32_t(n) + group_size - 1) / group_size);
+            }));
+            std::copy_n(decided_.span<shared::HitDecided>().data(), n, decided.data() + first);
+        }
+        std::vector<std::size_t> begins(undecided_.size());
+        for (std::size_t k = 1; k < begins.size(); ++k)
+            begins[k] = begins[k - 1] + undecided_[k - 1].hits.size();
+        c_.jobs.parallel_for(undecided_.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t k = begin; k < end; ++k)
+                settle(scene, undecided_[k], &decided[begins[k]], last_vertex, counts_[k]);
+        });
+        return true;
+    }
+
+    void settle(const GpuScene& scene, const Undecided& undecided, const shared::HitDecided* decided, bool last_vertex,
+                std::array<std::uint32_t, 256>& count) {
+        auto rays = rays_.span<shared::RayHit>();
+        const auto shadows = shadows_.span<shared::ShadowRay>();
+        for (const Open& open : undecided.open) {
+            shared::RayHit& ray = rays[open.path];
+            const shared::ShadowRay& shadow = shadows[open.path];
+            const glm::vec3 origin = open.shadow ? shadow.origin : ray.origin;
+            const glm::vec3 direction = open.shadow ? shadow.direction : ray.direction;
+            std::size_t h = open.first;
+            const std::size_t end = open.first + open.count;
+            while (h < end &&
+                   !scene.stops(undecided.hits[h].instance, undecided.hits[h].choice, decided[h], origin, direction))
+                ++h;
+            if (open.shadow) {
+                if (h == end) add_light(scene, open.path, open.distance);
+                continue;
+            }
+            std::optional<std::uint32_t> material;
+            if (h < end) {
+                const auto& hit = undecided.hits[h];
+                ray.tfar = hit.t, ray.inst = hit.instance, ray.prim = hit.prim;
+                ray.u = hit.bary.x, ray.v = hit.bary.y;
+                material = decided[h].material;
+            }
+            const std::uint8_t type = shader_of(scene, open.path, last_vertex, material);
+            types_[open.path] = type;
+            ++count[type];
+        }
+    }
+
+    // Shadow rays of the last vertex, then the next hits, for the active paths in natural order.
     void trace_rays(const GpuScene& scene, bool last_vertex) {
         const auto start = Clock::now();
-        auto queue = queue_.span<std::uint32_t>();
         const std::size_t n = active_.size(), chunks = (n + chunk - 1) / chunk;
         counts_.assign(chunks, {});
+        undecided_.resize(scene.any_undecided() ? chunks : 0);
+        for (Undecided& u : undecided_) {
+            u.hits.clear();
+            u.open.clear();
+        }
         std::atomic<std::uint64_t> rays_traced = 0, shadows_traced = 0;
         c_.jobs.parallel_for(chunks, 1, [&](std::size_t begin, std::size_t end, unsigned) {
             for (std::size_t k = begin; k < end; ++k) {
                 const auto paths = std::span(active_).subspan(k * chunk, std::min(chunk, n - k * chunk));
-                shadows_traced += trace_shadows(scene, paths);
-                rays_traced += trace_closest(scene, paths, last_vertex, counts_[k]);
+                Undecided* undecided = undecided_.empty() ? nullptr : &undecided_[k];
+                shadows_traced += trace_shadows(scene, paths, undecided);
+                rays_traced += trace_closest(scene, paths, last_vertex, counts_[k], undecided);
             }
         });
+        stats_.rays += rays_traced;
+        stats_.shadow_rays += shadows_traced;
+        stats_.seconds_tracing += seconds_since(start);
+    }
+
+    // Afterwards `queue_` holds the hit paths sorted by type, type_count_ their numbers, active_ those that will be
+    // shaded.
+    void queue_hits() {
+        const auto start = Clock::now();
+        auto queue = queue_.span<std::uint32_t>();
+        const std::size_t n = active_.size(), chunks = counts_.size();
         // Where each chunk's paths of each type begin in the queue, and its live ones in the next active list.
         type_count_.fill(0);
         for (auto& c : counts_)
@@ -293,8 +427,6 @@ class EmbreeTracer final : public Tracer {
             }
         });
         active_.swap(next_active_);
-        stats_.rays += rays_traced;
-        stats_.shadow_rays += shadows_traced;
         stats_.seconds_tracing += seconds_since(start);
     }
 
@@ -303,6 +435,8 @@ class EmbreeTracer final : public Tracer {
     gpu::Buffer rays_, shadows_, paths_, guides_, queue_, counters_, frame_;
     WaveKernels kernels_;
     bool escaped_ = false;
+    std::vector<Undecided> undecided_; // by chunk of active_
+    gpu::Buffer asked_, decided_;
     gpu::CommandList list_;
     shared::WavePush push_{}; // of this wave
     std::vector<std::uint32_t> active_, next_active_;

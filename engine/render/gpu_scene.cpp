@@ -21,7 +21,6 @@ using scene::Scene;
 static_assert(sizeof(shared::InstanceData) == 184);
 static_assert(sizeof(shared::QuadricData) == 40);
 static_assert(sizeof(shared::MaterialData) == 32);
-static_assert(sizeof(shared::TextureOp) == 64);
 static_assert(sizeof(shared::LightData) == 68);
 static_assert(sizeof(shared::ImageData) == 24);
 
@@ -45,8 +44,10 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     }
     const bool meshes = first_ || scene.meshes.version() != seen_.meshes;
     const bool images = first_ || scene.images.version() != seen_.images;
-    const bool textures = images || scene.textures.version() != seen_.textures;
-    const bool plugins = refresh_types();
+    bool other_words = false; // of texture plugins
+    const bool texture_plugins = refresh_texture_types(texture_types_, lookup_.textures, other_words);
+    const bool textures = images || scene.textures.version() != seen_.textures || other_words;
+    const bool plugins = refresh_types() || texture_plugins;
     const bool materials = first_ || scene.materials.version() != seen_.materials || textures || plugins;
     const bool instances = first_ || meshes || scene.instances.version() != seen_.instances;
     const bool lights = instances || images || scene.lights.version() != seen_.lights ||
@@ -60,6 +61,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     else if (materials || instances)
         RESTAGE_CHECK(sync_materials(scene, changes));
     if (instances || materials) RESTAGE_CHECK(sync_instances(scene, changes, all));
+    if (textures || instances || materials) find_undecided();
     if (lights || !changes.instances.empty() || (textures && (features_.emission_textures || features_.light_alpha)))
         RESTAGE_CHECK(sync_lights(
             scene, changes,
@@ -235,12 +237,15 @@ Result<void> GpuScene::sync_textures(const Scene& scene, SceneChanges& changes) 
         images_.set(i, {pixels_[i].buffer.address(), image->data->width, image->data->height,
                         pixels_[i].buffer.size() == n * 8 ? TEXEL_HALF4 : TEXEL_FLOAT4, 0});
     }
-    textures_ = compile_textures(scene);
+    const std::size_t types = texture_types_.size();
+    textures_ = compile_textures(scene, texture_types_, lookup_.textures);
+    for (std::size_t i = types; i < texture_types_.size(); ++i)
+        changes.shaders |= texture_types_[i].composed();
     programs_.assign(textures_.programs);
-    ops_.assign(textures_.ops);
+    texture_words_.assign(textures_.words);
     RESTAGE_CHECK(images_.flush(*device_));
     RESTAGE_CHECK(programs_.flush(*device_));
-    return ops_.flush(*device_);
+    return texture_words_.flush(*device_);
 }
 
 glm::vec4 GpuScene::uv_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
@@ -262,6 +267,38 @@ float GpuScene::alpha_at(const shared::InstanceData& instance, const scene::Mesh
         alpha = evaluate_texture(textures_, cpu_images_, instance.alpha_texture, uv_at(instance, mesh, prim, bary)).x;
     if (instance.flags & INSTANCE_ALPHA_MASK) return alpha > 0 ? 1.f : 0.f;
     return alpha > 0 ? std::min(alpha, 1.f) : 0.f;
+}
+
+void GpuScene::find_undecided() {
+    undecided_.clear();
+    const auto open = [&](std::uint32_t texture) {
+        return texture < textures_.native.size() && textures_.native[texture].count > 0 &&
+               !textures_.native[texture].there;
+    };
+    bool some = false;
+    for (std::uint32_t t = 1; t < textures_.native.size(); ++t)
+        some |= open(t);
+    if (!some) return;
+    std::vector<char> mixes(materials_.size());
+    for (int depth = 0; depth < 8; ++depth) // as deep as mixes are resolved
+        for (std::size_t m = 0; m < mixes.size(); ++m) {
+            if (!(materials_[m].flags & MATERIAL_MIX)) continue;
+            mixes[m] = open(mix_texture_[m]);
+            for (const auto child : {materials_[m].mix_first, materials_[m].mix_second})
+                if (child != MATERIAL_NOTHING && mixes[child]) mixes[m] = 1;
+        }
+    undecided_.resize(instances_.size());
+    some = false;
+    for (std::size_t i = 0; i < undecided_.size(); ++i)
+        some |= undecided_[i] = open(instances_[i].alpha_texture) || mixes[instances_[i].material];
+    if (!some) undecided_.clear();
+}
+
+bool GpuScene::stops(std::uint32_t id, std::uint32_t choice, const shared::HitDecided& hit, const glm::vec3& origin,
+                     const glm::vec3& direction) const {
+    if (hit.material == MATERIAL_NOTHING) return false;
+    if (hit.alpha >= 1) return true;
+    return hit.alpha > 0 && shared::alpha_choice(origin, direction, id, choice) < hit.alpha;
 }
 
 bool GpuScene::alpha_passes(std::uint32_t id, std::uint32_t prim, glm::vec2 bary, const float* o,
@@ -321,10 +358,10 @@ std::size_t GpuScene::bytes() const {
 
 std::size_t GpuScene::uploaded_bytes() const {
     return instances_.uploaded_bytes() + materials_.uploaded_bytes() + params_.uploaded_bytes() +
-           programs_.uploaded_bytes() + ops_.uploaded_bytes() + images_.uploaded_bytes() + lights_.uploaded_bytes() +
-           light_alias_.uploaded_bytes() + media_.uploaded_bytes() + env_texels_.uploaded_bytes() +
-           env_alias_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() +
-           tables_.uploaded_bytes();
+           programs_.uploaded_bytes() + texture_words_.uploaded_bytes() + images_.uploaded_bytes() +
+           lights_.uploaded_bytes() + light_alias_.uploaded_bytes() + media_.uploaded_bytes() +
+           env_texels_.uploaded_bytes() + env_alias_.uploaded_bytes() + filter_.uploaded_bytes() +
+           scene_data_.uploaded_bytes() + tables_.uploaded_bytes();
 }
 
 } // namespace restage::render

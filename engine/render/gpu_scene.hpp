@@ -15,6 +15,7 @@
 #include "scene/emission.hpp"
 #include "scene/quadric.hpp"
 #include "scene/scene.hpp"
+#include "shared/wave_data.h"
 
 #include <map>
 #include <memory>
@@ -56,6 +57,8 @@ class GpuScene {
 
     // By index into types(), as in shared::MaterialData::type. Types never change place while the scene lives.
     const std::vector<MaterialType>& types() const { return types_; }
+    // Those that the scene's textures have, or had; index + 1 is the kind of an operation.
+    const TextureTypes& texture_types() const { return texture_types_; }
     const std::vector<shared::MaterialData>& materials() const { return materials_.host(); }
     const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
@@ -88,6 +91,13 @@ class GpuScene {
                       const float* dir) const;
     // The material of a hit, through mixes; MATERIAL_NOTHING where there is no surface.
     std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary) const;
+    // Does some texture that decides about its hits (alpha, mixes) have no native code? Of such the two above know an
+    // average only; wave_decide.comp knows better.
+    bool undecided(std::uint32_t instance) const { return !undecided_.empty() && undecided_[instance]; }
+    bool any_undecided() const { return !undecided_.empty(); }
+    // Does it stop a ray here, given its alpha and its material? `choice`: the primitive; of quadrics, see QuadricHit.
+    bool stops(std::uint32_t instance, std::uint32_t choice, const shared::HitDecided&, const glm::vec3& origin,
+               const glm::vec3& direction) const;
     // The medium that a ray enters as it passes a border.
     std::uint32_t medium_behind(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary,
                                 const glm::vec3& direction) const;
@@ -109,6 +119,7 @@ class GpuScene {
     bool same_materials_in_use(const scene::Scene&) const; // although instances were changed
     Result<void> sync_instances(const scene::Scene&, SceneChanges&, bool all);
     Result<void> sync_lights(const scene::Scene&, SceneChanges&, bool all);
+    void find_undecided();
     Result<void> sync_root(const scene::Scene&, SceneChanges&);
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
@@ -133,6 +144,7 @@ class GpuScene {
     std::vector<std::shared_ptr<const scene::MeshData>> mesh_data_; // by Id<Mesh>::value
     std::vector<Pixels> pixels_; // by Id<Image>::value
     std::vector<CpuImage> cpu_images_;
+    TextureTypes texture_types_;
     TexturePrograms textures_;
     TableStore tables_;
     std::map<std::uint32_t, std::string> said_; // what was said of a material, by its id, while it is so
@@ -145,6 +157,7 @@ class GpuScene {
     // By Id<Instance>::value:
     std::vector<char> traced_, border_, flat_; // flat: no ray can be turned into its object space
     std::vector<char> quadric_; // one that rays may hit
+    std::vector<char> undecided_; // empty: none is
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
     std::vector<std::uint32_t> used_material_; // of what is not hidden; 0 = none
     struct Box {
@@ -158,7 +171,7 @@ class GpuScene {
     GpuArray<shared::MaterialData> materials_{"materials"};
     GpuArray<std::uint32_t> params_{"material parameters"};
     GpuArray<shared::TextureProgram> programs_{"textures"};
-    GpuArray<shared::TextureOp> ops_{"texture operations"};
+    GpuArray<std::uint32_t> texture_words_{"texture operations"};
     GpuArray<shared::ImageData> images_{"images"};
     GpuArray<shared::LightData> lights_{"lights"};
     GpuArray<shared::AliasEntry> light_alias_{"light alias table"};

@@ -457,7 +457,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     d.materials = materials_.address();
     d.params = params_.address();
     d.textures = programs_.address();
-    d.texture_ops = ops_.address();
+    d.texture_words = texture_words_.address();
     d.images = images_.address();
     d.lights = lights_.address();
     d.light_alias = light_alias_.address();

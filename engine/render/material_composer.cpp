@@ -1,51 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/material_composer.hpp"
 
+#include "render/glsl_values.hpp"
+#include "render/texture_composer.hpp"
+
 #include <fmt/format.h>
 #include <utility>
 
 namespace restage::render {
 namespace {
-
-const char* glsl_type(const model::Param& p) {
-    switch (p.type) {
-        case model::ParamType::color:
-            return "Spectrum";
-        case model::ParamType::number:
-            return "float";
-        case model::ParamType::boolean:
-            return "bool";
-        case model::ParamType::table:
-            return "Table";
-        default:
-            return "int";
-    }
-}
-
-// A COLOR's RGB as the Spectrum that the plugin sees.
-std::string spectrum(const model::Param& p, const std::string& rgb) {
-    return fmt::format("{}({})", p.max <= 1 ? "spectrum_from_rgb" : "spectrum_from_rgb_unbounded", rgb);
-}
-
-std::string read_value(const model::Param& p, std::uint32_t at) {
-    switch (p.type) {
-        case model::ParamType::color:
-            return spectrum(p, fmt::format("vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
-                                           "uintBitsToFloat(w.at[at + {}]))",
-                                           at, at + 1, at + 2));
-        case model::ParamType::number:
-            return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
-        case model::ParamType::boolean:
-            return fmt::format("w.at[at + {}] != 0u", at);
-        case model::ParamType::table:
-            return fmt::format(
-                "Table(uint64_t(w.at[at + {}]) | uint64_t(w.at[at + {}]) << 32, "
-                "w.at[at + {}])",
-                at, at + 1, at + 2);
-        default:
-            return fmt::format("int(w.at[at + {}])", at);
-    }
-}
 
 std::string default_value(const model::Param& p) {
     switch (p.type) {
@@ -63,7 +26,7 @@ std::string default_value(const model::Param& p) {
 }
 
 gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage, bool stand_in,
-                          ColorMode mode) {
+                          ColorMode mode, std::span<const TextureType> textures = {}) {
     const model::Material& table = *type.plugin.table;
     const std::string prefix = table.prefix;
     std::string fields, fetch;
@@ -82,9 +45,13 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
         if (line.texturable && type.is_textured(i)) { // else it carries no texture code
-            const std::string value = fmt::format("texture_eval(scene, w.at[at + {}], uv)", at + n);
-            fetch += fmt::format("    if (w.at[at + {}] != 0u) m.{} = {};\n", at + n, line.id,
-                                 line.type == model::ParamType::color ? spectrum(line, value) : value + ".x");
+            const std::string id = fmt::format("w.at[at + {}]", at + n);
+            const bool color = line.type == model::ParamType::color;
+            fetch += fmt::format("    if ({0} != 0u) m.{1} = {2}(scene, {0}, where{3});\n", id, line.id,
+                                 color ? "texture_eval" : "texture_number",
+                                 !color          ? ""
+                                 : line.max <= 1 ? ", TEXTURE_REFLECTANCE"
+                                                 : ", TEXTURE_UNBOUNDED");
         }
         at += line_words(line);
     }
@@ -95,8 +62,9 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
     gpu::ShaderSource source;
     source.name = stand_in ? "<stand-in>" : "<composed for " + type.type + ">";
     source.stage = stage;
-    source.plugin_folder = type.plugin.folder;
-    if (type.plugin.source) source.texts = type.plugin.source->glsl();
+    source.plugin_folders = {type.plugin.folder};
+    if (type.plugin.source) source.texts = {type.plugin.source->glsl()};
+    const std::string texture_code = compose_textures(textures, source);
     source.text = fmt::format(
         R"(#version 460
 // revision {revision:016x} of the plugin's table and files: what is made of this text is made anew when they change
@@ -108,9 +76,9 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
 {table_api}{site_api}struct {p}_Params {{
 {fields}}};
 #include <plugin/{file}>
-// The plugin's code stands before everything of the engine's, and cannot name it.
-#include "lib/texture.glsl"
-{tables}{material}Material material_fetch(SceneData scene, uint at, vec4 uv) {{
+// Plugins' code stands before everything of the engine's, and cannot name it.
+{textures}#include "lib/texture.glsl"
+{tables}{material}Material material_fetch(SceneData scene, uint at, TextureAt where) {{
     UintArray w = UintArray(scene.params);
     {p}_Params m;
 {before}{fetch}    {result}
@@ -134,7 +102,7 @@ Spectrum material_albedo(Material m, vec3 wo) {{ return {p}_albedo({m}, wo); }}
         fmt::arg("spectral", mode == ColorMode::spectral ? "#define RESTAGE_SPECTRAL 1\n" : ""),
         fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),
         fmt::arg("before", stand_in ? "    at -= 3u; // stand_in_color()\n" : ""), fmt::arg("rng", rng),
-        fmt::arg("file", table.glsl_file), fmt::arg("main", main_file),
+        fmt::arg("file", table.glsl_file), fmt::arg("main", main_file), fmt::arg("textures", texture_code),
         fmt::arg("rt", stage == gpu::ShaderStage::compute ? "" : "#extension GL_EXT_ray_tracing : require\n"));
     return source;
 }
@@ -142,8 +110,8 @@ Spectrum material_albedo(Material m, vec3 wo) {{ return {p}_albedo({m}, wo); }}
 } // namespace
 
 gpu::ShaderSource compose_material(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage,
-                                   ColorMode color) {
-    return compose(type, main_file, stage, false, color);
+                                   ColorMode color, std::span<const TextureType> textures) {
+    return compose(type, main_file, stage, false, color, textures);
 }
 gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
     return compose(type, main_file, stage, true, ColorMode::rgb);
@@ -162,6 +130,10 @@ plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {
         RESTAGE_CHECK(compiler->compile(compose_material(type, "wave_shade.glsl", gpu::ShaderStage::compute)));
         return {};
     };
+}
+
+bool evaluates_textures(const SceneFeatures& f, const MaterialType& type) {
+    return type.bump || !type.textured.empty() || f.emission_textures || f.light_alpha;
 }
 
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guides, Strategy strategy,

@@ -8,6 +8,7 @@
 #include "render/material_types.hpp"
 #include "render/renderer_options.hpp"
 
+#include <span>
 #include <vector>
 
 namespace restage::render {
@@ -32,7 +33,9 @@ enum class ColorMode { rgb, spectral };
 
 // `main_file`: "wave_shade.glsl" or what another tracer wraps around path_step.
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage,
-                                   ColorMode = ColorMode::rgb);
+                                   ColorMode = ColorMode::rgb, std::span<const TextureType> textures = {});
+// Does its shader look textures up? Then it is composed with the types of the scene.
+bool evaluates_textures(const SceneFeatures&, const MaterialType&);
 
 // What runs in place of a material that is still being compiled: `type` (diffuse) with its defaults, in the material's
 // own colour; see MaterialData::params.

@@ -7,11 +7,12 @@
 namespace restage::render {
 
 MaterialLookup material_lookup(const plugin::Registry& registry) {
-    return [&registry](const std::string& type) -> std::optional<MaterialPlugin> {
-        const auto entry = registry.find_material(type);
-        if (!entry) return std::nullopt;
-        return MaterialPlugin{entry->table, entry->plugin->folder, entry->source, entry->blame};
-    };
+    return {[&registry](const std::string& type) -> std::optional<MaterialPlugin> {
+                const auto entry = registry.find_material(type);
+                if (!entry) return std::nullopt;
+                return MaterialPlugin{entry->table, entry->plugin->folder, entry->source, entry->blame};
+            },
+            texture_lookup(registry)};
 }
 
 std::uint32_t value_words(const model::Param& p) {
@@ -34,41 +35,45 @@ std::string table_path(const model::Param& line, const scene::ParamSet& params) 
     return set && set->type == model::ParamType::table ? set->text : scene::default_value(line).text;
 }
 
+void pack_value(const model::Param& line, const scene::ParamSet& params, std::vector<std::uint32_t>& words,
+                DeviceTable table) {
+    if (value_words(line) == 0) return;
+    const scene::Value* set = params.find(line.id);
+    const scene::Value value = set ? *set : scene::default_value(line);
+    switch (line.type) {
+        case model::ParamType::color:
+            for (int k = 0; k < 3; ++k) // a number where a colour is asked for is a grey
+                words.push_back(
+                    std::bit_cast<std::uint32_t>(value.type == model::ParamType::color ? value.v[k] : value.scalar()));
+            break;
+        case model::ParamType::number:
+            words.push_back(std::bit_cast<std::uint32_t>(value.scalar()));
+            break;
+        case model::ParamType::table:
+            words.push_back(std::uint32_t(table.address));
+            words.push_back(std::uint32_t(table.address >> 32));
+            words.push_back(table.size);
+            break;
+        case model::ParamType::choice: {
+            const auto index = line.choice_index(value.text);
+            words.push_back(std::uint32_t(index ? *index : line.int_def));
+            break;
+        }
+        default:
+            words.push_back(std::uint32_t(value.whole()));
+    }
+}
+
 std::vector<std::uint32_t> pack_material(const model::Material& table, const scene::ParamSet& params,
                                          std::span<const DeviceTable> tables) {
     std::vector<std::uint32_t> words;
     std::size_t next_table = 0;
     for (const model::Param& line : table.params) {
-        const auto n = value_words(line);
-        if (n == 0) continue;
-        const scene::Value* set = params.find(line.id);
-        const scene::Value value = set ? *set : scene::default_value(line);
-        switch (line.type) {
-            case model::ParamType::color:
-                for (int k = 0; k < 3; ++k) // a number where a colour is asked for is a grey
-                    words.push_back(std::bit_cast<std::uint32_t>(
-                        value.type == model::ParamType::color ? value.v[k] : value.scalar()));
-                break;
-            case model::ParamType::number:
-                words.push_back(std::bit_cast<std::uint32_t>(value.scalar()));
-                break;
-            case model::ParamType::table: {
-                const DeviceTable t = next_table < tables.size() ? tables[next_table] : DeviceTable{};
-                ++next_table;
-                words.push_back(std::uint32_t(t.address));
-                words.push_back(std::uint32_t(t.address >> 32));
-                words.push_back(t.size);
-                break;
-            }
-            case model::ParamType::choice: {
-                const auto index = line.choice_index(value.text);
-                words.push_back(std::uint32_t(index ? *index : line.int_def));
-                break;
-            }
-            default:
-                words.push_back(std::uint32_t(value.whole()));
-        }
-        if (line.texturable) words.push_back(value.texture.value);
+        if (value_words(line) == 0) continue;
+        const bool reads = line.type == model::ParamType::table;
+        pack_value(line, params, words, reads && next_table < tables.size() ? tables[next_table] : DeviceTable{});
+        next_table += reads;
+        if (line.texturable) words.push_back(params.texture(line.id).value);
     }
     return words;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "plugin/registry.hpp"
+#include "render/texture_types.hpp"
 #include "scene/scene.hpp"
 
 #include <array>
@@ -12,6 +13,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace restage::render {
@@ -27,7 +30,20 @@ struct MaterialPlugin {
 };
 // Finds the plugin of a material type; nullopt = there is none. Asked at each Renderer::sync: an answer of another
 // revision than before is composed anew. [any]
-using MaterialLookup = std::function<std::optional<MaterialPlugin>(const std::string& type)>;
+struct MaterialLookup {
+    using Find = std::function<std::optional<MaterialPlugin>(const std::string& type)>;
+    Find find;
+    TextureLookup textures = {}; // the same for textures
+    std::optional<MaterialPlugin> operator()(const std::string& type) const { return find(type); }
+
+    // NOLINTNEXTLINE(google-explicit-constructor): a lambda that knows materials alone will do
+    template <class F>
+        requires(!std::is_same_v<std::remove_cvref_t<F>, MaterialLookup> &&
+                 std::is_invocable_r_v<std::optional<MaterialPlugin>, F, const std::string&>)
+    MaterialLookup(F&& finds) : find(std::forward<F>(finds)) {}
+    MaterialLookup(Find finds, TextureLookup finds_textures)
+        : find(std::move(finds)), textures(std::move(finds_textures)) {}
+};
 MaterialLookup material_lookup(const plugin::Registry& registry); // `registry` outlives what uses it
 
 struct MaterialType {
@@ -60,6 +76,9 @@ std::string table_path(const model::Param& line, const scene::ParamSet&);
 // model::ParamType::table lines, in order; those that are missing are empty.
 std::vector<std::uint32_t> pack_material(const model::Material&, const scene::ParamSet&,
                                          std::span<const DeviceTable> tables = {});
+
+// Appends the words of one line's value, its texture aside; `table`: of a model::ParamType::table line.
+void pack_value(const model::Param&, const scene::ParamSet&, std::vector<std::uint32_t>&, DeviceTable table = {});
 
 // How those words lie, as a text: shaders composed for one table read what was packed for another of the same layout.
 std::string word_layout(const model::Material*);

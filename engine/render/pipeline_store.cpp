@@ -11,7 +11,9 @@ std::uint64_t add(std::uint64_t hash, const gpu::ShaderSource& source) {
     hash = hash64(source.text, hash);
     for (const auto& dir : source.include_dirs)
         hash = hash64(dir.string(), hash);
-    return hash64(source.plugin_folder.string(), hash);
+    for (const auto& folder : source.plugin_folders)
+        hash = hash64(folder.string(), hash);
+    return hash;
 }
 template <class T>
 std::uint64_t add(std::uint64_t hash, const std::vector<T>& values) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures of the scene as postfix programs (shaders/lib/texture.glsl), and the same evaluation in C++ for what the CPU
-// resolves while Embree visits a hit: cut-outs and mixes.
+// Textures of the scene as postfix programs, in words that shaders read (shaders/lib/texture.glsl), and for the CPU,
+// which resolves cut-outs and mixes while Embree visits a hit, by the native code of the textures' plugins where they
+// have it.
 #pragma once
 
+#include "render/texture_types.hpp"
 #include "scene/scene.hpp"
 #include "shared/scene_data.h"
 
@@ -10,21 +12,43 @@
 
 namespace restage::render {
 
-// Programs are indexed by Id<Texture>::value; 0 is empty. Images are indexed by Id<Image>::value.
-struct TexturePrograms {
-    std::vector<shared::TextureProgram> programs;
-    std::vector<shared::TextureOp> ops;
+// An operation as the CPU does it.
+struct NativeOp {
+    const plugin::TextureSource* source = nullptr; // null: a literal
+    glm::vec3 literal{0};
+    glm::vec4 map{1, 1, 0, 0}; // scale, delta
+    glm::vec2 shear{0};
+    bool second_uv = false;
+    std::uint32_t image = 0;
+    std::uint32_t operands = 0; // bit k: the k-th texturable line is on the stack
+    std::uint32_t values = 0, whole = 0; // first of them
 };
 
-// Texture types that the engine does not evaluate shade as their `average`; graphs deeper than the stack of three, too.
-TexturePrograms compile_textures(const scene::Scene&);
+// Programs are indexed by Id<Texture>::value; 0 is empty. Images are indexed by Id<Image>::value.
+struct TexturePrograms {
+    std::vector<shared::TextureProgram> programs; // of words
+    std::vector<std::uint32_t> words;
+    struct Native {
+        std::uint32_t first = 0, count = 0; // of ops
+        bool there = false;     // else some type has no native code, and
+        glm::vec3 average{0.5f}; // this stands for it where nothing better can
+    };
+    std::vector<Native> native;
+    std::vector<NativeOp> ops;
+    std::vector<float> values; // 4 a table line
+    std::vector<std::int32_t> whole; // 1 a table line
+};
+
+// Types that no plugin has shade as their `average`; so do images without pixels, and graphs that need more of the
+// stack than there is. Types that are met for the first time are added.
+TexturePrograms compile_textures(const scene::Scene&, TextureTypes&, const TextureLookup&);
 
 // Pixels as the CPU reads them.
 struct CpuImage {
     const scene::PixelData* pixels = nullptr;
 };
 
-// uv, of the first and of the second set -> value. Same operations, filter and wrap modes as the GLSL.
+// uv, of the first and of the second set -> value. Same filter and wrap modes as the GLSL.
 glm::vec3 evaluate_texture(const TexturePrograms&, const std::vector<CpuImage>& images, std::uint32_t texture,
                            glm::vec4 uv);
 inline glm::vec3 evaluate_texture(const TexturePrograms& textures, const std::vector<CpuImage>& images,

@@ -6,6 +6,7 @@
 #include "gpu/accel.hpp"
 #include "gpu/pipeline.hpp"
 #include "render/pipeline_store.hpp"
+#include "render/texture_composer.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -190,7 +191,10 @@ class VulkanTracer final : public Tracer {
         for (const auto& [name, stage] : files) {
             const auto path = c_.shader_dir / name;
             RESTAGE_TRY(auto text, read_file(path));
-            r.shaders.push_back({.name = path.string(), .text = std::move(text), .stage = stage});
+            gpu::ShaderSource source{.name = path.string(), .text = std::move(text), .stage = stage};
+            if (stage != gpu::ShaderStage::miss && stage != gpu::ShaderStage::closest_hit)
+                insert_textures(scene.texture_types(), source); // cut-outs, mixes
+            r.shaders.push_back(std::move(source));
         }
         const auto& types = scene.types();
         const std::size_t placeholder = scene.materials()[0].type; // the first type of all
@@ -210,8 +214,9 @@ class VulkanTracer final : public Tracer {
         for (const MaterialType& type : types) {
             mixes |= type.mix();
             if (!plain && type.used && type.plugin.table && type.plugin.table->has_code()) {
-                r.callables.push_back(
-                    shader(compose_material(type, "trace_material.glsl", gpu::ShaderStage::callable)));
+                r.callables.push_back(shader(compose_material(
+                    type, "trace_material.glsl", gpu::ShaderStage::callable, ColorMode::rgb,
+                    evaluates_textures(scene.features(), type) ? scene.texture_types() : TextureTypes())));
                 r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));
             } else if (plain || c_.stand_ins) {
                 add_stand_in();

@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "render/material_composer.hpp"
+#include "render/texture_composer.hpp"
 #include "shared/wave_data.h"
 
 namespace restage::render {
@@ -10,6 +11,7 @@ namespace restage::render {
 Result<void> WaveKernels::select(const GpuScene& scene) {
     features_ = scene.features();
     auto before = std::exchange(types_, scene.types());
+    texture_types_ = scene.texture_types();
     stand_in_type_ = scene.materials()[0].type;
     if (types_.size() > escape) return fail("a scene may use at most 254 material types");
     slots_.resize(types_.size());
@@ -22,7 +24,7 @@ Result<void> WaveKernels::select(const GpuScene& scene) {
         slots_[i].settled = slots_[i].shown = false;
         slots_[i].wanted = nullptr;
     }
-    for (Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_}) {
+    for (Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_, &decide_}) {
         slot->settled = false;
         slot->wanted = nullptr;
     }
@@ -38,7 +40,8 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
         r.shader = compose_stand_in(types_[stand_in_type_], "wave_shade.glsl", gpu::ShaderStage::compute);
     } else if (&slot >= slots_.data() && &slot < slots_.data() + slots_.size()) {
         type = &types_[std::size_t(&slot - slots_.data())];
-        r.shader = compose_material(*type, "wave_shade.glsl", gpu::ShaderStage::compute);
+        r.shader = compose_material(*type, "wave_shade.glsl", gpu::ShaderStage::compute, ColorMode::rgb,
+                                    evaluates_textures(features_, *type) ? texture_types_ : TextureTypes());
         r.blame = type->plugin.blame;
     } else {
         const auto path = c_.shader_dir / slot.what;
@@ -46,6 +49,10 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
         r.shader = {.name = path.string(), .text = std::move(text)};
     }
     r.constants = spec_constants(features_, true, c_.strategy, type);
+    if (&slot == &decide_) {
+        insert_textures(texture_types_, r.shader);
+        r.push_constant_bytes = sizeof(shared::DecidePush);
+    }
     return r;
 }
 
@@ -81,6 +88,11 @@ Result<bool> WaveKernels::begin(const std::function<bool()>& keep_going) {
         if (!built) return false;
     }
     return true;
+}
+
+Result<bool> WaveKernels::need_decide(const std::function<bool()>& keep_going) {
+    RESTAGE_CHECK(ask(decide_));
+    return wait(decide_, keep_going);
 }
 
 Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::function<bool()>& keep_going) {
@@ -152,7 +164,7 @@ void WaveKernels::film_emptied() {
 
 std::size_t WaveKernels::shader_bytes() const {
     std::size_t sum = 0;
-    for (const Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_})
+    for (const Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_, &decide_})
         if (slot->now) sum += slot->now->shader_bytes();
     for (const Slot& slot : slots_)
         if (slot.now) sum += slot.now->shader_bytes();

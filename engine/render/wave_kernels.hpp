@@ -28,6 +28,10 @@ class WaveKernels {
     const gpu::ComputePipeline& accumulate() const { return *accumulate_.now; }
     const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); `escape` too
 
+    // Of wave_decide.comp, for hits that no native code can decide. False: keep_going said to stop.
+    Result<bool> need_decide(const std::function<bool()>& keep_going);
+    const gpu::ComputePipeline& decide() const { return *decide_.now; } // after need_decide()
+
     bool adopt(); // see Tracer
     std::optional<CompileProgress> compiling() const;
     void film_emptied();
@@ -51,10 +55,11 @@ class WaveKernels {
     Store store_;
     SceneFeatures features_;
     std::vector<MaterialType> types_;
+    TextureTypes texture_types_;
     std::uint32_t stand_in_type_ = 0;
     std::vector<Slot> slots_; // by type
     Slot generate_{.what = "wave_generate.comp"}, escape_{.what = "wave_escape.comp"},
-        accumulate_{.what = "wave_accumulate.comp"}, stand_in_{.what = "stand-in"};
+        accumulate_{.what = "wave_accumulate.comp"}, stand_in_{.what = "stand-in"}, decide_{.what = "wave_decide.comp"};
 };
 
 } // namespace restage::render

@@ -60,14 +60,23 @@ std::size_t heap_bytes(const ParamSet& params) {
     return sum;
 }
 
-// Of a thing, beside itself; not what it shares.
+std::size_t heap_bytes(const Origin& origin) {
+    std::size_t sum = heap_bytes(origin.verbatim) + heap_bytes(origin.format);
+    for (const OriginValue& value : origin.values)
+        sum += sizeof value + heap_bytes(value.id) + heap_bytes(value.text);
+    return sum;
+}
+
+// Of a thing, beside itself; not what it shares. A test compares this with the fields of project files.
 template <class T>
 std::size_t heap_bytes(const T& item) {
     std::size_t sum = 0;
     if constexpr (requires { item.name; }) sum += heap_bytes(item.name);
-    if constexpr (requires { item.params; }) sum += heap_bytes(item.params);
+    if constexpr (requires { item.type.size(); }) sum += heap_bytes(item.type);
+    if constexpr (requires { item.params.entries(); }) sum += heap_bytes(item.params);
+    if constexpr (requires { item.origin; }) sum += heap_bytes(item.origin);
     if constexpr (requires { item.sky_params; }) sum += heap_bytes(item.sky) + heap_bytes(item.sky_params);
-    if constexpr (requires { item.origin.verbatim; }) sum += heap_bytes(item.origin.verbatim);
+    if constexpr (requires { item.filename; }) sum += heap_bytes(item.filename);
     if constexpr (requires { item.source_file; }) sum += heap_bytes(item.source_file) + heap_bytes(item.primitive);
     if constexpr (requires { item.path; }) sum += heap_bytes(item.path);
     return sum;

@@ -3,6 +3,7 @@
 #include "io/services.hpp"
 
 #include "render/material_composer.hpp"
+#include "render/texture_composer.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -90,7 +91,8 @@ Host::Host(const fs::path& home)
       }),
       registry_(log_, io::with_services({.quarantine = plugin::Registry::default_quarantine()})) {
     registry_.scan(plugin::Registry::default_paths(home));
-    registry_.set_judge(render::material_judge(home / "share/restage/shaders"));
+    registry_.set_judge(render::material_judge(home / "share/restage/shaders"),
+                        render::texture_judge(home / "share/restage/shaders"));
 }
 
 std::vector<const plugin::Entry*> Host::load(const fs::path& folder) {

@@ -140,7 +140,9 @@ float light_offset(LightData light, vec3 p, float dist) {
 // Radiance that leaves a point of an emitter, from the side that shines.
 vec3 emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
     if (!HAS_EMISSION_TEXTURES || inst.emission_texture == 0u) return inst.emission;
-    return inst.emission * max(vec3(0), texture_eval(scene, inst.emission_texture, hit_uv(inst, prim, bary)));
+    TextureAt at = texture_at(scene, inst, prim, bary, hit_uv(inst, prim, bary));
+    return inst.emission *
+           max(vec3(0), rgb_from_spectrum(texture_eval(scene, inst.emission_texture, at, TEXTURE_UNBOUNDED)));
 }
 
 LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2 bits) {

@@ -38,6 +38,15 @@ vec2 quadric_uv(QuadricData q, vec3 p) {
     return vec2(u, (theta - q.theta_min) / (q.theta_max - q.theta_min));
 }
 
+vec3 quadric_at(QuadricData q, vec2 uv) { // where it has these (u, v)
+    float phi = uv.x * q.phi_max;
+    vec2 around = vec2(cos(phi), sin(phi));
+    if (q.kind == QUADRIC_DISK) return vec3(mix(q.radius, q.inner, uv.y) * around, q.z_min);
+    if (q.kind == QUADRIC_CYLINDER) return vec3(q.radius * around, mix(q.z_min, q.z_max, uv.y));
+    float theta = mix(q.theta_min, q.theta_max, uv.y);
+    return q.radius * vec3(sin(theta) * around, cos(theta));
+}
+
 vec3 quadric_normal(QuadricData q, vec3 p) { // unit, dp/du x dp/dv
     if (q.kind == QUADRIC_DISK) return vec3(0, 0, 1);
     return q.kind == QUADRIC_SPHERE ? p / q.radius : vec3(p.xy / q.radius, 0.0);

@@ -16,7 +16,6 @@ ARRAY_OF(Uvec2Array, uvec2);
 ARRAY_OF(Uvec3Array, uvec3);
 ARRAY_OF(MaterialArray, MaterialData);
 ARRAY_OF(TextureArray, TextureProgram);
-ARRAY_OF(TextureOpArray, TextureOp);
 ARRAY_OF(AliasArray, AliasEntry);
 ARRAY_OF(LightArray, LightData);
 ARRAY_OF(MediumArray, MediumData);

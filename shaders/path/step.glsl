@@ -15,7 +15,7 @@
 #include "path/film.glsl"
 #include "path/surface.glsl"
 #ifdef MATERIAL_SITE
-#include "path/site.glsl"
+#include "lib/site.glsl"
 #endif
 #include "shared/path_data.h"
 
@@ -80,9 +80,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         return finite(path.radiance);
     }
 
-    Material m = material_fetch(scene, material_data.params, s.uv);
+    Material m = material_fetch(scene, material_data.params, texture_at(scene, inst, prim, bary, s.uv));
 #ifdef MATERIAL_SITE
-    m.site = make_site(scene, inst, prim, bary, s);
+    m.site = make_site(scene, inst, prim, bary, s.p, s.ng);
 #endif
     vec3 wo = to_local(s, wo_world);
     if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) {

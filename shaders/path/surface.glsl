@@ -42,11 +42,12 @@ void set_frame(inout Surface s, vec3 dpdu) {
 }
 
 // Bump map: the normal of the displaced surface p + d(uv) n. Blinn 1978; pbrt 4ed, 10.5.3.
-void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Surface s) {
+void apply_bump(SceneData scene, InstanceData inst, uint texture_id, TextureAt at, vec3 dpdu, vec3 dpdv,
+                inout Surface s) {
     const float h = 0.0005; // in uv, as pbrt without ray differentials
-    float d = texture_eval(scene, texture_id, s.uv).x;
-    float du = (texture_eval(scene, texture_id, s.uv + vec4(h, 0, h, 0)).x - d) / h;
-    float dv = (texture_eval(scene, texture_id, s.uv + vec4(0, h, 0, h)).x - d) / h;
+    float d = texture_number(scene, texture_id, at);
+    float du = (texture_number(scene, texture_id, texture_moved(at, inst, vec2(h, 0), h * dpdu)) - d) / h;
+    float dv = (texture_number(scene, texture_id, texture_moved(at, inst, vec2(0, h), h * dpdv)) - d) / h;
     vec3 n = s.ns;
     vec3 a = dpdu + du * n, b = dpdv + dv * n;
     vec3 m = cross(a, b);
@@ -58,8 +59,8 @@ void apply_bump(SceneData scene, uint texture_id, vec3 dpdu, vec3 dpdv, inout Su
 }
 
 // The normal in the frame of the tangent; `side` is -1 where its y goes against cross(normal, tangent).
-void apply_normal_map(SceneData scene, uint texture_id, vec3 tangent, float side, inout Surface s) {
-    vec3 m = 2.0 * texture_eval(scene, texture_id, s.uv) - 1.0;
+void apply_normal_map(SceneData scene, uint texture_id, TextureAt at, vec3 tangent, float side, inout Surface s) {
+    vec3 m = 2.0 * texture_data(scene, texture_id, at) - 1.0;
     if (is_nan(dot(m, m)) || dot(m, m) <= 1e-6) return;
     set_frame(s, tangent);
     s.ts *= side;
@@ -102,8 +103,9 @@ Surface quadric_surface(SceneData scene, InstanceData inst, MaterialData materia
         dpdu = linear_part(inst) * dpdu;
         dpdv = linear_part(inst) * dpdv;
         set_frame(s, dpdu);
-        if (HAS_BUMP && material.bump != 0u) apply_bump(scene, material.bump, dpdu, dpdv, s);
-        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, dpdu, 1.0, s);
+        TextureAt at = texture_at(scene, inst, 0u, uv, s.uv);
+        if (HAS_BUMP && material.bump != 0u) apply_bump(scene, inst, material.bump, at, dpdu, dpdv, s);
+        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, at, dpdu, 1.0, s);
     } else {
         orthonormal_basis(s.ns, s.ss, s.ts);
     }
@@ -175,8 +177,9 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
             }
         }
         set_frame(s, tangent);
-        if (HAS_BUMP && material.bump != 0u) apply_bump(scene, material.bump, dpdu, dpdv, s);
-        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, tangent, side, s);
+        TextureAt at = texture_at(scene, inst, prim, bary, s.uv);
+        if (HAS_BUMP && material.bump != 0u) apply_bump(scene, inst, material.bump, at, dpdu, dpdv, s);
+        if (HAS_BUMP && material.normal_map != 0u) apply_normal_map(scene, material.normal_map, at, tangent, side, s);
     } else {
         orthonormal_basis(s.ns, s.ss, s.ts);
     }

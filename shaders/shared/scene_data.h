@@ -23,11 +23,12 @@ RESTAGE_UINT(INSTANCE_PASSES, 1024u); // no surface, but it shines: rays see its
 RESTAGE_UINT(INSTANCE_QUADRIC, 2048u); // `positions` is the address of a QuadricData; prim is 0, bary is pbrt's (u, v)
 RESTAGE_UINT(MATERIAL_NOTHING, 0xfffffffeu); // in place of a MaterialData index: no surface, rays pass
 RESTAGE_UINT(MATERIAL_MIX, 1u);
-RESTAGE_UINT(OP_CONSTANT, 0u);
-RESTAGE_UINT(OP_IMAGE, 1u);
-RESTAGE_UINT(OP_MULTIPLY, 2u); // a b -> a*b
-RESTAGE_UINT(OP_MIX, 3u); // a b t -> lerp
-RESTAGE_UINT(OP_CHECKER, 4u); // a b -> a where floor(s)+floor(t) is even, else b
+// The first word of an operation of a texture's program
+RESTAGE_UINT(TEXTURE_KIND, 255u); // mask: the type's index in this scene + 1
+RESTAGE_UINT(TEXTURE_LITERAL, 0u); // the kind of a constant: three words follow
+RESTAGE_UINT(TEXTURE_OP_DATA, 256u); // what it gives is a number's
+RESTAGE_UINT(TEXTURE_OP_SECOND_UV, 512u);
+RESTAGE_UINT(TEXTURE_OP_FIRST_OPERAND, 65536u); // and the bits above: a texturable parameter that is on the stack
 RESTAGE_UINT(WRAP_REPEAT, 0u);
 RESTAGE_UINT(WRAP_BLACK, 1u);
 RESTAGE_UINT(WRAP_CLAMP, 2u);
@@ -99,20 +100,9 @@ struct MaterialData { // 32 bytes
     uint flags;
 };
 
-// A texture is a short postfix program over uv.
-struct TextureOp { // 64 bytes
-    uint kind;
-    uint image;
-    uint wrap;
-    uint invert; // OP_IMAGE: 1 - texel before `value` multiplies
-    vec4 uv; // scale.xy, offset.xy
-    vec4 value; // OP_CONSTANT: rgb; OP_IMAGE: factor
-    vec2 shear; // v into s, u into t
-    uint set; // 1: of the second set of uv
-    uint pad0;
-};
+// A texture is a short postfix program, in words; render/texture_types.hpp.
 struct TextureProgram { // index = texture; 0 is none
-    uint first, count;
+    uint first, count; // word; operations
 };
 
 struct ImageData { // 24 bytes
@@ -174,7 +164,7 @@ struct MediumData {
 };
 
 struct SceneData {
-    address instances, materials, params, textures, texture_ops, images, lights, light_alias, media;
+    address instances, materials, params, textures, texture_words, images, lights, light_alias, media;
     EnvironmentData environment;
     CameraData camera;
     FilterData filter_;

@@ -29,5 +29,20 @@ struct WavePush { // 128 bytes: what every device has room for
     float ray_epsilon;
 };
 
+// Of wave_decide.comp.
+struct HitAsked { // 16 bytes
+    uint instance, prim;
+    vec2 bary;
+};
+struct HitDecided { // 8 bytes
+    float alpha; // within [0, 1]
+    uint material; // as resolve_material
+};
+struct DecidePush {
+    address scene; // SceneData
+    address asked, decided;
+    uint count, pad0;
+};
+
 RESTAGE_SHARED_END
 #endif

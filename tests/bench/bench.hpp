@@ -73,6 +73,7 @@ struct Options { // of all measurements
 };
 
 Json measure_rays(const Options&);
+Json measure_cutouts(const Options&);
 Json measure_edits(const Options&);
 Json measure_copies(const Options&);
 Json measure_features(const Options&, const std::string& variant);

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
     program.add_option("--samples", o.samples, "Where error curves end; strategies for study end at half of it")
         ->capture_default_str();
     program.add_subcommand("rays", "Rays a second in the room")->callback([&] { result = measure_rays(o); });
+    program.add_subcommand("cutouts", "Rays a second among cards: opaque, cut out by native code, by GLSL alone")
+        ->callback([&] { result = measure_cutouts(o); });
     program.add_subcommand("edits", "Edits of one of 1000 instances")->callback([&] { result = measure_edits(o); });
     program.add_subcommand("copies", "Copies of a scene of many objects, and a frame of a drag")->callback([&] {
         result = measure_copies(o);

@@ -2,6 +2,7 @@
 // A material's library is loaded anew a hundred times, and so are the other kinds: nothing is lost. Made for
 // AddressSanitizer, whose leak checker is asked at the end; without it, loading and unloading is all that is tested.
 #include "base/log.hpp"
+#include "io/services.hpp"
 #include "paths.hpp"
 #include "plugin/registry.hpp"
 

@@ -146,7 +146,7 @@ TEST_CASE("files of a plugin include the library and each other, and reach nothi
         folder.write("oak/oak.glsl", oak);
         const auto done = compiler.compile({.name = "main",
                                             .text = head + "#include <plugin/oak.glsl>\nvoid main() {}\n",
-                                            .plugin_folder = folder.path() / "oak"});
+                                            .plugin_folders = {folder.path() / "oak"}});
         return done ? std::string() : done.error().message.substr(folder.path().string().size() + 1);
     };
     CHECK(error("#include <restage/v1/wood.glsl>\n#include \"parts/knot.glsl\"\n"
@@ -168,7 +168,7 @@ TEST_CASE("files of a plugin include the library and each other, and reach nothi
     CHECK_THAT(error("#extension GL_EXT_buffer_reference : require\n"), StartsWith("oak/oak.glsl:1: "));
     CHECK_THAT(error_of(compiler, {.name = "main",
                                    .text = head + "#include \"oak.glsl\"\nvoid main() {}\n",
-                                   .plugin_folder = folder.path() / "oak"}),
+                                   .plugin_folders = {folder.path() / "oak"}}),
                StartsWith("main:3: cannot find the file oak.glsl"));
 }
 

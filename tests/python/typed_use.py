@@ -36,6 +36,10 @@ def use(folder: pathlib.Path) -> None:
         found: restage.Group | restage.Object = session.find("Pair")
         session.select(found, sheet).hidden = True
         session.select(group).hidden = False
+        strewn: restage.ActionResult = session.run_action("scatter", [copy, sheet], count=3, seed=2)
+        strewn.objects.remove()
+        names: list[str] = [action.label for action in session.actions()]
+        assert "Scatter" in names
 
         camera = session.add_camera(np.array([3, 2, 3]), (0, 0, 0), fov=30, name="Corner")
         camera.projection = "orthographic"

@@ -29,10 +29,11 @@ class KernelLab {
     gpu::Device& device() { return *device_; }
 
     // `head`: includes. `in`, `out`: GLSL types with the scalar layout of In and Out. `body`: makes `result` of `x`,
-    // the input number `i`; `root` is an address of the caller's choice.
+    // the input number `i`; `root` is an address of the caller's choice; `source`: what plugins' code in `head` needs.
     template <class Out, class In>
     std::vector<Out> run(const std::string& head, const std::string& in, const std::string& out,
-                         const std::string& body, std::span<const In> inputs, std::uint64_t root = 0) {
+                         const std::string& body, std::span<const In> inputs, std::uint64_t root = 0,
+                         gpu::ShaderSource source = {}) {
         struct Push {
             std::uint64_t in, out, root;
             std::uint32_t count, pad;
@@ -56,7 +57,9 @@ void main() {{
 }}
 )",
                                              head, in, out, in, out, body);
-        const auto spirv = take(compiler_->compile({.name = "kernel lab", .text = text}));
+        source.name = "kernel lab";
+        source.text = text;
+        const auto spirv = take(compiler_->compile(source));
         const auto pipeline = take(gpu::ComputePipeline::create(*device_, spirv, sizeof(Push), {}, "kernel lab"));
         const gpu::Buffer from = take(device_->create_buffer_of<In>(inputs, "lab inputs"));
         gpu::Buffer to =

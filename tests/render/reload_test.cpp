@@ -6,6 +6,7 @@
 #include "paths.hpp"
 #include "render/checks.hpp"
 #include "render/material_composer.hpp"
+#include "render/texture_composer.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -47,7 +48,7 @@ struct Paint { // our plugins, and one that the test edits
         const plugin::SearchPath paths[] = {{restage::test::build_dir() / "lib/restage/plugins", true},
                                             {folder.path(), true}};
         registry.scan(paths);
-        registry.set_judge(render::material_judge(shaders));
+        registry.set_judge(render::material_judge(shaders), render::texture_judge(shaders));
     }
     void write(const std::string& color, const char* params) {
         REQUIRE(write_file_atomic(folder / "plugin.json", manifest(params)));

@@ -2,6 +2,7 @@
 // A second revision of the material interface (tests/plugins_bad/material2.h), beside the first: one adapter reads it,
 // and from there on nothing knows the difference, to the picture.
 #include "../plugins_bad/material2.h"
+#include "base/file.hpp"
 #include "fixture.hpp"
 #include "plugin/adapters.hpp"
 #include "plugin/library.hpp"

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures: the shader's evaluation equals the CPU's on random graphs, and both equal pbrt's definition where it is
 // simple.
+#include "render/fixture.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/kernel_lab.hpp"
 #include "render/scene_builder.hpp"
+#include "render/texture_composer.hpp"
 
 #include <random>
 
@@ -31,25 +33,26 @@ class Textures {
     // By the shader.
     std::vector<glm::vec3> shade(const std::vector<Ask>& asks) {
         Jobs jobs(1);
-        const auto lookup = [](const std::string&) -> std::optional<render::MaterialPlugin> {
-            static const model::Material none{.type = "diffuse", .prefix = "none", .null_surface = true};
-            return render::MaterialPlugin{&none, {}};
-        };
-        render::GpuScene scene(lab().device(), jobs, lookup);
+        render::GpuScene scene(lab().device(), jobs, plugins().lookup());
         if (auto ok = scene.sync(b.scene); !ok) FAIL(ok.error().message);
-        return lab().run<glm::vec3, Ask>("#include \"lib/texture.glsl\"\nstruct Ask { vec4 uv; uint id; };", "Ask",
-                                         "vec3", "result = texture_eval(SceneRef(root).scene, x.id, x.uv);", asks,
-                                         scene.address());
+        gpu::ShaderSource source;
+        const std::string code = render::compose_textures(scene.texture_types(), source);
+        return lab().run<glm::vec3, Ask>(
+            code + "#include \"lib/texture.glsl\"\nstruct Ask { vec4 uv; uint id; };", "Ask", "vec3",
+            "result = texture_data(SceneRef(root).scene, x.id, texture_at_uv(x.uv));", asks, scene.address(), source);
     }
     // By the CPU.
     std::vector<glm::vec3> evaluate(const std::vector<Ask>& asks) {
-        const auto programs = render::compile_textures(b.scene);
+        render::TextureTypes types;
+        const auto programs = render::compile_textures(b.scene, types, render::texture_lookup(plugins().registry));
         std::vector<render::CpuImage> images(b.scene.images.size() + 1);
         b.scene.images.each(
             [&](scene::Id<scene::Image> id, const scene::Image& i) { images[id.value].pixels = i.data.get(); });
         std::vector<glm::vec3> out;
-        for (const auto& a : asks)
+        for (const auto& a : asks) {
+            CHECK(programs.native[a.texture].there);
             out.push_back(render::evaluate_texture(programs, images, a.texture, a.uv));
+        }
         return out;
     }
 };
@@ -178,5 +181,28 @@ TEST_CASE("textures: pbrt's conventions") {
         INFO("texture " << asks[i].texture << " at " << asks[i].uv.x << ", " << asks[i].uv.y);
         CHECK(std::abs(gpu[i].x - expected[i]) < 1e-3f);
         CHECK(std::abs(cpu[i].x - expected[i]) < 1e-3f);
+    }
+}
+
+TEST_CASE("textures: every one that is shipped compiles, in both colour modes") {
+    const auto judge = render::texture_judge(restage::test::source_dir() / "shaders");
+    const gpu::ShaderCompiler compiler({.include_dirs = {restage::test::source_dir() / "shaders"}, .cache_dir = {}});
+    const auto all = plugins().registry.textures();
+    CHECK(all.size() >= 11);
+    for (const plugin::TextureEntry& t : all) {
+        INFO(t.table->type);
+        const auto rgb = judge(t);
+        CHECK((rgb ? "" : rgb.error().message) == "");
+        const render::TextureType type{t.table->type, {t.table, t.plugin->folder, t.source, t.blame}};
+        gpu::ShaderSource source{.name = "spectral", .text = R"(#version 460
+#extension GL_GOOGLE_include_directive : require
+#define RESTAGE_SPECTRAL 1
+#include "lib/extensions.glsl"
+layout(local_size_x = 64) in;
+void main() {}
+)"};
+        render::insert_textures({&type, 1}, source);
+        const auto spectral = compiler.compile(source);
+        CHECK((spectral ? "" : spectral.error().message) == "");
     }
 }

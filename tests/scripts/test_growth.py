@@ -60,3 +60,10 @@ def test_a_kind_of_light_is_named_in_its_row_and_its_formula():
         assert naming(rf'"{kind}"', "engine", "app", "python/src") == {row}
         assert naming(rf"LAMP_{kind.upper()}\b", "engine", "shaders", "app") == {"shaders/shared/lamps.h"}
         assert naming(rf"RESTAGE_LIGHT_{kind.upper()}\b", "engine", "app", "python/src") == {"engine/sdk/restage/scene_io.h"}
+def test_no_texture_type_is_named_by_the_engine():
+    types = {p.name for p in (ROOT / "plugins/textures").iterdir()}
+    assert {"imagemap", "checkerboard", "fbm"} <= types
+    for type in types - {"scale"}:  # the name of a field in files, too
+        assert naming(rf'"{type}"', "engine/plugin", "shaders") == set()
+    for type in types - {"scale", "mix", "constant"}:
+        assert naming(rf'"{type}"', "engine/render") == set()

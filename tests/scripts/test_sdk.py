@@ -102,7 +102,7 @@ def test_the_tutorial(installed, tmp_path):
     text, _, _ = text.partition("\n## The other kinds\n")
     blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.S)
     row, ui, file_row, reader = (b for language, b in blocks if language == "c")
-    (glsl,) = (b for language, b in blocks if language == "glsl")
+    glsl, stripes = (b for language, b in blocks if language == "glsl")
     run(restage, "new-plugin", "minnaert", "--language", "c", "--label", "Minnaert", cwd=tmp_path)
     folder = tmp_path / "minnaert"
     source = folder / "minnaert.c"
@@ -134,6 +134,13 @@ def test_the_tutorial(installed, tmp_path):
     (plugin / "silk.dat").write_bytes(bytes(3))
     failed = run(restage, "check", plugin, "--quick", "--only", "params", ok=False)
     assert failed.returncode == 1 and "silk.dat: is no list of floats" in failed.stdout
+    # A texture.
+    texture = tmp_path / "stripes"
+    texture.mkdir()
+    (manifest,) = (b for language, b in blocks if language == "json" and "org.example.texture.stripes" in b)
+    (texture / "plugin.json").write_text(manifest)
+    (texture / "stripes.glsl").write_text(stripes)
+    run(restage, "check", texture, "--quick")
 
 
 def section(heading):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One folder that brings a plugin of each kind (tests/bundle), built against an installed Restage as a stranger builds it:
+"""One folder that brings a plugin of each kind (tests/plugins_outside/bundle), built against an installed Restage as a stranger builds it:
 checked, listed, used by the program, by Python and, with a real mouse, by the editor."""
 import json
 import os
@@ -30,7 +30,7 @@ def bundle(binary, tmp_path_factory):
     home = tmp_path_factory.mktemp("bundle")
     binary = binary.resolve()
     run("cmake", "--install", binary.parents[1], "--prefix", home / "prefix")
-    shutil.copytree(ROOT / "tests/bundle", home / "source")
+    shutil.copytree(ROOT / "tests/plugins_outside/bundle", home / "source")
     run("cmake", "-S", home / "source", "-B", home / "build", f"-DCMAKE_PREFIX_PATH={home / 'prefix'}",
         "-DCMAKE_BUILD_TYPE=Release")
     run("cmake", "--build", home / "build")

@@ -62,6 +62,31 @@ def test_the_eyedropper_takes_a_material_from_the_picture(editor):
     assert difference(before, editor.picture()).max() > 0.15
 
 
+def test_a_plugins_sky_is_chosen_and_its_sun_dragged(editor):
+    before, first = editor.state()["sky"], editor.picture()
+    tab(editor, "Scene")
+    editor.click("sky.kind")
+    editor.click("sky.kind.sunsky")
+    state = editor.wait(lambda s: s["sky"] == "Sun and sky", "the sky", 60)
+    assert state["history"]["position"] == 1 and "sky_values" not in state
+    editor.settled(samples=1)
+    chosen = editor.picture()
+    assert difference(first, chosen).max() > 0.1
+    x, y = editor.point("sky.elevation")
+    editor.drag((x, y), (x + 80, y), steps=20)  # pictures are made meanwhile; the newest counts, and all are one step
+    state = editor.wait(lambda s: s.get("sky_values", {}).get("elevation", 35) > 35, "another sun", 60)
+    assert state["history"]["position"] == 2
+    editor.click("sky.sun")
+    state = editor.wait(lambda s: s.get("sky_values", {}).get("sun") == 0, "no sun", 60)
+    assert state["history"]["position"] == 3 and state["sky_values"]["elevation"] > 35, "each in its turn"
+    editor.settled(samples=1)
+    assert difference(chosen, editor.picture()).max() > 0.1
+    for position in (2, 1, 0):
+        editor.key("ctrl+z")
+        state = editor.wait(lambda s: s["history"]["position"] == position, f"undo to {position}")
+    assert state["sky"] == before and len(state["history"]["labels"]) == 3
+
+
 def test_assets_are_dragged_into_the_picture(editor):
     before = editor.state()["counts"]
     seen = editor.picture()

@@ -14,6 +14,7 @@
 #include <restage/scene_io.h>
 #include <restage/sky.h>
 #include <restage/table.h>
+#include <restage/texture.h>
 #include <cstddef>
 
 namespace fs = std::filesystem;
@@ -94,6 +95,16 @@ const Frozen layout[] = {
     SIZE(RestageImageService1, 24)
         FIELD(RestageImageService1, size, 0) FIELD(RestageImageService1, decode, 8)
         FIELD(RestageImageService1, release, 16)
+    SIZE(RestageTextureAt1, 48)
+        FIELD(RestageTextureAt1, size, 0) FIELD(RestageTextureAt1, uv, 4)
+        FIELD(RestageTextureAt1, values, 16) FIELD(RestageTextureAt1, whole, 24)
+        FIELD(RestageTextureAt1, host, 32) FIELD(RestageTextureAt1, image, 40)
+    SIZE(RestageTexture1, 72)
+        FIELD(RestageTexture1, size, 0) FIELD(RestageTexture1, flags, 4) FIELD(RestageTexture1, type, 8)
+        FIELD(RestageTexture1, label, 16) FIELD(RestageTexture1, prefix, 24)
+        FIELD(RestageTexture1, glsl_file, 32) FIELD(RestageTexture1, params, 40)
+        FIELD(RestageTexture1, param_count, 48) FIELD(RestageTexture1, tooltip, 56)
+        FIELD(RestageTexture1, eval, 64)
     SIZE(RestageOriginValue, 24)
         FIELD(RestageOriginValue, size, 0) FIELD(RestageOriginValue, reserved, 4)
         FIELD(RestageOriginValue, id, 8) FIELD(RestageOriginValue, text, 16)
@@ -159,7 +170,7 @@ const Frozen layout[] = {
     SIZE(RestageSettings, 24)
         FIELD(RestageSettings, size, 0) FIELD(RestageSettings, max_depth, 4)
         FIELD(RestageSettings, samples, 8) FIELD(RestageSettings, origin, 16)
-    SIZE(RestageSceneWriter1, 168)
+    SIZE(RestageSceneWriter1, 176)
         FIELD(RestageSceneWriter1, size, 0) FIELD(RestageSceneWriter1, ctx, 8)
         FIELD(RestageSceneWriter1, mesh, 16) FIELD(RestageSceneWriter1, image, 24)
         FIELD(RestageSceneWriter1, texture, 32) FIELD(RestageSceneWriter1, material, 40)
@@ -170,7 +181,7 @@ const Frozen layout[] = {
         FIELD(RestageSceneWriter1, settings, 112) FIELD(RestageSceneWriter1, report, 120)
         FIELD(RestageSceneWriter1, error, 128) FIELD(RestageSceneWriter1, progress, 136)
         FIELD(RestageSceneWriter1, material_table, 144) FIELD(RestageSceneWriter1, options, 152)
-        FIELD(RestageSceneWriter1, option_count, 160)
+        FIELD(RestageSceneWriter1, option_count, 160) FIELD(RestageSceneWriter1, texture_table, 168)
     SIZE(RestageImporter1, 64)
         FIELD(RestageImporter1, size, 0) FIELD(RestageImporter1, format, 8)
         FIELD(RestageImporter1, label, 16) FIELD(RestageImporter1, extensions, 24)

@@ -475,7 +475,7 @@ TEST_CASE("tables of actions and panels are judged before they are used", "[acti
 
 namespace {
 
-struct Silent : plugin::PanelWidgets { // a user who does nothing
+struct Silent final : plugin::PanelWidgets { // a user who does nothing
     void param(const char*) override {}
     void hide(const char*) override {}
     void slider(const char*, const char*, float, float, bool) override {}

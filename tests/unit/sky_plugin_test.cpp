@@ -11,10 +11,13 @@
 
 #include <restage/sky.h>
 
+#include <filesystem>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <numbers>
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -45,7 +48,7 @@ const Image& sky_image(const Scene& s) { return s.images[s.environment.value->im
 TEST_CASE("a sun's energy is in the picture, however large, coarse and wherever it is", "[skies]") {
     for (const double radius : {0.0005, 0.00465, 0.02, 0.5, pi / 2})
         for (const std::uint32_t width : {1u, 16u, 100u, 512u})
-            for (const glm::dvec3 to :
+            for (const glm::dvec3& to :
                  {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0),
                   glm::dvec3(0.3, -0.5, 0.8), glm::dvec3(-0.6, 0.6, -0.1)}) {
                 const io::Sun sun{glm::normalize(to), {100, 50, 1}, radius};
@@ -56,7 +59,7 @@ TEST_CASE("a sun's energy is in the picture, however large, coarse and wherever 
                 CHECK(glm::length(energy(picture) - wanted) < 1e-4 * glm::length(wanted));
             }
     // And it is where it should be: the picture's centre of light is the sun's direction.
-    for (const glm::dvec3 to : {glm::dvec3(0.3, -0.5, 0.8), glm::dvec3(0.01, 0.02, -1), glm::dvec3(1, 1e-9, 0)}) {
+    for (const glm::dvec3& to : {glm::dvec3(0.3, -0.5, 0.8), glm::dvec3(0.01, 0.02, -1), glm::dvec3(1, 1e-9, 0)}) {
         const io::Sun sun{glm::normalize(to), {1, 1, 1}, 0.02};
         PixelData picture = black(512);
         io::draw_sun(picture, sun);

@@ -67,14 +67,15 @@ typedef struct RestageImage { /* an image file, read by the host; or pixels, whe
     const float* pixels; /* linear, or NULL when `path` is given */
 } RestageImage;
 
-/* Texture types the engine evaluates, and their values (ids):
- *   constant      value (COLOR)
- *   imagemap      image by RestageTexture.image; scale (FLOAT, default 1), invert (BOOL), wrap (ENUM
- * repeat|black|clamp) scale         tex (COLOR, texturable), scale (COLOR, texturable)              tex * scale mix
- * tex1, tex2 (COLOR, texturable), amount (FLOAT, texturable)      lerp checkerboard  tex1, tex2 (COLOR, texturable); on
- * uv All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping; ushear, vshear (FLOAT) add
- * v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it has one. Other types are
- * kept, written back, and shade as their `average` (COLOR). */
+/* `type` is that of a texture plugin (restage/texture.h), the values are those of its table. Shipped are, among others:
+ *   constant      value
+ *   imagemap      the image of RestageTexture.image; scale, invert, wrap
+ *   scale         tex, scale              tex * scale
+ *   mix           tex1, tex2, amount      (1 - amount) tex1 + amount tex2
+ *   checkerboard  tex1, tex2
+ * Besides, where the type is MAPPED: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping;
+ * ushear, vshear (FLOAT) add v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it
+ * has one. Types that no plugin has are kept, written back, and shade as their `average` (COLOR). */
 typedef struct RestageTexture {
     RESTAGE_SIZE(RestageTexture);
     const char* name; /* "" = the host invents one */
@@ -261,6 +262,8 @@ typedef struct RestageSceneWriter1 {
     /* Every option of the importer's table, in its order, set or default; valid until load returns. */
     const RestageValue* options;
     uint32_t option_count;
+    /* As material_table, of a texture plugin; with the lines of its map (uscale ..) where it has one. */
+    const RestageParam* (*texture_table)(void* ctx, const char* type, uint32_t* count);
 } RestageSceneWriter1;
 
 typedef struct RestageImporter1 {

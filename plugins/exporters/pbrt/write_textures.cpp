@@ -277,11 +277,23 @@ std::string Exporter::texture(RestageHandle handle) {
         put_argument(params, values, "tex1", "tex1", is_float, 1);
         put_argument(params, values, "tex2", "tex2", is_float, 0);
         put_mapping(params, values, what);
-    } else if (!put_procedural(params, t, values, what, written) && k.lines.empty() &&
-               std::string_view(t.origin->format) != format()) {
-        written = "constant"; // of the other version: its average is the best there is
-        approximated(what + " (" + type + ")", std::string(format()) + " has no such texture; its average is written");
-        put_argument(params, values, "average", "value", is_float, 0.5f);
+    } else if (!put_procedural(params, t, values, what, written) && k.lines.empty()) {
+        if (std::string_view(t.origin->format) != format()) {
+            written = "constant"; // of the other version: its average is the best there is
+            approximated(what + " (" + type + ")",
+                         std::string(format()) + " has no such texture; its average is written");
+            put_argument(params, values, "average", "value", is_float, 0.5f);
+        } else { // of a plugin: it goes out as it came
+            for (std::uint32_t i = 0; i < t.value_count; ++i) {
+                const RestageValue& v = RESTAGE_AT(RestageValue, t.values, i);
+                if (v.type == RESTAGE_FLOAT) put_argument(params, values, v.id, v.id, true, 0);
+                if (v.type == RESTAGE_COLOR && std::string_view(v.id) != "average")
+                    put_argument(params, values, v.id, v.id, is_float, 0);
+                if (v.type == RESTAGE_INT) params.add_int(v.id, v.i);
+                if (v.type == RESTAGE_BOOL) flag(params, v.id, v.i != 0);
+                if (v.type == RESTAGE_ENUM && v.text && *v.text) params.add_string(v.id, v.text);
+            }
+        }
     }
     for (const std::string& line : k.lines)
         params.add_raw(line);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <span>
 
@@ -16,6 +17,14 @@ std::string lower_extension(const std::string& file) {
     std::transform(out.begin(), out.end(), out.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return out;
+}
+
+// The table of a plugin of the host's for this type of texture; null: there is none.
+const RestageParam* texture_table(const RestageSceneWriter1& out, const std::string& type, std::uint32_t& count) {
+    count = 0;
+    if (out.size < offsetof(RestageSceneWriter1, texture_table) + sizeof out.texture_table || !out.texture_table)
+        return nullptr;
+    return out.texture_table(out.ctx, type.c_str(), &count);
 }
 
 } // namespace
@@ -198,8 +207,10 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     Values values;
     std::string kept; // what the renderer cannot show
     bool placed = false; // depends on the transform it is defined in
+    std::uint32_t count = 0;
+    const RestageParam* const table = texture_table(import_.out, d.third, count);
     const bool type_is_rendered =
-        d.third == "imagemap" || (d.third == "checkerboard" && d.params.integer("dimension", 2) == 2);
+        d.third == "checkerboard" ? d.params.integer("dimension", 2) == 2 : d.third == "imagemap" || table != nullptr;
     RestageTexture out{.type = d.third.c_str(), .is_float = is_float ? 1u : 0u};
     const auto argument = [&](const char* name, Rgb otherwise) {
         return is_float ? float_argument(d, name, otherwise.r) : color_argument(d, name, Role::albedo, otherwise);
@@ -235,10 +246,18 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     // What is not rendered: its own values, for exporters, and an average to be seen.
     const auto put_average = [&](Rgb average, const char* note) {
         values.color("average", average);
-        import_.approximated(d.at, what + " (" + d.third + ")", note);
+        if (!type_is_rendered) import_.approximated(d.at, what + " (" + d.third + ")", note);
     };
     const auto put_noise = [&](bool has_octaves) { // in space: where the texture's transform puts it
         placed = true;
+        if (const auto to_texture = table ? inverse(ctm(d)) : std::nullopt; to_texture && !(*to_texture == Matrix{})) {
+            const char* const ids[3][4] = {{"x_from_x", "x_from_y", "x_from_z", "origin_x"},
+                                           {"y_from_x", "y_from_y", "y_from_z", "origin_y"},
+                                           {"z_from_x", "z_from_y", "z_from_z", "origin_z"}};
+            for (int row = 0; row < 3; ++row)
+                for (int column = 0; column < 4; ++column)
+                    values.number(ids[row][column], to_texture->at(row, column));
+        }
         if (!has_octaves) return;
         values.integer("octaves", d.params.integer("octaves", 8));
         values.number("roughness", d.params.number("roughness", 0.5));
@@ -320,6 +339,22 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     } else if (type == "fbm" || type == "wrinkled" || type == "windy") {
         put_average(half, "shades as a grey of 0.5");
         put_noise(type != "windy");
+    } else if (table) { // of a plugin that pbrt does not know: by its table
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const RestageParam& line = RESTAGE_AT(RestageParam, table, i);
+            if (!d.params.has(line.id)) continue;
+            if (line.type == RESTAGE_FLOAT)
+                put_float(values, line.id, d, line.id, line.def[0]);
+            else if (line.type == RESTAGE_COLOR)
+                put(line.id, line.id, {line.def[0], line.def[1], line.def[2]});
+            else if (line.type == RESTAGE_INT)
+                values.integer(line.id, std::clamp(d.params.integer(line.id, 0), line.int_min, line.int_max));
+            else if (line.type == RESTAGE_BOOL)
+                values.boolean(line.id, d.params.boolean(line.id, false));
+            else if (line.type == RESTAGE_ENUM)
+                values.choice(line.id, d.params.string(line.id, "").c_str());
+        }
+        if (d.params.has("filename")) out.image = image_texture(d, "Texture");
     } else {
         const bool known = type == "ptex";
         put_average(half, known ? "shades as a grey of 0.5" : "no such texture class in pbrt; shades as a grey of 0.5");

@@ -105,7 +105,7 @@ class Reading {
     }
 
     // What was gathered becomes a mesh, a material and an object that has both. A handle of 0 means that the host has
-    // refused the thing, and has noted why.
+    // refused the thing, and has reported why.
     bool finish_mesh() {
         if (indices_.empty()) {
             if (!positions_.empty()) // what is not used is reported, not silently lost
@@ -134,7 +134,8 @@ class Reading {
         instance.alpha = 1;
         for (int i = 0; i < 16; i += 5)
             instance.object_to_world[i] = 1;
-        if (!instance.mesh || !instance.material || !out_.instance(out_.ctx, &instance)) return false;
+        if (!instance.mesh || !instance.material || !out_.instance(out_.ctx, &instance))
+            return broken("the host refuses the mesh above");
         out_.report(out_.ctx, RESTAGE_KEPT, path_, line_, ("mesh \"" + name_ + "\"").c_str(), "");
         positions_.clear(), indices_.clear();
         return true;

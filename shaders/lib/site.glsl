@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the Site of a hit, for the materials that ask for one (MATERIAL_SITE). Nothing of it is kept along a path.
-#ifndef RESTAGE_PATH_SITE
-#define RESTAGE_PATH_SITE
+// Makes the Site of a hit, for the materials (MATERIAL_SITE) and textures (RESTAGE_TEXTURE_SITES) that ask for one.
+// Nothing of it is kept along a path.
+#ifndef RESTAGE_LIB_SITE
+#define RESTAGE_LIB_SITE
+#include "lib/outward.glsl"
 #include "lib/quadric.glsl"
 #include "lib/scene.glsl"
-#include "path/surface.glsl"
 #include <restage/v1/rng.glsl>
 #include <restage/v1/site.glsl>
 
@@ -47,20 +48,21 @@ vec2 coordinates(vec3 v, vec3 a, vec3 b) {
     return positive(det) ? vec2(bb * va - ab * vb, aa * vb - ab * va) / det : vec2(0);
 }
 
-Site make_site(SceneData scene, InstanceData inst, uint prim, vec2 bary, Surface s) {
+// p: the point in the kernels' world; ng: unit, on the outside.
+Site make_site(SceneData scene, InstanceData inst, uint prim, vec2 bary, vec3 p, vec3 ng) {
     Site site;
     vec3 dx, dy;
-    pixel_footprint(scene.camera, s.p, s.ng, dx, dy);
+    pixel_footprint(scene.camera, p, ng, dx, dy);
     site.footprint = max(length(dx), length(dy));
     site.dp_dx = to_object_direction(inst, dx);
     site.dp_dy = to_object_direction(inst, dy);
-    site.world = s.p + scene.world_origin;
-    site.normal = s.ng;
+    site.world = p + scene.world_origin;
+    site.normal = ng;
     site.object = pcg_hash(inst.object_id);
     site.uv = bary;
     if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u) {
         QuadricData q = quadric_of(inst);
-        site.position = quadric_refine(q, to_object(inst, s.p));
+        site.position = quadric_refine(q, to_object(inst, p));
         vec3 dpdu, dpdv;
         quadric_tangents(q, site.position, dpdu, dpdv);
         site.duv_dx = coordinates(site.dp_dx, dpdu, dpdv);
@@ -82,6 +84,21 @@ Site make_site(SceneData scene, InstanceData inst, uint prim, vec2 bary, Surface
     site.duv_dx = uvs * coordinates(site.dp_dx, e1, e2);
     site.duv_dy = uvs * coordinates(site.dp_dy, e1, e2);
     return site;
+}
+
+// The same where there is no more than the hit.
+Site site_of_hit(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
+    vec3 p;
+    if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u) {
+        p = quadric_at(quadric_of(inst), bary);
+    } else {
+        uvec3 tri = Uvec3Array(inst.indices).at[prim];
+        Vec3Array positions = Vec3Array(inst.positions);
+        vec3 p0 = positions.at[tri.x];
+        p = p0 + (bary.x * (positions.at[tri.y] - p0) + bary.y * (positions.at[tri.z] - p0));
+    }
+    vec3 n = normalize(outward_normal(inst, prim, bary));
+    return make_site(scene, inst, prim, bary, inst.object_to_world * vec4(p, 1.0), n);
 }
 
 #endif

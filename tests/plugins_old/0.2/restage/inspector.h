@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Interface "restage.inspector/1": what a material shows in the inspector besides one widget a parameter.
+ *
+ * `draw` is called each time the panel is drawn and describes it anew (immediate mode): it calls the widgets of
+ * RestageUi1 in order and keeps nothing. Widgets name parameters of the material's table; what the user changes goes
+ * through the host's history, so undo, gestures and project files need nothing from the plugin. Plugins never link a
+ * UI library. A parameter that draw shows itself is not shown a second time below. */
+#ifndef RESTAGE_INSPECTOR_H
+#define RESTAGE_INSPECTOR_H
+
+#include <restage/params.h>
+#include <restage/plugin.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RESTAGE_INSPECTOR1 "restage.inspector/1"
+
+/* The widgets. Every function [main], only during draw, with the ctx that draw was given. Text is UTF-8 and copied.
+ * An id that is not in the material's table shows nothing, and the host's log says so once. */
+typedef struct RestageUi1 {
+    RESTAGE_SIZE(RestageUi1);
+    /* The row the host would make of the parameter: slider, colour, switch, combo, with texture and reset. */
+    void (*param)(void* ctx, const char* id);
+    /* The parameter is not shown below though no widget shows it now: what stands in a group that is closed. */
+    void (*hide)(void* ctx, const char* id);
+    /* A slider for a FLOAT or INT, on a scale of its own; logarithmic when `log_scale` and min > 0. */
+    void (*slider)(void* ctx, const char* id, const char* label, float min, float max, int log_scale);
+    void (*color)(void* ctx, const char* id, const char* label);   /* a COLOR, without its texture */
+    void (*texture)(void* ctx, const char* id, const char* label); /* the texture of a texturable one, or a TEXTURE */
+    /* Chooses one of `count` texts; `current` < 0 = none of them. Returns the one the user has just chosen, or -1. */
+    int (*combo)(void* ctx, const char* label, const char* const* choices, uint32_t count, int current);
+    int (*button)(void* ctx, const char* label, const char* tooltip); /* 1 = has just been pressed */
+    void (*text)(void* ctx, const char* text); /* a line of explanation, wrapped */
+    /* A fold; 1 = open: draw what is in it, then call end_group. 0 = closed: do not. */
+    int (*begin_group)(void* ctx, const char* label);
+    void (*end_group)(void* ctx);
+    /* Curves over one axis: `channels` (1 or 3: drawn red, green, blue) times `count` values, channel after channel, at
+     * equal steps from x_min to x_max; y from y_min to y_max. */
+    void (*plot)(void* ctx, const char* label, const float* values, uint32_t count, uint32_t channels, float x_min,
+                 float x_max, float y_min, float y_max);
+    /* A curve whose points the user drags up and down: point i is the FLOAT `ids[i]`, at equal steps of x. */
+    void (*curve)(void* ctx, const char* label, const char* const* ids, uint32_t count);
+    /* A small picture, RGB, 3 floats a pixel, linear, row 0 on top. */
+    void (*image)(void* ctx, const char* label, const float* rgb, uint32_t width, uint32_t height);
+    /* What a parameter is now (its default where nothing is set). 1 = there is such a one. `out->size` is the caller's
+     * to set; `out->text` is valid until the next call. */
+    int (*get)(void* ctx, const char* id, RestageValue* out);
+    /* Sets parameters together, as one step of undo called `label`: what a choice or a button does. Values are held to
+     * the table's types and ranges; those that do not fit are left out and logged. */
+    void (*set)(void* ctx, const char* label, const RestageValue* values, uint32_t count);
+} RestageUi1;
+
+typedef struct RestageInspector1 {
+    RESTAGE_SIZE(RestageInspector1);
+    const char* type; /* of a material of the same plugin */
+    /* [main] */
+    void (*draw)(const RestageUi1* ui, void* ctx);
+} RestageInspector1;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
