@@ -20,7 +20,7 @@ namespace restage::app {
 // Data goes to stdout, everything else to stderr.
 enum ExitCode : int {
     exit_ok = 0,
-    exit_failed = 1, // understood, but it could not be done
+    exit_failed = 1, // understood, but failed
     exit_usage = 2   // not understood: unknown option, missing argument
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of an animation that lies in one scene file each: shot.0001.pbrt, shot.0002.pbrt ...
+// Frames of an animation with one scene file each: shot.0001.pbrt, shot.0002.pbrt ...
 #pragma once
 
 #include "base/result.hpp"
@@ -13,7 +13,7 @@ namespace restage::app {
 // "7", "1-24", "1-24x2" (every second one), "1-3,9": in the order they are written.
 Result<std::vector<std::uint32_t>> parse_frames(const std::string& text);
 
-// The last row of # becomes the number, with zeros in front up to as many digits: "shot.####.pbrt" -> "shot.0012.pbrt".
+// The last run of # becomes the number, with zeros in front up to as many digits: "shot.####.pbrt" -> "shot.0012.pbrt".
 std::string frame_path(const std::string& path, std::uint32_t frame);
 
 } // namespace restage::app

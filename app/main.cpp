@@ -45,13 +45,12 @@ int run(int argc, char** argv) {
             context.quiet = true;
         },
         "Log errors only");
-    program.add_flag("--safe-mode", context.safe_mode, "Load no plugins but those that came with the program");
+    program.add_flag("--safe-mode", context.safe_mode, "Load only the plugins that came with the program");
     program
         .add_option("--plugin-path", context.plugin_paths,
-                    "Look for plugins in this folder first (may be repeated; RESTAGE_PLUGIN_PATH holds more)")
+                    "Look for plugins in this folder first (may be repeated; RESTAGE_PLUGIN_PATH adds more)")
         ->allow_extra_args(false);
-    program.add_flag("--isolate", context.isolate,
-                     "Read scene files in a process of their own: for files from people you do not know");
+    program.add_flag("--isolate", context.isolate, "Read scene files in a separate process: for untrusted files");
     program.add_option("--isolate-time", context.isolate_seconds, "Limit for that process [s]")
         ->check(CLI::Range(1.0, 86400.0))
         ->capture_default_str();
@@ -73,7 +72,7 @@ int run(int argc, char** argv) {
     try {
         program.parse(arguments);
     } catch (const CLI::ParseError& error) {
-        return program.exit(error) == 0 ? exit_ok : exit_usage; // --help and --version come this way too
+        return program.exit(error) == 0 ? exit_ok : exit_usage; // --help and --version arrive here too
     }
     if (!context.chosen()) {
         std::fputs(program.help().c_str(), stderr);
@@ -87,7 +86,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const std::exception& error) { // a bug of ours, or no memory
+    } catch (const std::exception& error) { // a bug, or out of memory
         std::fprintf(stderr, "restage: internal error: %s\n", error.what());
         return restage::app::exit_failed;
     }

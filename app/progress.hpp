@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress on stderr: a bar with the time left on a terminal, a line now and then elsewhere; and Ctrl-C as a question.
+// Progress on stderr: a bar with the time left on a terminal, a line now and then elsewhere; and Ctrl-C as a flag.
 #pragma once
 
 #include <chrono>

@@ -42,19 +42,19 @@ void add_device_options(CLI::App& command, render::RendererOptions& o) {
 }
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
-    auto* spp = command.add_option("--spp", o.spp, "Samples a pixel (default: what the scene says)")
-                    ->check(CLI::Range(1u, 1u << 24));
+    auto* spp =
+        command.add_option("--spp", o.spp, "Samples a pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
     auto* time =
-        command.add_option("--time", o.seconds, "Render for so long [s]")->check(CLI::PositiveNumber)->excludes(spp);
+        command.add_option("--time", o.seconds, "Render for this long [s]")->check(CLI::PositiveNumber)->excludes(spp);
     command.add_option("--error", o.error, "Render until the relative standard error is below this, for example 0.02")
         ->check(CLI::PositiveNumber)
         ->excludes(spp)
         ->excludes(time);
-    command.add_option("--size", o.size, "Film size WxH [pixel], for example 640x360 (default: what the scene says)");
+    command.add_option("--size", o.size, "Film size WxH [pixel], for example 640x360 (default: the scene's)");
     command.add_option("--camera", o.camera, "Camera by its name or number, from 1, as `restage info` lists them");
     command.add_flag(
         "--studio", o.studio,
-        "Light it with a neutral studio; where that does not reach what the camera sees, with a lamp there");
+        "Light it with a neutral studio; where that light does not reach what the camera sees, also with a lamp there");
     command.add_option("--denoise", o.denoise, "Denoise the result; --denoise alone is high quality")
         ->expected(0, 1)
         ->default_str("high")
@@ -62,24 +62,24 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--denoiser", o.denoiser,
                        "Denoise by this denoiser: its type or the id of its plugin (default: the one that came with "
                        "Restage); implies --denoise");
-    command.add_option("--max-depth", o.max_depth, "Most bounces of a path (default: what the scene says)")
+    command.add_option("--max-depth", o.max_depth, "Most bounces of a path (default: the scene's)")
         ->check(CLI::Range(0, 65534));
     command
         .add_option("--russian-roulette", o.roulette,
-                    "End paths that carry little light early, without bias: on or off (default: what the scene says)")
+                    "End paths that carry little light early, without bias: on or off (default: the scene's)")
         ->check(CLI::IsMember({"on", "off"}));
     command
         .add_option("--clamp-direct", o.clamp_direct,
-                    "Largest contribution of light seen directly or after no bounce (biased; 0 = off; default: what "
-                    "the scene says)")
+                    "Largest contribution of light seen directly or after no bounce (biased; 0 = off; default: the "
+                    "scene's)")
         ->check(CLI::NonNegativeNumber);
     command
         .add_option("--clamp-indirect", o.clamp_indirect,
-                    "Largest contribution after a bounce (biased; 0 = off; default: what the scene says)")
+                    "Largest contribution after a bounce (biased; 0 = off; default: the scene's)")
         ->check(CLI::NonNegativeNumber);
     command
         .add_option("--ray-epsilon", o.ray_epsilon,
-                    "Offset of ray origins [scene units] (0 = by error bounds, better; default: what the scene says)")
+                    "Offset of ray origins [scene units] (0 = by error bounds, better; default: the scene's)")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--strategy", o.strategy, "How light is found: mis, light or bsdf (for study)")
         ->check(CLI::IsMember({"mis", "light", "bsdf"}))
@@ -118,7 +118,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     }
     bar.finish();
     if (strict) RESTAGE_CHECK(io::refuse_losses(imported.report, path));
-    for (const io::ReportEntry& entry : imported.report.entries) // what was done so that anything is seen
+    for (const io::ReportEntry& entry : imported.report.entries) // what made the scene visible
         if (entry.what == "exposure" || (entry.what == "light" && !entry.note.starts_with(document::no_light)))
             context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));
     const auto approximated = imported.report.count(io::Fate::approximated),
@@ -163,8 +163,7 @@ Result<scene::Id<scene::Camera>> choose_camera(const scene::Scene& scene, const 
     });
     if (const auto by_name = scene::find_by_name<scene::Camera>(scene, wanted)) return by_name;
     if (by_number) return by_number;
-    return fail(
-        fmt::format("--camera {}: there is no such camera; there are {}", wanted, known.empty() ? "none" : known));
+    return fail(fmt::format("--camera {}: no such camera; there are {}", wanted, known.empty() ? "none" : known));
 }
 
 } // namespace
@@ -224,7 +223,7 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
             if (renderer.samples() >= 8 && error <= o.error) break;
         }
         bar.show(done, note);
-        // Batches of about a fifth of a second; and no step past a time target.
+        // Batches of about 0.2 s, and none past a time target.
         const double per_sample = took / batch;
         double next = 0.2 / std::max(per_sample, 1e-6);
         if (o.seconds > 0) next = std::min(next, (o.seconds - elapsed) / std::max(per_sample, 1e-6));
@@ -233,10 +232,10 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     bar.finish();
     for (const auto& [type, count] : renderer.stats().not_finite)
         context.log.warning(
-            fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
+            fmt::format("{} samples of material type \"{}\" were not finite and were left out", count, type));
     if (renderer.stats().dropped > 0)
         context.log.warning(
-            fmt::format("{} samples summed to more light than the film can hold, or to no number, and were "
+            fmt::format("{} samples summed to more light than the film can hold, or to NaN, and were "
                         "left out: look at the lights and the environment",
                         renderer.stats().dropped));
     if (interrupted()) context.log.warning(fmt::format("stopped after {} samples a pixel", renderer.samples()));

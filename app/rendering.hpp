@@ -18,9 +18,9 @@ namespace restage::app {
 
 struct RenderOptions {
     render::RendererOptions renderer;
-    std::uint32_t spp = 0; // 0 = what the scene says
+    std::uint32_t spp = 0; // 0 = the scene's
     double seconds = 0; // > 0: stop then
-    bool strict = false; // nothing approximated, nothing dropped
+    bool strict = false; // nothing approximated or dropped
     double error = 0; // > 0: stop at this relative error
     std::string size; // WxH
     std::string denoise; // "", fast, balanced, high
@@ -28,7 +28,7 @@ struct RenderOptions {
     std::string strategy = "mis";
     int max_depth = -1;
     std::string roulette; // "", on, off
-    std::optional<float> clamp_direct, clamp_indirect; // biased; none = what the scene says
+    std::optional<float> clamp_direct, clamp_indirect; // biased; none = the scene's
     std::optional<float> ray_epsilon; // 0 = error bounds
     std::string camera; // its name or number; "" = the active one
     bool studio = false; // light it with one
@@ -39,31 +39,31 @@ void add_device_options(CLI::App& command, render::RendererOptions& options);
 // Those, and the other options of the renderer and the targets of a command.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
-// For tests: what RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES in the environment says, see gpu::DeviceFault; null = nothing.
+// For tests: what RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES in the environment says, see gpu::DeviceFault; null if unset.
 std::shared_ptr<gpu::DeviceFault> device_fault();
 
 // With a progress bar; notes the report's counts in the log.
-// What `--isolate` and its limits say; null = scenes are read in this process.
+// As `--isolate` and its limits say; null = scenes are read in this process.
 Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context);
 // `strict`: what the import approximates or drops is an error (io/strict.hpp).
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false);
 inline constexpr const char* strict_help =
-    "It is an error when something in the file is approximated or dropped: a missing file, an undefined name ...";
+    "Fail if something in the file is approximated or dropped: a missing file, an undefined name ...";
 
 // "640x360" as width and height in pixels; `option` is named in the error.
 Result<glm::uvec2> parse_size(const std::string& text, const char* option);
 
-// Puts camera, studio, size, depth and roulette of the options into the scene; says that it has no light.
+// Puts camera, studio, size, depth and roulette of the options into the scene; reports a scene without light.
 Result<void> apply_options(Context& context, const RenderOptions& options, scene::Scene& scene);
 
-// Renders until the target is met or Ctrl-C. `label` stands before the progress.
+// Renders until the target is met or Ctrl-C. `label` precedes the progress.
 Result<void> render_to_target(Context& context, const RenderOptions& options, const scene::Scene& scene,
                               render::Renderer& renderer, const std::string& label = "");
 
 using view::Picture;
 // When asked to (a missing denoiser is an error that says so).
 Result<void> denoise_picture(Context& context, const RenderOptions& options, Picture& picture);
-// Reads the film, and that.
+// Reads the film, and denoises it as above.
 Result<Picture> take_picture(Context& context, const RenderOptions& options, const scene::Scene& scene,
                              const render::Renderer& renderer);
 

@@ -44,14 +44,14 @@ Result<TemporaryFile> scene_from_stdin(const std::string& extension) {
     char piece[1 << 16];
     while (const std::size_t n = std::fread(piece, 1, sizeof piece, stdin)) {
         bytes.append(piece, n);
-        if (bytes.size() > most_file_bytes) return fail("stdin: has more than the 16 GiB that are read");
+        if (bytes.size() > most_file_bytes) return fail("stdin: exceeds the limit of 16 GiB");
     }
     if (std::ferror(stdin)) return fail(std::string("stdin: cannot be read: ") + std::strerror(errno));
     if (bytes.empty()) return fail("stdin: is empty; pipe a scene into it");
     const fs::path path = new_name(".", extension);
     if (auto written = write_file_atomic(path, bytes); !written)
         return fail(
-            "stdin: the scene has to lie in the current folder for a moment, as its own paths are relative to "
+            "stdin: the scene is stored briefly in the current folder, as its own paths are relative to "
             "it: " +
             written.error().message);
     return TemporaryFile(path);
@@ -62,9 +62,9 @@ Result<> check_file_path(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     std::error_code code;
     if (!folder.empty() && !fs::is_directory(folder, code))
-        return fail(path + ": there is no folder " + folder.string() + "; make it first, or write elsewhere");
+        return fail(path + ": there is no folder " + folder.string() + "; create it first, or write elsewhere");
     if (const auto there = fs::status(path, code); fs::exists(there) && !fs::is_regular_file(there))
-        return fail(path + ": is there already, and no file that can be replaced");
+        return fail(path + ": exists already and is not a file that can be replaced");
     return {};
 }
 
@@ -76,7 +76,7 @@ Result<Output> Output::create(const std::string& text) {
         return fail("-o " + text + ": stdout takes exr:-, png:-, jpg:-, pfm:- or hdr:-; - alone is exr:-");
     std::error_code error;
     const fs::path folder = fs::temp_directory_path(error);
-    if (error) return fail("-o " + text + ": there is no temporary folder: " + error.message());
+    if (error) return fail("-o " + text + ": no temporary folder: " + error.message());
     return Output(TemporaryFile(new_name(folder, format)));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that come on stdin and pictures that go to stdout, for pipes. Formats are read and written as files, so both
-// lie in a file meanwhile, which is removed when these go out of scope.
+// Scenes from stdin and pictures to stdout, for pipes. Formats are read and written as files, so both are stored in a
+// file meanwhile, which is removed when these go out of scope.
 #pragma once
 
 #include "base/result.hpp"
@@ -27,7 +27,7 @@ class TemporaryFile {
 // All of stdin as a file of this extension in the current folder, so that the scene's own relative paths hold there.
 Result<TemporaryFile> scene_from_stdin(const std::string& extension);
 
-// Before hours are spent: can a file be written there at all? "-" and "" can.
+// Before hours are spent: can a file be written there at all? "-" and "" pass.
 Result<> check_file_path(const std::string& path);
 
 // Where a picture is written. "-" and "exr:-" are stdout, "png:-" stdout in another format; else it is a path.

@@ -27,7 +27,7 @@ void forbid_empty_values(CLI::App& program) {
                 if (!number) return "";
                 double x = 0;
                 const char* begin = value.c_str() + (value[0] == '+');
-                const auto read = std::from_chars(begin, value.c_str() + value.size(), x); // whatever the locale says
+                const auto read = std::from_chars(begin, value.c_str() + value.size(), x); // independent of the locale
                 const bool finite = std::isfinite(x) && read.ec != std::errc::result_out_of_range;
                 return finite ? "" : value + " is not a finite number";
             });
@@ -44,23 +44,23 @@ std::string usage_sentence(const CLI::App& program, const CLI::Error& error) {
         if (std::regex_search(extras, m, std::regex("(^| )(-\\S+)")))
             text = name + " has no option " + m[2].str();
         else
-            text = "\"" + extras + "\" is " + (chosen.empty() ? "no command" : "one argument too many");
+            text = "\"" + extras + "\" is " + (chosen.empty() ? "not a command" : "one argument too many");
     }
     const auto rewrite = [&](const char* pattern, const char* sentence) {
         text = std::regex_replace(text, std::regex(pattern), sentence);
     };
-    rewrite("Value (\\S*) not in range \\[2\\.2\\S* - 1\\.7\\S*\\]", "$1 is no number above 0");
-    rewrite("Value (\\S*) not in range \\[0 - 1\\.7\\S*\\]", "$1 is no number of 0 or more");
-    rewrite("Value (\\S*) not in range \\[(\\S*) - (\\S*)\\]", "$1 is no number from $2 to $3");
-    rewrite("^(\\S+): (\\S+) not in \\{(.*)\\}$", "$1: \"$2\" is none of $3");
+    rewrite("Value (\\S*) not in range \\[2\\.2\\S* - 1\\.7\\S*\\]", "$1 is out of range: it must be above 0");
+    rewrite("Value (\\S*) not in range \\[0 - 1\\.7\\S*\\]", "$1 is out of range: it must be 0 or more");
+    rewrite("Value (\\S*) not in range \\[(\\S*) - (\\S*)\\]", "$1 is out of range: it must be from $2 to $3");
+    rewrite("^(\\S+): (\\S+) not in \\{(.*)\\}$", "$1: \"$2\" is not one of $3");
     rewrite("^(\\S+): 1 required .* missing$", "$1 takes a value");
     rewrite("^(\\S+): At Most 1 required but received \\d+$", "$1 is given more than once");
     rewrite("^(\\S+): At least (\\d+) required but received (\\d+)$", "$1 takes $2 values, and got $3");
     if (std::regex_match(text, m, std::regex("Could not convert: (\\S+) = (.*)"))) {
         const CLI::Option* option = chosen.empty() ? nullptr : chosen.front()->get_option_no_throw(m[1]);
         const bool whole = option && (option->get_type_name().starts_with("UINT") || m[1] == "--region");
-        text =
-            m[1].str() + ": \"" + m[2].str() + "\" is no " + (whole ? "whole number from 0 to 4294967295" : "number");
+        text = m[1].str() + ": \"" + m[2].str() + "\" is not a " +
+               (whole ? "whole number from 0 to 4294967295" : "number");
     }
     return "restage: " + text + "\nTry '" + name + " --help'.\n";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the command line says of itself: values that no option takes, and mistakes as sentences.
+// Command line diagnostics: values that no option accepts, and mistakes as sentences.
 #pragma once
 
 #include <CLI/CLI.hpp>

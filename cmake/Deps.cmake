@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Third-party libraries, under our own names dep::<x>: a package with a CMake config first (vcpkg, Debian), else the
 # headers Debian installs without one, else the sources tools/setup unpacked into RESTAGE_DEPS_DIR.
-# What is compiled from source (imgui and the like, volk) is built only when something links it.
-set(RESTAGE_HOW_TO_GET "On Debian run tools/setup; elsewhere configure with vcpkg's toolchain file (vcpkg.json lists what is needed).")
+# Libraries compiled from source (imgui and related, volk) are built only if something links them.
+set(RESTAGE_HOW_TO_GET "On Debian run tools/setup; elsewhere configure with vcpkg's toolchain file (see vcpkg.json).")
 
-# find_package and find_path for what must be there: who lacks it is told how to get it.
+# find_package and find_path for required dependencies, with a hint how to get missing ones.
 macro(restage_find_package name)
     find_package(${name} ${ARGN} QUIET)
     if(NOT ${name}_FOUND)
@@ -31,7 +31,7 @@ function(restage_dep name)
             return()
         endif()
     endforeach()
-    message(FATAL_ERROR "dep::${name}: none of the targets ${ARGN} is there. ${RESTAGE_HOW_TO_GET}")
+    message(FATAL_ERROR "dep::${name}: none of the targets ${ARGN} exists. ${RESTAGE_HOW_TO_GET}")
 endfunction()
 
 # dep::<name> = headers found by one of them, and optionally a library.
@@ -115,7 +115,7 @@ restage_dep_headers(png spng.h LIBRARY spng)
 restage_find_package(JPEG) # libjpeg-turbo
 restage_dep(jpeg JPEG::JPEG)
 restage_dep_headers(webp webp/decode.h LIBRARY webp)
-restage_dep_headers(stb stb_image.h SUFFIXES stb) # headers; whoever needs the code defines STB_..._IMPLEMENTATION once
+restage_dep_headers(stb stb_image.h SUFFIXES stb) # headers; users of the code define STB_..._IMPLEMENTATION once
 
 # --- program and tests ------------------------------------------------------------------------------------------------------
 # CLI11 is header-only; compiled once here it costs each file that includes it 2 s instead of 8.
@@ -145,7 +145,7 @@ include(DepsImgui)
 
 # --- Open Image Denoise: opened at run time, never linked ----------------------------------------------------------------
 set(RESTAGE_OIDN_LIB_DIR "${RESTAGE_DEPS_DIR}/pyoidn/pyoidn/oidn/lib" CACHE PATH
-    "Folder with libOpenImageDenoise.so.2 and the libraries it opens; it must be called 'lib'")
+    "Folder with libOpenImageDenoise.so.2 and the libraries it opens; it must be named 'lib'")
 
 # --- a software Vulkan device for tests ----------------------------------------------------------------------------------
 # The name of lavapipe's driver file differs between Mesa packages. Tests run on it wherever it is installed.

@@ -25,7 +25,7 @@ restage_imgui_library(imgui "${bundle}/imgui/imgui"
     misc/cpp/imgui_stdlib.cpp backends/imgui_impl_glfw.cpp backends/imgui_impl_vulkan.cpp)
 target_include_directories(dep_imgui SYSTEM PUBLIC "${bundle}/imgui/imgui/backends" "${bundle}/imgui/imgui/misc/cpp")
 target_link_libraries(dep_imgui PUBLIC dep::glfw dep::volk)
-# Every user must see the same configuration: volk loads Vulkan; the test engine's hooks are compiled in where it is linked.
+# Every user must see the same configuration: volk loads Vulkan; the test engine's hooks are compiled in if linked.
 target_compile_definitions(dep_imgui PUBLIC IMGUI_IMPL_VULKAN_USE_VOLK IMGUI_DISABLE_OBSOLETE_FUNCTIONS)
 if(RESTAGE_BUILD_TESTS)
     target_compile_definitions(dep_imgui PUBLIC IMGUI_ENABLE_TEST_ENGINE IMGUI_TEST_ENGINE_ENABLE_STD_FUNCTION=1
@@ -41,7 +41,7 @@ target_link_libraries(dep_implot PUBLIC dep::imgui)
 target_compile_definitions(dep_implot PUBLIC "IMPLOT_CUSTOM_NUMERIC_TYPES=(float)(double)")
 target_compile_options(dep_implot PRIVATE -O1)
 
-if(RESTAGE_BUILD_TESTS) # a wheel has no use for it
+if(RESTAGE_BUILD_TESTS) # not needed in a wheel
     file(GLOB engine_sources RELATIVE "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine"
         "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine/*.cpp")
     restage_imgui_library(imgui_test_engine "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine" ${engine_sources})

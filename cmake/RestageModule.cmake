@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # restage_add_module(NAME <name> DEPENDS <modules> [LINK <public third-party>] [LINK_PRIVATE <private third-party>])
-# Defines restage_<name> from the *.cpp of the calling folder. DEPENDS is the rule who may include whom: it is the whole
-# list of engine modules whose headers the module may see (tests/scripts/test_layers.py holds the includes to it).
+# Defines restage_<name> from the *.cpp of the calling folder. DEPENDS defines who may include whom: it is the complete
+# list of engine modules whose headers the module may see (tests/scripts/test_layers.py enforces it).
 function(restage_add_module)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "DEPENDS;LINK;LINK_PRIVATE")
     if(NOT arg_NAME OR arg_UNPARSED_ARGUMENTS)
-        message(FATAL_ERROR "restage_add_module: NAME is needed; not understood: ${arg_UNPARSED_ARGUMENTS}")
+        message(FATAL_ERROR "restage_add_module: NAME is required; unknown arguments: ${arg_UNPARSED_ARGUMENTS}")
     endif()
     set(target restage_${arg_NAME})
     file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.c")

@@ -3,11 +3,11 @@
 #                    [GLSL <files>] [FILES <files and folders>] [LINK <third-party targets>])
 # <kind>: material, texture, importer, exporter, denoiser, sky, action or panel. Of a bundle it is the chief one: part of
 # the folder's name and nothing else.
-# The build system's half of the SDK, here and (find_package(Restage)) for plugins outside of this repository.
-# Builds lib/restage/plugins/<kind>-<name>/ in the build tree: <name>.so, its manifest, its GLSL and what else it needs at
+# The build system part of the SDK, here and (find_package(Restage)) for plugins outside this repository.
+# Builds lib/restage/plugins/<kind>-<name>/ in the build tree: <name>.so, its manifest, its GLSL and files needed at
 # run time (FILES). A plugin sees the SDK headers and the third-party targets it names, nothing of the engine.
 
-# Puts files into a folder of the build tree: links, so that an edited file needs no build; copies where links need rights.
+# Puts files into a folder of the build tree: links, so that edits need no build; copies where links need privileges.
 function(restage_place_files target folder)
     foreach(file IN LISTS ARGN)
         get_filename_component(source "${file}" ABSOLUTE)
@@ -34,13 +34,13 @@ function(restage_add_plugin)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;KIND;MANIFEST" "SOURCES;GLSL;FILES;LINK")
     set(usage "restage_add_plugin(NAME n KIND <kind> SOURCES .. MANIFEST plugin.json)")
     if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_MANIFEST)
-        message(FATAL_ERROR "${usage}: incomplete, or not understood: '${arg_UNPARSED_ARGUMENTS}'")
+        message(FATAL_ERROR "${usage}: incomplete, or unknown arguments: '${arg_UNPARSED_ARGUMENTS}'")
     endif()
     if(NOT arg_KIND MATCHES "^(material|texture|importer|exporter|denoiser|sky|action|panel)$")
         message(FATAL_ERROR "${usage}: plugin '${arg_NAME}' has the unknown kind '${arg_KIND}'")
     endif()
     set(target restage_${arg_KIND}_${arg_NAME})
-    # A folder of its own for each plugin; an importer and an exporter may share a name, so the kind is part of it.
+    # One folder per plugin; an importer and an exporter may share a name, so the kind is part of it.
     set(folder "${RESTAGE_PLUGIN_DIR}/${arg_KIND}-${arg_NAME}")
 
     if(arg_SOURCES)
@@ -58,7 +58,7 @@ function(restage_add_plugin)
         add_custom_target(${target} ALL)
     endif()
     if(arg_SOURCES AND NOT arg_KIND MATCHES "^(importer|exporter|denoiser)$")
-        # It may be loaded anew. GNU's unique symbols would pin what was before in memory.
+        # It may be reloaded. GNU unique symbols would pin the previous version in memory.
         target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
     endif()
     restage_place_files(${target} "${CMAKE_BINARY_DIR}/${folder}" ${arg_MANIFEST} ${arg_GLSL} ${arg_FILES})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# restage_share_folder(<folder> [AS <name>]): the source folder appears as share/restage/<name> in the build tree and the
-# installed tree; the name is the folder's own where none is given. In the build tree it is the folder itself (a link): an edited file needs no build.
+# restage_share_folder(<folder> [AS <name>]): makes the source folder share/restage/<name> in the build tree and the
+# installed tree; the name defaults to the folder's own. In the build tree it is a link: edits need no build.
 function(restage_share_folder folder)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "AS" "")
     set(source "${CMAKE_SOURCE_DIR}/${folder}")

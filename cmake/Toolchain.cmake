@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiler launcher, linker, build types and sanitizers: what is the same for every target, ours and third-party.
+# Compiler launcher, linker, build types and sanitizers: settings common to every target, ours and third-party.
 include(CheckLinkerFlag)
 
 find_program(CCACHE_PROGRAM ccache)
@@ -13,7 +13,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     if(RESTAGE_HAVE_MOLD)
         add_link_options("-fuse-ld=mold")
     endif()
-    # Release is what people run. RelWithDebInfo is what CI runs: assertions stay on, line tables for stack traces.
+    # Release is for users. RelWithDebInfo is for CI: assertions stay on, line tables for stack traces.
     set(CMAKE_C_FLAGS_RELEASE "-O3 -DNDEBUG")
     set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
     set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O2 -g1")

@@ -7,7 +7,7 @@ else()
     target_compile_options(restage_warnings INTERFACE
         -Wall -Wextra -Wpedantic -Wshadow -Wcast-align -Wformat=2 -Wimplicit-fallthrough
         $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>
-        # Vulkan and the SDK are filled with designated initialisers; what is not named is zero on purpose.
+        # Vulkan and the SDK are filled with designated initialisers; unnamed members are zero on purpose.
         -Wno-missing-field-initializers
         $<$<BOOL:${RESTAGE_WERROR}>:-Werror>)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main of a material under test (engine/check/bsdf_lab.cpp): runs what the composer has put above on lists of
-// directions. One kernel for all modes, and one call site each: a driver compiles every call anew. What a mode does not
-// need is a loop of no rounds, which costs nothing.
+// The main of a material under test (engine/check/bsdf_lab.cpp): runs the composed material above on lists of
+// directions. One kernel for all modes, and one call site each: drivers compile every call separately. What a mode does
+// not need is a loop with no iterations, which is free.
 layout(local_size_x = 64) in;
 
-const uint LAB_LIST = 0u; // a job each: everything
-const uint LAB_DRAW = 1u; // samples of one wo, from random numbers made here
+const uint LAB_LIST = 0u; // everything for one job per invocation
+const uint LAB_DRAW = 1u; // samples for one wo, from random numbers generated here
 const uint LAB_LOOK = 2u; // eval and pdf of one wo at a list of wi
 
 struct Job { vec3 wo, wi, u; uint config, seed; };
@@ -42,7 +42,7 @@ void main() {
     SceneData scene;
     scene.params = push.params;
     Material m = material_fetch(scene, job.config * push.words, texture_at_uv(vec4(0)));
-#ifdef MATERIAL_SITE // one for all: what is compared must be of the same place
+#ifdef MATERIAL_SITE // the same for all: compared values must belong to the same place
     m.site = Site(vec2(0.31, 0.57), vec2(1e-3, 0), vec2(0, 1e-3), vec3(0.31, 0.57, 0.11), vec3(1e-3, 0, 0), vec3(0, 1e-3, 0),
                   vec3(0.31, 0.57, 0.11), vec3(0, 0, 1), 1e-3, 0x9e3779b9u);
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-tracing pipeline: reports the hit, no more; shading is the callables' affair.
+// Ray-tracing pipeline: only reports the hit; callables do the shading.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-tracing pipeline: nothing was hit; of a shadow ray, the light is seen.
+// Ray-tracing pipeline: nothing was hit; for a shadow ray, the light is visible.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stages of the ray-tracing pipeline share: the push constant and the two payloads.
+// Shared by the stages of the ray-tracing pipeline: the push constant and the two payloads.
 // raygen loops over the path; the closest hit reports where; the callable of the hit's material type does the path step.
 #ifndef RESTAGE_TRACE_COMMON
 #define RESTAGE_TRACE_COMMON
@@ -13,14 +13,14 @@ uint launch_pixel(FrameData frame) { // of the crop window, row by row
     return (push.y + gl_LaunchIDEXT.y) * frame.crop_width + push.x + gl_LaunchIDEXT.x;
 }
 
-// Cull masks: what light meets, and the borders of media, which it passes. An instance with gaps may be both.
+// Cull masks: what light hits, and the borders of media, which it passes. An instance with gaps may be both.
 const uint MASK_SURFACES = 1u;
 const uint MASK_BORDERS = 2u;
-const uint MASK_SHADOWS = 4u; // what stops shadow rays: surfaces but those of INSTANCE_PASSES
+const uint MASK_SHADOWS = 4u; // what blocks shadow rays: surfaces except those with INSTANCE_PASSES
 
 // Of traceRayEXT, location 0. 20 bytes.
 struct HitPayload {
-    float t; // in: >= 0; out: the hit's distance, or < 0 when the ray left the scene
+    float t; // in: >= 0; out: the hit's distance, or < 0 if the ray left the scene
     uint instance; // in: the mask, for any-hit; out: InstanceData index
     uint prim;
     vec2 bary;
@@ -32,15 +32,15 @@ struct StepPayload {
     uint instance;     // in
     uint material;     // in: MaterialData index, mixes resolved
     uint prim;         // in
-    float t;           // in: the hit's distance; out: > 0 when there is a next ray
+    float t;           // in: the hit's distance; out: > 0 if there is a next ray
     vec2 bary;         // in
-    float tmin;        // in, out: where the ray begins
+    float tmin;        // in, out: start of the ray
     vec3 origin;       // in, out
     vec3 direction;    // in: of the ray that hit; out: of the next one
     vec3 shadow_origin;
     vec3 shadow_direction;
-    float shadow_tmax; // out: > 0 when there is a shadow ray
-    vec3 shadow_contribution; // to the path's radiance, if the light is seen
+    float shadow_tmax; // out: > 0 if there is a shadow ray
+    vec3 shadow_contribution; // to the path's radiance, if the light is visible
     uint shadow_medium;
 };
 

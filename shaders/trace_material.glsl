@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-tracing pipeline: one path step at a hit of one material type, as a callable. Composed: the material stands
-// before this file.
+// Ray-tracing pipeline: one path step at a hit of one material type, as a callable. Composed: the material precedes
+// this file.
 #include "trace_common.glsl"
 #include "path/step.glsl"
 
@@ -24,7 +24,7 @@ void main() {
         next.tmax = -1.0;
         atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }
-    if (HAS_GUIDES && guided && !(HAS_GLOW && guide.weight < 0.0)) { // here, so that albedo and normal need not travel
+    if (HAS_GUIDES && guided && !(HAS_GLOW && guide.weight < 0.0)) { // here, to keep albedo and normal out of the payload
         uint pixel = launch_pixel(frame);
         GuidePixel g = GuidePixelArray(frame.film_guides).at[pixel];
         if (first) guide_add(g, guide);

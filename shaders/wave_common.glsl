@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the wavefront kernels share: path state in arrays behind the frame's addresses.
+// Shared by the wavefront kernels: path state in arrays behind the frame's addresses.
 #ifndef RESTAGE_WAVE_COMMON
 #define RESTAGE_WAVE_COMMON
 #include "path/film.glsl"
@@ -13,7 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PathArray {
 
 layout(push_constant, scalar) uniform Push { WavePush push; };
 
-// The scene, with what is pushed in place of what lies behind its address.
+// The scene, with pushed values replacing those behind its address.
 SceneData wave_scene() {
     SceneData scene = SceneRef(push.scene).scene;
     scene.instances = push.instances;

@@ -14,7 +14,7 @@ void main() {
     uint sample_index = frame.first_sample + i / frame.pixel_count;
     vec3 origin, direction;
     PathState path = path_begin(SceneRef(frame.scene), frame, pixel, sample_index, origin, direction);
-    RayArray rays = RayArray(frame.rays); // what else a ray has never changes, or Embree writes it
+    RayArray rays = RayArray(frame.rays); // a ray's other fields never change, or Embree writes them
     rays.at[i].origin = origin;
     rays.at[i].direction = direction;
     rays.at[i].tfar = INFINITE;

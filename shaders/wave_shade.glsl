@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront: one path step for the queued hits of one material type. Composed: the material stands before this file.
+// Wavefront: one path step for the queued hits of one material type. Composed: the material precedes this file.
 #include "wave_common.glsl"
 #include "path/step.glsl"
 
@@ -28,7 +28,7 @@ void main() {
         guide_write(GuideArray(push.guides), i, guide);
     else if (HAS_GUIDES && guided)
         guide_write_behind(GuideArray(push.guides), i, guide);
-    // Only what changes is written, the rest stays as the tracer and wave_generate set it.
+    // Only changes are written, the rest stays as the tracer and wave_generate set it.
     ShadowArray shadows = ShadowArray(push.shadows);
     shadows.at[i].tfar = shadow.tmax;
     if (shadow.tmax > 0.0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the sources and the build of these tests lie. Functions, not macros: only paths.cpp then differs from clone to
+// Paths of the sources and the build of these tests. Functions, not macros: only paths.cpp then differs from clone to
 // clone, and a compiler cache serves all other objects.
 #pragma once
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A plugin as somebody writes one, compiled in every language the SDK is promised for (tests/CMakeLists.txt). */
+/* A plugin as users write them, compiled in every language the SDK is promised for (tests/CMakeLists.txt). */
 #include <restage/material.h>
 
 static const RestageParam params[] = {

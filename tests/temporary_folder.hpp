@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An empty folder of the test's own, gone at its end. Tests run side by side in processes of their own, so its name is
-// like no other's.
+// An empty folder of the test's own, removed at its end. Tests run in parallel processes, so its name is
+// unique.
 #pragma once
 
 #include <filesystem>

@@ -4,12 +4,12 @@
 
     build/venv/bin/python tools/material_balls.py [--restage build/bin/restage] [--thumbnails] [--sheet FILE.jpg] [TYPE...]
 
-On the ball of another scene, beside what pbrt-v4 made of it (two halves), with the material NAME of that file replaced:
+On the ball of another scene, beside pbrt-v4's picture of it (two halves), with the material NAME of that file replaced:
     ... --scene $RESTAGE_SCENES/material-testball/scene.pbrt --material Material --sheet OUT.png \\
         --reference $RESTAGE_REFERENCES/material-testball.1.exr $RESTAGE_REFERENCES/material-testball.2.exr
-Mind the licence of such a scene: its sheet is for looking at.
+Mind the licence of such a scene: its sheet is for viewing only.
 
-Materials are those of `restage plugins`; one that is new needs no line here, but may have one in LOOKS."""
+Materials are those of `restage plugins`; a new one needs no line here, but may have one in LOOKS."""
 
 import argparse
 import json
@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 ROUGHNESSES = (0, 0.1, 0.3, 0.6, 1)
 LABELS = 110  # pixels left of the balls
 
-# What shows a material best, by the names pbrt has for it (else those of its table); the rest is its default.
+# Parameters that show a material best, under pbrt's names (else those of its table); the others have their defaults.
 LOOKS = {
     "coatedconductor": '"float conductor.roughness" 0.25',
     "coateddiffuse": '"rgb reflectance" [0.6 0.12 0.08]',
@@ -81,7 +81,7 @@ def materials(restage):
 
 
 class Stage:
-    """A scene with a ball, of which `render` makes a picture with any material. Its files are seen through links."""
+    """A scene with a ball that `render` renders in any material. Its files are reached through links."""
 
     def __init__(self, options, folder):
         self.options, self.folder = options, Path(folder)
@@ -125,17 +125,17 @@ def reference(halves, size):
 
 
 def roughness_ids(folder):
-    """Ids of the parameters that are roughnesses, as its table says; of the plugin's own GLSL struct there is no other list."""
+    """Ids of the roughness parameters, from its table; the plugin's own GLSL struct is listed nowhere else."""
     text = "".join(f.read_text() for f in folder.glob("*.glsl"))
     ids = []
     for name in ("roughness", "uroughness", "vroughness", "conductor_uroughness", "conductor_vroughness", "clearcoat_roughness", "sigma", "beta_m", "beta_n"):
         if re.search(rf"\bm\.{name}\b", text):
-            ids.append(name.replace("conductor_", "conductor."))  # as pbrt writes it
+            ids.append(name.replace("conductor_", "conductor."))  # in pbrt's syntax
     return ids
 
 
 def sheet_rows(chosen):
-    """(label, type, roughnesses, other parameters): a material, and once more where it may scatter more than once."""
+    """(label, type, roughnesses, other parameters): a material, and once more with multiscatter if it has that."""
     for material, folder in chosen.items():
         yield material, material, roughness_ids(folder), ""
         if any("m.multiscatter" in f.read_text() for f in folder.glob("*.glsl")):
@@ -143,14 +143,14 @@ def sheet_rows(chosen):
 
 
 def look_without(look, ids):
-    """What the look says of roughness gives way."""
+    """Removes roughness from the look."""
     for i in ids:
         look = re.sub(rf'"float {re.escape(i)}" \S+', "", look)
     return look
 
 
 def draw_sheet(stage, chosen, halves):
-    """A row a material; above them what pbrt made of the scene, and what Restage makes of the same file."""
+    """A row a material; above them pbrt's picture of the scene, and Restage's of the same file."""
     size = stage.options.size
     rows = list(sheet_rows(chosen))
     top = size + 20 if stage.options.scene else 0
@@ -181,8 +181,8 @@ def main():
     parser.add_argument("--spp", type=int, default=128)
     parser.add_argument("--size", type=int, default=128, help="of a ball [pixel]")
     parser.add_argument("--scene", type=Path, help="a pbrt-v4 file with a ball")
-    parser.add_argument("--material", default="Material", help="the name its material has there")
-    parser.add_argument("--reference", type=Path, nargs="+", default=[], help="EXR files that pbrt-v4 made of it")
+    parser.add_argument("--material", default="Material", help="the name of its material there")
+    parser.add_argument("--reference", type=Path, nargs="+", default=[], help="EXR files of it by pbrt-v4")
     parser.add_argument("types", nargs="*")
     o = parser.parse_args()
     chosen = {m: f for m, f in materials(o.restage).items() if not o.types or m in o.types}

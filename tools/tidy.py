@@ -2,7 +2,7 @@
 """Runs clang-tidy on the files a build tree compiles, those changed last first, until the time budget is used up.
 
 A file whose preprocessed text, compile command and .clang-tidy passed before is not checked again (the record is in the
-user's cache directory), so after a first full run only what changed costs time.
+user's cache directory), so after a first full run only changes cost time.
 """
 import argparse
 import hashlib
@@ -29,7 +29,7 @@ def tracked_by_age():
 
 
 def fingerprint(command, directory):
-    """Hash of all that the verdict depends on, or None if the file does not preprocess (then tidy says why)."""
+    """Hash of everything the verdict depends on, or None if the file does not preprocess (then tidy says why)."""
     # Without the compiler launcher, the output file and the dependency file; preprocess only.
     words = [w for w in shlex.split(command) if w != "-c" and not w.endswith("ccache")]
     if "-o" in words:
@@ -47,7 +47,7 @@ def check(tidy, build, name, command, directory):
     mark = fingerprint(command, directory)
     if mark and (CACHE / mark).exists():
         return "known", ""
-    run = subprocess.run(  # the compiler's own warnings are the build's business
+    run = subprocess.run(  # the compiler's own warnings are left to the build
         [tidy, "--quiet", "-p", str(build), "--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Wno-error", str(ROOT / name)],
         cwd=ROOT, capture_output=True, text=True)
     if run.returncode != 0:

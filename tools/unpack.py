@@ -2,7 +2,7 @@
 """Unpacks the members of an sdist or wheel that match one of the patterns, less the archive's top folder.
 
 usage: unpack.py ARCHIVE TARGET PATTERN...   (fnmatch patterns over member paths; '*' also matches '/')
-A pattern that matches nothing is an error: the archive is not what deps.lock believes it to be.
+A pattern that matches nothing is an error: the archive is not the one deps.lock expects.
 """
 import fnmatch
 import pathlib

@@ -25,7 +25,7 @@ struct Options {
     bool in_process = false;
 };
 
-// What is wrong with the files to write, before minutes are spent.
+// Problems with the output files, before minutes are spent.
 Result<> check_outputs(const Options& o) {
     const std::pair<const char*, const std::string*> all[] = {
         {"--json", &o.json}, {"--junit", &o.junit}, {"--markdown", &o.markdown}};
@@ -91,7 +91,7 @@ Result<int> run(const Options& o, Context& context) {
         return std::ranges::any_of(r.steps, [&](const auto& s) { return s.step == o.check.only; });
     });
     if (!o.check.only.empty() && !taken && passed)
-        return fail("--only " + o.check.only + ": no plugin that was checked is of a kind that takes this step");
+        return fail("--only " + o.check.only + ": this step applies to none of the plugins that were checked");
     return passed ? exit_ok : exit_failed;
 }
 
@@ -112,20 +112,20 @@ void add_check(CLI::App& program, Context& context) {
         ->add_option("--pictures", o->check.pictures,
                      "Write a page of pictures of each material, as HTML, into this folder")
         ->type_name("FOLDER");
-    command->add_option("--seed", o->check.seed, "Seed of all random numbers: that of a report replays its failure")
+    command->add_option("--seed", o->check.seed, "Seed of all random numbers; the seed in a report replays its failure")
         ->capture_default_str();
     std::vector<std::string> names;
     for (const auto* steps : check::all_steps())
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
-    command->add_option("--only", o->check.only, "Take this step alone (manifest and load come with it)")
+    command->add_option("--only", o->check.only, "Run this step alone (manifest and load come with it)")
         ->check(CLI::IsMember(names))
         ->type_name("STEP");
     command->add_flag("--quick", o->check.quick, "A few seconds a plugin: fewer configurations and samples");
     command->add_option("--time-limit", o->time_limit, "Longest time without an answer from the plugin or the GPU [s]")
         ->check(CLI::Range(0.001, 86400.0))
         ->capture_default_str();
-    command->add_flag("--in-process", o->in_process)->group(""); // what we start ourselves
+    command->add_flag("--in-process", o->in_process)->group(""); // for the processes this command starts
     command->add_option("--skip", o->check.skip)->group("");
     add_example(*command, "restage check my-plugins/velvet --quick");
     command->callback([&context, o] { context.choose([&context, o] { return run(*o, context); }); });

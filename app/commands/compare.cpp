@@ -42,7 +42,7 @@ Result<scene::PixelData> load(const std::string& path, Log& log) {
     return image;
 }
 
-// Luminance with the variance that the file's own "stderr" layer tells; empty when it has none.
+// Luminance with the variance from the file's own "stderr" layer; empty if it has none.
 Result<io::Estimate> load_estimate(const std::string& path, const scene::PixelData& image) {
     if (!path.ends_with(".exr") && !path.ends_with(".EXR")) return io::Estimate{};
     RESTAGE_TRY(const io::ExrImage exr, io::read_exr(path));
@@ -61,7 +61,7 @@ Result<io::Estimate> load_estimate(const std::string& path, const scene::PixelDa
             io::luminance({.width = exr.width, .height = exr.height, .channels = 3, .values = noisy->values});
     for (std::size_t i = 0; i < estimate.luminance.size(); ++i) {
         const float* errors = &layer->values[i * layer->channels.size()];
-        float error = 0; // of luminance: its own channel, else the bound for channels that are wrong together
+        float error = 0; // of luminance: its own channel, else the bound for fully correlated channels
         if (y < count)
             error = errors[y];
         else
@@ -74,7 +74,7 @@ Result<io::Estimate> load_estimate(const std::string& path, const scene::PixelDa
 
 struct Reference {
     scene::PixelData image;
-    io::Estimate estimate; // empty = not known
+    io::Estimate estimate; // empty = unknown
 };
 
 Result<Reference> load_reference(const Options& options, Log& log) {
@@ -111,7 +111,7 @@ scene::PixelData z_picture(const io::ZTest& test) {
     return image;
 }
 
-// Why the pictures are not the same, or "". Where the blocks are judged by their share, one that is off is no matter.
+// Why the pictures are not the same, or "". Where the share of blocks decides, a single failing one does not.
 std::string verdict(const Options& o, const io::Comparison& c, const std::optional<io::ZTest>& z) {
     if (o.max_flip && !(c.flip <= *o.max_flip))
         return fmt::format("FLIP is {:.5f}, more than --max-flip {:g}", c.flip, *o.max_flip);
@@ -180,7 +180,7 @@ bool same_file(const std::string& a, const std::string& b) {
     return a == b || std::filesystem::equivalent(a, b, code);
 }
 
-// What is wrong with the files that are named, before anything is read.
+// Problems with the named files, before anything is read.
 Result<> check_files(const Options& o) {
     std::vector<std::string> inputs = o.halves;
     inputs.push_back(o.a);
@@ -195,7 +195,7 @@ Result<> check_files(const Options& o) {
     }
     if (o.halves.size() == 2 && same_file(o.halves[0], o.halves[1]))
         return fail("--reference-halves: " + o.halves[0] +
-                    " twice: the noise would be none; name two renders of other seeds");
+                    " twice: there would be no noise; name two renders with different seeds");
     if (!o.diff.empty() && o.diff == o.z_map) return fail("--diff, --z-map: " + o.diff + " would be written twice");
     return {};
 }
@@ -280,12 +280,12 @@ void add_compare(CLI::App& program, Context& context) {
             const bool scenes = is_scene_file(options->a);
             if (!options->b.empty() && scenes != is_scene_file(options->b))
                 return Result<int>(fail(options->a + ", " + options->b +
-                                        ": one is a scene, the other is none; two "
+                                        ": one is a scene, the other is not; two "
                                         "pictures can be compared, or two scenes"));
             if (!scenes) return run(*options, context.log);
             if (options->for_pictures())
                 return Result<int>(
-                    fail("of two scenes only what differs is said: --reference-halves, --diff, --z-map, "
+                    fail("of two scenes only the differences are listed: --reference-halves, --diff, --z-map, "
                          "--clip, --max-flip, --min-blocks and --exposure are for pictures"));
             return compare_scenes(context, options->a, options->b, options->json);
         });

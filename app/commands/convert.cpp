@@ -33,7 +33,7 @@ bool is_picture(const std::string& path) {
     return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
-// Layers of an EXR beside the picture itself, which conversion does not take along.
+// Layers of an EXR beside the picture itself, which conversion leaves out.
 std::string other_layers(const std::string& path) {
     const auto image = io::read_exr(path);
     std::string names;
@@ -51,10 +51,10 @@ Result<int> convert_picture(Context& context, const Options& o) {
     RESTAGE_TRY(scene::PixelData image, io::read_image(o.input, scene::Encoding::srgb, 2.2f, &warning));
     if (!warning.empty()) context.log.warning(warning);
     for (std::size_t i = 0; i < image.values.size(); ++i)
-        if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is no light
+        if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is not light
     RESTAGE_CHECK(io::write_image(o.output, image));
     if (const std::string others = other_layers(o.input); !others.empty())
-        context.log.warning(fmt::format("{}: the layers {} of {} are not in it", o.output, others, o.input));
+        context.log.warning(fmt::format("{}: lacks the layers {} of {}", o.output, others, o.input));
     context.log.info(fmt::format("{}: written", o.output));
     return int(exit_ok);
 }
@@ -62,7 +62,7 @@ Result<int> convert_picture(Context& context, const Options& o) {
 Result<int> run(Context& context, const Options& o) {
     std::error_code code;
     if (std::filesystem::equivalent(o.input, o.output, code))
-        return fail(o.output + ": is the file that is read; what a format cannot hold would be lost, write elsewhere");
+        return fail(o.output + ": is the input file; what the format cannot hold would be lost, write elsewhere");
     if (is_picture(o.input)) return convert_picture(context, o);
     if (o.exposure != 0) return fail("--exposure is for pictures; the exposure of a scene is that of its film");
     if (is_picture(o.output) && o.format.empty())
@@ -106,8 +106,8 @@ void add_convert(CLI::App& program, Context& context) {
         ->allow_extra_args(false);
     add_import_options(*command, o->import_options);
     command->add_flag("--strict", o->strict,
-                      "Write nothing when the written file would not have all of IN. What is only rendered otherwise "
-                      "than it is (a kind of texture, say), and written as it was, is no loss");
+                      "Write nothing if the written file would lack part of IN. What is only rendered differently "
+                      "(a kind of texture, say) and written as it was is no loss");
     command->add_option("--exposure", o->exposure, "Brighten a picture by so many stops (default: 0)")
         ->check(CLI::Range(-64.f, 64.f));
     add_example(

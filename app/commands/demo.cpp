@@ -25,7 +25,7 @@ struct Options : RenderOptions {
 
 using Instances = std::vector<scene::Id<scene::Instance>>;
 
-// What the user would click: everything in the groups of this name, in the order of the file.
+// What a user would click: everything in the groups of this name, in file order.
 Result<std::vector<Instances>> objects(const scene::Scene& s, std::string_view name) {
     std::vector<Instances> found;
     s.groups.each([&](scene::Id<scene::Group> id, const scene::Group& group) {
@@ -119,7 +119,7 @@ Result<int> run(Context& context, Options& o) {
                     taken.denoised ? ", denoised" : "");
         return {};
     };
-    // A missing denoiser takes the denoising away, not the demo.
+    // Without a denoiser the demo runs without denoising.
     if (!o.denoise.empty()) {
         if (const auto chosen = render::choose_denoiser(context.registry(), o.denoiser); !chosen) {
             context.log.warning("pictures stay noisy: " + chosen.error().message);
@@ -162,7 +162,7 @@ void add_demo(CLI::App& program, Context& context) {
     auto* command = program.add_subcommand(
         "demo",
         "Restage the bundled room: open, edit, render before and after, export; with 32 samples a pixel, in "
-        "640x360 and denoised where nothing else is said");
+        "640x360 and denoised unless options say otherwise");
     command->add_option("-o,--output", o->folder, "Folder for the pictures and the edited scene")
         ->capture_default_str();
     command->add_option("--scene", o->scene, "Another scene with the demo's objects");

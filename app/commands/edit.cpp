@@ -22,7 +22,7 @@ void add_edit(CLI::App& program, Context& context) {
                         "Folder for layout, preferences and recovery files (default: ~/.config/restage)");
     command->add_option("--probe", o->probe,
                         "For tests: write the editor's state as JSON to this file when it changes");
-    command->add_option("--autosave", o->autosave_seconds, "Keep a recovery copy of unsaved work, so often [s]")
+    command->add_option("--autosave", o->autosave_seconds, "Interval between recovery copies of unsaved work [s]")
         ->check(CLI::Range(0.2, 86400.0))
         ->capture_default_str();
     add_device_options(*command, o->renderer);

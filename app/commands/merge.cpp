@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage merge A.exr B.exr ... -o OUT: parts of one render, made apart, become one picture.
+// restage merge A.exr B.exr ... -o OUT: parts of one render, made separately, become one picture.
 #include "commands.hpp"
 #include "rendering.hpp"
 #include "standard_streams.hpp"
@@ -45,7 +45,7 @@ Result<int> run(Context& context, Options& o) {
 void add_merge(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
     auto* command =
-        program.add_subcommand("merge", "Put parts of one render together: other seeds, or other samples of one");
+        program.add_subcommand("merge", "Combine parts of one render: other seeds, or other samples of one seed");
     command->add_option("PART", o->parts, "Pictures that `restage render` wrote as .exr, of one scene and size")
         ->required();
     command

@@ -115,8 +115,8 @@ Result<> check_name(const Kind& kind, const std::string& name, const Catalogue& 
         return fail(sentence + "it is a word of GLSL, and it becomes the prefix of its functions");
     if (kind.glsl && plugin::is_taken_prefix(name)) return fail(sentence + "functions of Restage's own begin with it");
     if (const Entry* taken = kind.provider(catalogue, name))
-        return fail("there is " + std::string(kind.article) + " " + kind.name + " \"" + name + "\" already, of " +
-                    taken->name());
+        return fail("there is " + std::string(kind.article) + " " + kind.name + " \"" + name +
+                    "\" exists already, in " + taken->name());
     return {};
 }
 
@@ -124,7 +124,7 @@ Result<int> run(Context& context, Options o) {
     const Kind& kind = *std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.name == o.kind; });
     const std::vector<std::string> languages = languages_of(kind);
     if (languages.empty())
-        return fail(templates_folder().string() + ": the templates are not there; the installation is incomplete");
+        return fail(templates_folder().string() + ": the templates are missing; the installation is incomplete");
     if (o.language.empty()) o.language = languages.front();
     if (std::find(languages.begin(), languages.end(), o.language) == languages.end())
         return fail("--language " + o.language + ": " + kind.article + " " + kind.name + " is written in " +
@@ -145,9 +145,9 @@ Result<int> run(Context& context, Options o) {
     const fs::path folder = o.folder.empty() ? fs::path(o.name) : fs::path(o.folder);
     std::error_code code, ignored;
     if (fs::exists(folder, code) && !fs::is_directory(folder, code))
-        return fail(folder.string() + ": is there already, and no folder; name another place with --folder");
+        return fail(folder.string() + ": exists already and is not a folder; choose another with --folder");
     if (fs::exists(folder, code) && !fs::is_empty(folder, code))
-        return fail(folder.string() + ": is there already, and not empty; name another place with --folder");
+        return fail(folder.string() + ": exists already and is not empty; choose another with --folder");
     const fs::path templates = templates_folder() / kind.name;
     std::vector<std::pair<fs::path, std::string>> files; // all of them, before the first is written
     for (const std::string& part : {std::string("common"), o.language}) {
@@ -158,14 +158,14 @@ Result<int> run(Context& context, Options o) {
             text = replace_all(replace_all(replace_all(text, "@NAME@", o.name), "@LABEL@", o.label), "@ID@", o.id);
             const std::string name =
                 replace_all(fs::relative(file.path(), templates / part, ignored).string(), "NAME", o.name);
-            if (name == "plugin.json") RESTAGE_CHECK(plugin::parse_manifest(text, name)); // an --id that is none
+            if (name == "plugin.json") RESTAGE_CHECK(plugin::parse_manifest(text, name)); // an invalid --id
             files.emplace_back(folder / name, std::move(text));
         }
     }
     if (code || files.empty())
-        return fail(templates.string() + ": the templates are not there; the installation is incomplete");
+        return fail(templates.string() + ": the templates are missing; the installation is incomplete");
     fs::create_directories(folder, code);
-    if (code) return fail(folder.string() + ": cannot be made: " + code.message());
+    if (code) return fail(folder.string() + ": cannot be created: " + code.message());
     for (const auto& [path, text] : files) {
         fs::create_directories(path.parent_path(), code);
         RESTAGE_CHECK(write_file_atomic(path, text));
@@ -193,7 +193,7 @@ void add_new_plugin(CLI::App& program, Context& context) {
                      "json: a table and GLSL, nothing to build, of materials and textures; c or cpp: a library "
                      "(default: the first of these that the kind has)")
         ->check(CLI::IsMember({"json", "c", "cpp"}));
-    command->add_option("--label", o->label, "Name that people read (default: NAME with a capital)");
+    command->add_option("--label", o->label, "Name shown to users (default: NAME with a capital)");
     command->add_option("--id", o->id, "Id of the plugin, in reverse-DNS form (default: org.example.KIND.NAME)");
     command->add_option("--folder", o->folder,
                         "Folder to write it into; new or empty (default: NAME, in the current folder)");

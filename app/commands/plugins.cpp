@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage plugins: what is loaded, from where, and what is not and why.
+// restage plugins: which are loaded, from where, and which are not and why.
 #include "commands.hpp"
 
 #include "plugin/provides.hpp"
@@ -39,7 +39,7 @@ Result<int> run(Context& context, bool json) {
     if (json)
         std::printf("%s\n", list.dump(2).c_str());
     else if (registry.entries().empty())
-        std::printf("no plugins found; they are looked for in:\n");
+        std::printf("no plugins found; folders searched:\n");
     if (!json && registry.entries().empty())
         for (const auto& path : plugin::Registry::default_paths())
             std::printf("  %s\n", path.folder.string().c_str());
@@ -62,7 +62,7 @@ void add_plugins(CLI::App& program, Context& context) {
     auto id = std::make_shared<std::string>();
     auto* command = program.add_subcommand("plugins", "List plugins: what is loaded, from where, and why not");
     command->add_flag("--json", *json, "Print the list as JSON");
-    command->add_option("--enable", *id, "Let the plugin of this id, which crashed, be loaded again")->type_name("ID");
+    command->add_option("--enable", *id, "Load the plugin with this id, which crashed, again")->type_name("ID");
     add_example(*command, "restage plugins");
     command->callback([&context, json, id] {
         context.choose([&context, json, id] { return id->empty() ? run(context, *json) : enable(context, *id); });

@@ -33,13 +33,13 @@ struct Options : RenderOptions {
     std::vector<std::string> import_options; // "up=z"
     std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
     std::uint32_t first_sample = 0;
-    std::string resume;                // a picture that goes on
+    std::string resume;                // the picture to continue
     std::vector<float> crop;           // x0 x1 y0 y1, shares of the film
     std::vector<std::uint32_t> region; // x y width height [pixel]
     PictureOptions picture;
 };
 
-// The part of the film that is rendered. Shares are such that Renderer's rounding gives the very pixels back.
+// The part of the film that is rendered. Shares are chosen so that Renderer's rounding yields exactly these pixels.
 Result<void> apply_crop(const Options& o, scene::Scene& scene) {
     if (o.crop.empty() && o.region.empty()) return {};
     scene::Film film = scene.film.value;
@@ -52,8 +52,8 @@ Result<void> apply_crop(const Options& o, scene::Scene& scene) {
         const std::uint32_t x = o.region[0], y = o.region[1], width = o.region[2], height = o.region[3];
         if (width == 0 || height == 0 || x >= film.width || width > film.width - x || y >= film.height ||
             height > film.height - y)
-            return fail(fmt::format("--region: {} {} {} {} is empty or not inside of the {}x{} pixels of the film", x,
-                                    y, width, height, film.width, film.height));
+            return fail(fmt::format("--region: {} {} {} {} is empty or not inside the {}x{} pixels of the film", x, y,
+                                    width, height, film.width, film.height));
         // ceil(share * size) is the pixel: half a pixel below it is safe from rounding.
         const auto share = [](std::uint32_t pixel, std::uint32_t size) {
             return pixel == 0 ? 0.f : pixel == size ? 1.f : (float(pixel) - 0.5f) / float(size);
@@ -76,7 +76,7 @@ nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, 
                                    {"height", picture.film.height},
                                    {"samples", picture.film.samples},
                                    {"seed", o.renderer.seed},
-                                   {"relative_error", nullptr}, // not known with one sample a pixel
+                                   {"relative_error", nullptr}, // unknown with one sample a pixel
                                    {"seconds", stats.seconds},
                                    {"seconds_shading", stats.seconds_shading},
                                    {"seconds_tracing", stats.seconds_tracing},
@@ -158,7 +158,7 @@ Result<void> add_to(const view::StoredPicture& before, Picture& picture, Metadat
     view::StoredPicture now{
         .film = std::move(picture.film), .layers = {names.begin(), names.end()}, .metadata = metadata, .ranges = {}};
     now.ranges = {{seed, first, now.film.samples}};
-    const float e = std::exchange(picture.exposure, 1.f); // files have it in their numbers
+    const float e = std::exchange(picture.exposure, 1.f); // files have it baked in
     for (std::size_t i = 0; i < now.film.color.size(); ++i) {
         now.film.color[i] *= e;
         now.film.std_error[i] *= e;
@@ -209,7 +209,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     renderer->reset_stats();
     renderer->restart(o.renderer.seed, o.first_sample);
     RESTAGE_CHECK(render_to_target(context, o, scene, *renderer));
-    if (before && renderer->samples() == 0) return interrupt_exit_code(); // what there was is still there
+    if (before && renderer->samples() == 0) return interrupt_exit_code(); // the resumed file is unchanged
     o.picture.metadata = metadata_of(o, *renderer, scene);
     Picture picture{.film = renderer->image(), .denoised = {}, .exposure = scene.film.value.exposure};
     if (before) RESTAGE_CHECK(add_to(*before, picture, o.picture.metadata, o.first_sample, o.renderer.seed));
@@ -227,7 +227,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
             RESTAGE_CHECK(write_file_atomic(o.statistics, text));
     }
     const std::string error = picture.film.samples > 1 ? fmt::format("relative error {:.4f}", relative_error)
-                                                       : "error not known with one sample";
+                                                       : "error unknown with one sample";
     context.log.info(fmt::format("{}: {}x{}, {} spp in {:.2f} s, {}, {:.2f} Mray/s, {} on {}",
                                  fmt::join(o.outputs, ", "), picture.film.width, picture.film.height,
                                  picture.film.samples, stats.seconds, error,
@@ -239,7 +239,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     return interrupted() ? interrupt_exit_code() : int(exit_ok); // the picture is written
 }
 
-// What is wrong with the options, before hours are spent.
+// Problems with the options, before hours are spent.
 Result<void> check(Context& context, const Options& o) {
     std::ptrdiff_t to_stdout = o.statistics == "-";
     for (const std::string& text : o.outputs) {
@@ -258,13 +258,13 @@ Result<void> check(Context& context, const Options& o) {
     if (!o.denoise.empty() || !o.denoiser.empty())
         RESTAGE_CHECK(render::choose_denoiser(context.registry(), o.denoiser));
     if (!o.format.empty() && o.scene != "-")
-        return fail("--format is for a scene on stdin (-); that of a file is told by the file");
+        return fail("--format is for a scene on stdin (-); a file's format follows from the file");
     if (o.frames.empty()) return {};
     if (o.scene.find('#') == std::string::npos)
-        return fail("--frames: the scene's name says with # where the number stands, for example shot.####.pbrt");
+        return fail("--frames: mark the place of the number in the scene's name with #, for example shot.####.pbrt");
     for (const std::string& text : o.outputs)
         if (text.find('#') == std::string::npos && text != "-" && !text.ends_with(":-"))
-            return fail("--frames: -o " + text + " would be written over by each frame; # stands for the number");
+            return fail("--frames: -o " + text + " would be overwritten by each frame; # marks its number");
     return {};
 }
 
@@ -302,8 +302,7 @@ void add_render(CLI::App& program, Context& context) {
                      ".pfm or .hdr; - = stdout as .exr, png:- as .png; may be repeated")
         ->required()
         ->allow_extra_args(false);
-    command->add_option("--format", o->format,
-                        "Format of a scene that comes on stdin, as the extension of its files (default: pbrt)");
+    command->add_option("--format", o->format, "Format of a scene on stdin, as a file extension (default: pbrt)");
     command
         ->add_option(
             "--frames", o->frames,
@@ -319,13 +318,13 @@ void add_render(CLI::App& program, Context& context) {
     add_import_options(*command, o->import_options);
     auto* resume = command
                        ->add_option("--resume", o->resume,
-                                    "Go on where this .exr ended: --spp counts its samples as well, --time does not")
+                                    "Continue where this .exr ended: --spp counts its samples as well, --time does not")
                        ->type_name("EXR");
     command
         ->add_option(
             "--first-sample", o->first_sample,
-            "Number of the first sample of each pixel, to render in parts: parts of one seed without a sample in "
-            "common become, by `restage merge`, the render of them all")
+            "Number of the first sample of each pixel, to render in parts: parts with one seed and no sample in "
+            "common merge into the whole render with `restage merge`")
         ->capture_default_str();
     auto* crop = command
                      ->add_option("--crop", o->crop,

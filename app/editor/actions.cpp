@@ -39,7 +39,7 @@ void remove_selected(Editor& e) {
 }
 
 void duplicate_selected(Editor& e) {
-    // A little to the side, so that the copy is seen.
+    // A little to the side, so that the copy is visible.
     const glm::dmat4 move = glm::translate(glm::dmat4(1), aside(e, e.selection.bounds(e.scene())));
     document::Session& session = e.session_for_changes();
     if (e.selection.light()) {
@@ -178,7 +178,7 @@ void select_all(Editor& e) {
     e.selection.set(all);
 }
 
-// What needs no more of the editor than panels have.
+// Actions that need no more of the editor than panels have.
 template <void (*what)(PanelContext&)>
 void run(Editor& e) {
     what(e);
@@ -198,7 +198,7 @@ constexpr auto actions = std::to_array<Action>({
      new_scene},
     {"file.open", "Open...", ImGuiMod_Ctrl | ImGuiKey_O, 0, "A scene or a project", nullptr, open_dialog},
     {"file.insert", "Insert file...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_I, 0,
-     "What a file shows, as new objects", has_scene, insert_dialog},
+     "Adds a file's contents as new objects", has_scene, insert_dialog},
     {"file.save", "Save", ImGuiMod_Ctrl | ImGuiKey_S, 0, "The project: the scene it began with and your changes",
      has_scene, [](Editor& e) { save(e); }},
     {"file.save_as", "Save as...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S, 0, "The project under another name",
@@ -211,12 +211,12 @@ constexpr auto actions = std::to_array<Action>({
      "The live picture as it is now", has_scene, run<save_image_dialog>},
     {"file.final", "Final picture...", ImGuiMod_Ctrl | ImGuiKey_R, 0,
      "Render in full size and quality in the background, denoise, write", has_scene, run<final_render_dialog>},
-    {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks when something is not saved", nullptr,
+    {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks first if something is not saved", nullptr,
      [](Editor& e) { e.request_quit(); }},
-    {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Take the last change back",
+    {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Undo the last change",
      [](const PanelContext& e) { return e.session().history().position() > 0; }, [](Editor& e) { e.undo(); }},
     {"edit.redo", "Redo", ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z,
-     "Do again what was taken back",
+     "Redo the last undone change",
      [](const PanelContext& e) { return e.session().history().position() < e.session().history().size(); },
      [](Editor& e) { e.redo(); }},
     {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
@@ -267,15 +267,15 @@ constexpr auto actions = std::to_array<Action>({
     {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0,
      "To where the camera was when opened", [](const PanelContext& e) { return e.opened_camera() != nullptr; },
      [](Editor& e) { e.look_from(e.opened_camera()->camera_to_world, {}, "Camera of the file"); }},
-    {"view.back", "Back", ImGuiKey_LeftBracket, 0, "To where you looked from before; no undo of anything",
+    {"view.back", "Back", ImGuiKey_LeftBracket, 0, "To the previous view; undoes nothing",
      [](const PanelContext& e) { return e.views.can_back(); }, [](Editor& e) { e.views.back(); }},
-    {"view.forward", "Forward", ImGuiKey_RightBracket, 0, "To where you looked from after that",
+    {"view.forward", "Forward", ImGuiKey_RightBracket, 0, "To the next view",
      [](const PanelContext& e) { return e.views.can_forward(); }, [](Editor& e) { e.views.forward(); }},
     {"view.camera", "Look through the camera", ImGuiMod_Ctrl | ImGuiKey_Home, 0,
-     "To the scene's camera, which looking around leaves where it is", view_is_apart,
+     "To the scene's camera, which looking around does not move", view_is_apart,
      [](Editor& e) { e.views.go(std::nullopt); }},
     {"view.set_camera", "Set camera to view", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Home, 0,
-     "The scene's camera comes here: what is exported, and rendered by others, is seen from it", view_is_apart,
+     "Moves the scene's camera here: exports, and renders by other programs, use it", view_is_apart,
      set_camera_to_view},
     {"view.lock_camera", "Lock camera", 0, 0,
      "Looking around leaves the scene's camera where it is. Off: the camera goes along, and each move can be undone",
@@ -283,7 +283,7 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.view.camera_locked; }},
     {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene,
      bookmark},
-    {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next view that was kept",
+    {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next bookmarked view",
      [](const PanelContext& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
     {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
      is_gizmo<GizmoMode::select>},
@@ -305,7 +305,7 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
      [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const PanelContext& e) { return e.view.show_panels; }},
-    {"view.reset_layout", "Reset layout", 0, 0, "Every panel where it was at the first start", nullptr,
+    {"view.reset_layout", "Reset layout", 0, 0, "Puts every panel where it was at the first start", nullptr,
      [](Editor& e) { e.reset_layout(); }},
     {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0,
      "Every shortcut, and how to get around", nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
@@ -327,9 +327,9 @@ ImGuiKeyChord key_of(const Action& action, KeyPreset preset) {
 
 std::string key_text(ImGuiKeyChord key) {
     if (!key) return "";
-    if (key == (ImGuiMod_Shift | ImGuiKey_Slash)) return "?"; // what it types
+    if (key == (ImGuiMod_Shift | ImGuiKey_Slash)) return "?"; // the character it types
     std::string text = ImGui::GetKeyChordName(key);
-    // Keys that have a sign are called by it.
+    // Keys with a printed sign are named by it.
     static constexpr std::pair<std::string_view, std::string_view> signs[] = {
         {"LeftBracket", "["},  {"RightBracket", "]"},   {"Slash", "/"},    {"Comma", ","},
         {"Period", "."},       {"Minus", "-"},          {"Equal", "="},    {"KeypadDecimal", "Keypad ."},
@@ -349,7 +349,7 @@ std::string label_of(const PanelContext& e, const Action& action) {
     constexpr std::size_t most = 48; // bytes
     std::string text = fmt::format("{} {}", action.label, step.substr(0, most));
     if (step.size() > most) {
-        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) // not within a character
+        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) // not inside a character
             text.pop_back();
         if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80)) text.pop_back();
         text += "...";
@@ -363,7 +363,7 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         return keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key);
     };
     if (editor.viewport.dragging()) { // an undo would pull what is dragged from under the mouse
-        // Whatever is held with it: Shift, where a copy is dragged.
+        // With any modifiers: Shift while a copy is dragged.
         const bool escape =
             keys ? std::ranges::any_of(*keys,
                                        [](ImGuiKeyChord key) { return (key & ~ImGuiMod_Mask_) == ImGuiKey_Escape; })

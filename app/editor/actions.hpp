@@ -24,7 +24,7 @@ struct Action {
     const char* tooltip;  // one sentence
     bool (*enabled)(const PanelContext&); // null = always
     void (*run)(Editor&);
-    bool (*checked)(const PanelContext&) = nullptr; // null = it is no switch
+    bool (*checked)(const PanelContext&) = nullptr; // null = not a switch
 };
 
 std::span<const Action> all_actions();

@@ -67,7 +67,7 @@ bool plausible_sky(const fs::path& file, std::uint32_t width, std::uint32_t heig
     const auto says = [&](const std::string& where, std::initializer_list<const char*> words) {
         return std::any_of(words.begin(), words.end(), [&](const char* w) { return where.find(w) != where.npos; });
     };
-    // What renderers call maps of surfaces, behind a separator: "brick_bump", "Brick-NormalGL".
+    // Suffixes that mark surface maps, behind a separator: "brick_bump", "Brick-NormalGL".
     for (const char* map : {"bump", "normal", "nrm", "disp", "displacement", "height", "rough", "roughness", "metal",
                             "spec", "alpha", "mask", "opacity", "ao"})
         for (const char* before : {"_", "-", ".", " "})
@@ -131,7 +131,7 @@ Result<void> add_asset_folder(const fs::path& config, const fs::path& folder) {
     if (fs::exists(config, none)) {
         RESTAGE_TRY(const std::string text, read_file(config.string()));
         json = parse_json<nlohmann::json>(text).value_or(nlohmann::json());
-        if (!json.is_object()) return fail(config.string() + ": not a JSON object: it is left as it is");
+        if (!json.is_object()) return fail(config.string() + ": not a JSON object: left as it is");
     }
     if (!json["folders"].is_array()) json["folders"] = nlohmann::json::array();
     if (std::find(json["folders"].begin(), json["folders"].end(), folder.string()) != json["folders"].end()) return {};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assets: scenes, skies, textures and meshes that are at hand, from assets.json in the configuration's folder and
+// Assets: scenes, skies, textures and meshes on offer, from assets.json in the configuration's folder and
 // beside the program, and from folders:
 //   { "folders": ["/data/textures"], "scenes": ["room.pbrt"], "skies": ["noon.exr"], "textures": [], "meshes":
 //   ["cup.ply"] }
-// Paths are relative to the file. What is in a folder has its kind from its name: HDR images are skies.
+// Paths are relative to the file. The name of a file in a folder gives its kind: HDR images are skies.
 #pragma once
 
 #include "base/result.hpp"
@@ -25,16 +25,16 @@ struct Asset {
     std::string path, name;
 };
 
-// By the extension; false = none of ours.
+// By the extension; false = not an asset.
 bool kind_of_file(const std::filesystem::path& file, AssetKind& kind);
-// Whether an image may be a sky: a panorama is twice as wide as high; a square one (octahedral) is told from textures
+// Whether an image may be a sky: a panorama is twice as wide as high; a square one (octahedral) is told from a texture
 // by its range and by what its name or folder says. Sizes of 0 are not known yet.
 bool plausible_sky(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height);
-// What the file lists, in its order; folders are searched three levels deep. Files that are not there are left out.
+// What the file lists, in its order; folders are searched three levels deep. Missing files are left out.
 Result<std::vector<Asset>> read_assets(const std::filesystem::path& config,
                                        std::vector<std::string>* folders = nullptr);
 std::vector<Asset> assets_in(const std::filesystem::path& folder);
-// Adds a folder to the file, which is made when there is none.
+// Adds a folder to the file, which is created if missing.
 Result<void> add_asset_folder(const std::filesystem::path& config, const std::filesystem::path& folder);
 
 struct AssetsState { // of the panel

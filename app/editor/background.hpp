@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BackgroundJobs: work that takes a while (exports, final pictures) on threads of its own, each with a bar, what it is
-// at, how long it will take, and a way to stop it.
+// BackgroundJobs: work that takes a while (exports, final pictures) on threads of its own, each with a bar, its
+// current step, the time left, and a way to stop it.
 #pragma once
 
 #include "base/result.hpp"
@@ -48,14 +48,14 @@ class BackgroundJobs {
 
     struct Options {
         std::string title; // "Exporting kitchen.pbrt"
-        bool can_finish_early = false; // there is a button that ends it with what it has
-        bool pauses_picture = false; // the live picture leaves the processor to it
+        bool can_finish_early = false; // a button ends it with the result so far
+        bool pauses_picture = false; // the live picture pauses meanwhile
     };
-    // `work` runs on a thread; what it returns is done on the main thread, unless it was cancelled.
+    // `work` runs on a thread; the function it returns runs on the main thread, unless the job was cancelled.
     using Work = std::function<std::function<void(PanelContext&)>(BackgroundJob&)>;
     void start(Options options, Work work);
 
-    void update(PanelContext& editor); // [main] once a frame, inside it: bars, and what is finished
+    void update(PanelContext& editor); // [main] once a frame, inside it: draws bars, completes finished jobs
     bool running() const { return !jobs_.empty(); }
     bool picture_paused() const;
     double progress() const; // of the first; 0..1

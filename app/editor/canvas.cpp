@@ -22,14 +22,14 @@ Result<Canvas> Canvas::create(gpu::Device& device, VkFormat format, std::uint32_
                                   .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     const VmaAllocationCreateInfo memory{.usage = VMA_MEMORY_USAGE_AUTO};
     VkResult result = vmaCreateImage(device.allocator(), &image, &memory, &c.image_, &c.allocation_, nullptr);
-    if (result != VK_SUCCESS) return device.error(result, "making the window's image");
+    if (result != VK_SUCCESS) return device.error(result, "creating the window's image");
     const VkImageViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                      .image = c.image_,
                                      .viewType = VK_IMAGE_VIEW_TYPE_2D,
                                      .format = format,
                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
     result = vkCreateImageView(device.handle(), &view, nullptr, &c.view_);
-    if (result != VK_SUCCESS) return device.error(result, "making the window's image");
+    if (result != VK_SUCCESS) return device.error(result, "creating the window's image");
 
     const VkAttachmentDescription attachment{.format = format,
                                              .samples = VK_SAMPLE_COUNT_1_BIT,
@@ -56,7 +56,7 @@ Result<Canvas> Canvas::create(gpu::Device& device, VkFormat format, std::uint32_
                                       .dependencyCount = 1,
                                       .pDependencies = &drawn_before_copied};
     result = vkCreateRenderPass(device.handle(), &pass, nullptr, &c.pass_);
-    if (result != VK_SUCCESS) return device.error(result, "making the window's image");
+    if (result != VK_SUCCESS) return device.error(result, "creating the window's image");
     const VkFramebufferCreateInfo framebuffer{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
                                               .renderPass = c.pass_,
                                               .attachmentCount = 1,
@@ -65,7 +65,7 @@ Result<Canvas> Canvas::create(gpu::Device& device, VkFormat format, std::uint32_
                                               .height = height,
                                               .layers = 1};
     result = vkCreateFramebuffer(device.handle(), &framebuffer, nullptr, &c.framebuffer_);
-    if (result != VK_SUCCESS) return device.error(result, "making the window's image");
+    if (result != VK_SUCCESS) return device.error(result, "creating the window's image");
     return c;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Canvas: the image in which the window's content is kept from frame to frame, so that a part of it can be drawn anew.
+// Canvas: the image in which the window's content is kept from frame to frame, so that parts of it can be redrawn.
 #pragma once
 
 #include "gpu/device.hpp"
@@ -23,12 +23,12 @@ class Canvas {
     }
     ~Canvas();
 
-    VkRenderPass render_pass() const { return pass_; } // those of any two canvases of a format are compatible
+    VkRenderPass render_pass() const { return pass_; } // compatible between canvases of one format
 
-    // Between both, what is drawn goes to `area`; it was cleared to black.
+    // Between the two, drawing goes to `area`, which was cleared to black.
     void begin(VkCommandBuffer commands, VkRect2D area);
     void end(VkCommandBuffer commands) const;
-    // All of it into an image of the same size and format, which is ready to be presented then.
+    // Copies all of it into an image of the same size and format, then ready to be presented.
     void copy_to(VkCommandBuffer commands, VkImage target) const;
 
   private:

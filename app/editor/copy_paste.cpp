@@ -30,12 +30,12 @@ void copy(PanelContext& e, const document::Selected& selected, const std::string
     e.notices.add(LogLevel::info, "Copied " + what);
 }
 
-// What came is in the document now, or not.
+// Whether the pasted things are in the document now.
 void add(Editor& e, const document::Copy& copied) {
     document::Session& session = e.session_for_changes();
     if (copied.material) {
         if (e.selection.instances().empty()) {
-            e.notices.add(LogLevel::info, "Select the objects that shall have the material");
+            e.notices.add(LogLevel::info, "Select the objects to give the material to");
             return;
         }
         if (const auto done = session.edit(document::paste_material(session.scene(), copied, e.selection.instances()));
@@ -77,7 +77,7 @@ void paste(Editor& e) {
     const char* held = ImGui::GetClipboardText();
     std::string text = held ? held : "";
     if (!document::is_copy(text)) {
-        e.notices.add(LogLevel::info, "The clipboard holds nothing of Restage's: copy objects or a material first");
+        e.notices.add(LogLevel::info, "The clipboard holds nothing from Restage: copy objects or a material first");
         return;
     }
     const auto& ours = e.copied.instances;
@@ -95,7 +95,7 @@ void paste(Editor& e) {
         if (!made) return e.notices.add(LogLevel::error, made.error().message);
         return e.selection.set(*made);
     }
-    // What names files reads them.
+    // Things that name files read them.
     e.files().jobs.start(
         {.title = "Pasting"},
         [text = std::move(text), &registry = e.registry(), &e](BackgroundJob&) -> std::function<void(PanelContext&)> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The system's clipboard: objects, lights and materials, also of another window of Restage.
+// The system clipboard: objects, lights and materials, also from another Restage window.
 #pragma once
 
 #include "scene/bounds.hpp"
@@ -14,7 +14,7 @@ namespace restage::editor {
 class Editor;
 class PanelContext;
 
-// What this window put into the clipboard last, to know it again.
+// What this window put into the clipboard last, to recognise it.
 struct Copied {
     std::string text;
     std::vector<std::pair<scene::Id<scene::Instance>, scene::Instance>> instances; // as they were
@@ -22,10 +22,10 @@ struct Copied {
 
 void copy_selected(PanelContext& editor);
 void copy_material(PanelContext& editor, scene::Id<scene::Material> material);
-// Objects and lights are put where they were, beside what is there already; a material goes to what is selected.
+// Objects and lights are put where they were, beside existing ones; a material goes to what is selected.
 void paste(Editor& editor);
-bool newer_in_clipboard(const PanelContext& editor); // something of another window's
-// To the right of something as large as this, seen from the camera, along a world axis: where a copy of it is seen.
+bool newer_in_clipboard(const PanelContext& editor); // something from another window
+// To the right of something as large as this, seen from the camera, along a world axis: where a copy of it is visible.
 glm::dvec3 aside(const PanelContext& editor, const scene::Bounds& bounds);
 
 } // namespace restage::editor

@@ -58,10 +58,10 @@ ImRect Damage::update(const ImDrawData& data) {
             items_.push_back(item);
         }
 
-    // What both frames begin and end with is the same, in the same order; what lies between is not.
+    // Both frames share a common prefix and suffix, in order; what lies between differs.
     const auto same = [](const Item& a, const Item& b) { return a.hash == b.hash; };
     const auto begin = std::size_t(std::ranges::mismatch(last_, items_, same).in1 - last_.begin());
-    std::size_t end = 0; // items of the common end
+    std::size_t end = 0; // items of the common suffix
     while (end < std::min(last_.size(), items_.size()) - begin &&
            same(last_[last_.size() - 1 - end], items_[items_.size() - 1 - end]))
         ++end;

@@ -13,10 +13,10 @@ namespace restage::editor {
 
 class Damage {
   public:
-    // What differs from the draw data of the last call, in Dear ImGui's coordinates; Min >= Max: nothing. Comes before
-    // the backend has uploaded the textures: those it still has to are what changed.
+    // What differs from the draw data of the last call, in Dear ImGui's coordinates; Min >= Max: nothing. Call before
+    // the backend uploads textures: those still pending are the changed ones.
     ImRect update(const ImDrawData& data);
-    // All of it differs, next time: the window's content is lost.
+    // Next time all of it differs: the window's content is lost.
     void forget() { forgotten_ = true; }
 
     // Restricts drawing to a rectangle.
@@ -24,7 +24,7 @@ class Damage {
 
   private:
     struct Item { // a draw command
-        std::uint64_t hash = 0; // of all it draws, wherever it lies in its buffers
+        std::uint64_t hash = 0; // of all it draws, independent of buffer offsets
         ImRect bounds; // of its visible triangles
         bool texture_changed = false;
     };

@@ -11,7 +11,7 @@ namespace restage::editor {
 
 namespace {
 
-constexpr double farthest = 8; // times the distance at which it was taken up, so that the horizon is not reached
+constexpr double farthest = 8; // times the distance at the start of the drag, so that the horizon is not reached
 
 // Where the ray meets the plane through `at`.
 std::optional<glm::dvec3> on_plane(const query::ViewRay& ray, const glm::dvec3& at, const glm::dvec3& normal) {
@@ -26,7 +26,7 @@ std::optional<glm::dvec3> on_plane(const query::ViewRay& ray, const glm::dvec3& 
 Result<scene::Edit> place(const scene::Scene& s, const Drag& d, const glm::dmat4& by, const char* verb) {
     if (d.light) {
         const scene::Light* light = s.lights.find(d.light);
-        if (!light) return fail("the light is not there any more");
+        if (!light) return fail("the light no longer exists");
         scene::Light changed = *light;
         changed.light_to_world = by * d.light_start;
         return scene::set_light(s, d.light, changed, std::string(verb) + " " + light->name);
@@ -106,7 +106,7 @@ void begin_drag(PanelContext& e, Drag& drag, bool copy) {
     for (const InstanceId id : drag.originals)
         drag.start.emplace_back(id, s.instances[id].object_to_world);
     if (!copy) return;
-    // Copies stay where the originals are; they are what is dragged on.
+    // Copies are made where the originals are, and become what is dragged.
     if (auto made = scene::duplicate_instances(s, drag.originals, glm::dmat4(1))) {
         for (std::size_t i = 0; i < drag.start.size(); ++i)
             drag.start[i].first = made->copies[i];

@@ -16,8 +16,8 @@ namespace restage::editor {
 
 class PanelContext;
 
-// How far a moved thing is from where it was, as the mouse goes: over the plane of `up` or along an axis handle, and
-// along `up` while Alt is held. A change between both goes on from where the thing is then.
+// Displacement of a moved thing as the mouse moves: over the plane of `up` or along an axis handle, and
+// along `up` while Alt is held. Switching between the two continues from the current place.
 class DragPath {
   public:
     struct Mouse {
@@ -26,20 +26,20 @@ class DragPath {
     };
     // `at`: a point of what is dragged, in world space, near the ray. `handle`: by an axis handle.
     void begin(const glm::dvec3& at, const glm::dvec3& up, const Mouse& mouse, bool handle);
-    // `handle`: what an axis handle says; none = over the plane. `step`: of what is moved from now on; 0 = any.
+    // `handle`: an axis handle's displacement; none = over the plane. `step`: of movement from now on; 0 = any.
     glm::dvec3 update(bool lift, const Mouse& mouse, std::optional<glm::dvec3> handle, double step);
 
   private:
     double height(const Mouse& mouse) const; // along up_, of the point nearest to the ray
 
     glm::dvec3 up_{0, 1, 0};
-    glm::dvec3 at_{0}, kept_{0}, now_{0}; // where, and how far from the start, the last change was; how far it is now
-    glm::dvec3 from_{0}; // where on the plane, or how far along the handle, the mouse was then
+    glm::dvec3 at_{0}, kept_{0}, now_{0}; // place and displacement at the last change; displacement now
+    glm::dvec3 from_{0}; // the mouse then: on the plane, or along the handle
     double height_ = 0;
     bool lifting_ = false, steep_ = false;
 };
 
-// A drag as it runs: what was selected, where it was, and the handles' frame, when it began.
+// A running drag: what was selected, where it was, and the handles' frame, at its start.
 struct Drag {
     bool active = false;
     bool copied = false;
@@ -49,16 +49,16 @@ struct Drag {
     glm::dmat4 light_start{1};
     DragPath path; // of moves
     glm::dvec3 pivot{0};
-    // Of the handles, about the pivot: at the start, and now, as ImGuizmo has it.
+    // Of the handles, about the pivot: at the start, and now, in ImGuizmo's form.
     glm::dmat4 frame{1};
     glm::mat4 current{1};
 };
 
 // Notes what is dragged, or copies of it, and where it is.
 void begin_drag(PanelContext& editor, Drag& drag, bool copy);
-// Asks that it is where `by` brings it from there. PanelContext::end_gesture() ends it.
+// Asks for the start transformed by `by`. PanelContext::end_gesture() ends it.
 void ask_drag(PanelContext& editor, const Drag& drag, const glm::dmat4& by, const char* verb);
-// What it changed is taken back, and no step of the history is left.
+// Its changes are undone, leaving no step in the history.
 void cancel_drag(PanelContext& editor, Drag& drag);
 
 } // namespace restage::editor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PanelContext::drop and what becomes of an inserted file: things arrive where the mouse is.
+// PanelContext::drop and the placing of an inserted file: things arrive where the mouse is.
 #include "drop.hpp"
 
 #include "document/session.hpp"
@@ -44,7 +44,7 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 constexpr std::initializer_list<const char*> picture_files = {"png",  "jpg", "jpeg", "tga", "bmp",
                                                               "webp", "hdr", "exr",  "pfm"};
 
-// The object a file let go there is for; asked of the scene, not of the picture, which may be of another moment.
+// The target object of a file dropped there; from the scene, not from the picture, which may be out of date.
 InstanceId target_at(const PanelContext& e, glm::dvec2 film) {
     if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
     const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
@@ -70,17 +70,17 @@ bool becomes_sky(const std::string& extension, InstanceId on) {
 Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, scene::Id<scene::Material> id,
                                  const fs::path& path, const std::shared_ptr<const scene::PixelData>& pixels) {
     const scene::Material* material = s.materials.find(id);
-    if (!material) return fail("There is no material for the image to go on");
+    if (!material) return fail("There is no material to put the image on");
     const auto plugin = registry.find_material(material->type);
     if (!plugin)
-        return fail("material \"" + material->name + "\": there is no plugin \"" + material->type +
-                    "\" that could say where an image goes");
+        return fail("material \"" + material->name + "\": no plugin \"" + material->type +
+                    "\" is loaded to say where an image goes");
     // The base colour comes first in every table.
     const auto& lines = plugin->table->params;
     const auto slot = std::ranges::find_if(
         lines, [](const model::Param& p) { return p.type == model::ParamType::color && p.texturable; });
     if (slot == lines.end())
-        return fail(fmt::format("material \"{}\": a {} has no colour an image could stand for", material->name,
+        return fail(fmt::format("material \"{}\": a {} has no colour that an image could replace", material->name,
                                 material->type));
     RESTAGE_TRY(scene::Edit edit, scene::set_image_texture(s, id, slot->id, model::ParamType::color, false,
                                                            scene::Image{.name = path.stem().string(),
@@ -91,7 +91,7 @@ Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& 
     return edit;
 }
 
-// A file that the material there looks up.
+// A table file of the material there.
 bool takes_table(const PanelContext& e, const std::string& extension, InstanceId on) {
     const scene::Material* material = material_of(e, on);
     const auto plugin = material ? e.registry().find_material(material->type) : std::nullopt;
@@ -105,7 +105,7 @@ void drop_table(PanelContext& e, const fs::path& path, InstanceId on) {
             return edit_in_scope(
                 s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
                     const auto plugin = registry.find_material(now.materials[id].type);
-                    if (!plugin) return fail("the material's plugin is not there any more");
+                    if (!plugin) return fail("the material's plugin is no longer loaded");
                     const auto line =
                         std::ranges::find(plugin->table->params, model::ParamType::table, &model::Param::type);
                     return scene::set_param(now, id, line->id, scene::Value::table(file));
@@ -157,14 +157,14 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
         if (is_one_of(extension, picture_files)) drop_image(*this, path, on);
-        // Files of objects join what is there; scenes, and anything when there is nothing yet, are opened.
+        // Object files join the open scene; scenes, and anything when no scene is open, are opened.
         else if (takes_table(*this, extension, on))
             drop_table(*this, path, on);
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
         else {
             open(path);
-            return; // there is room for one
+            return; // only one can be opened
         }
     }
 }
@@ -191,7 +191,7 @@ void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
     } else {
         text = name + " is opened";
     }
-    // Instead of the source's, see accept_asset(); not beyond the window's right edge.
+    // Replaces the source's tooltip, see accept_asset(); not beyond the window's right edge.
     const bool right = screen.x > ImGui::GetMainViewport()->GetCenter().x;
     ImGui::SetNextWindowPos({screen.x + (right ? -8.f : 16.f), screen.y + 12}, ImGuiCond_Always,
                             {right ? 1.f : 0.f, 0});
@@ -242,7 +242,7 @@ Result<scene::Edit> edit_in_scope(
     const scene::Scene& s, const MaterialScope& scope,
     const std::function<Result<scene::Edit>(const scene::Scene&, scene::Id<scene::Material>)>& build) {
     const scene::Instance* instance = scope.objects.empty() ? nullptr : s.instances.find(scope.objects.back());
-    if (!instance || !s.materials.find(instance->material)) return fail("There is no material for it to go on");
+    if (!instance || !s.materials.find(instance->material)) return fail("There is no material to put it on");
     if (!scope.alone) return build(s, instance->material);
     RESTAGE_TRY(scene::MadeUnique unique, scene::make_unique(s, scope.objects, instance->material));
     scene::Scene apart = s; // shares its data
@@ -256,7 +256,7 @@ Result<scene::Edit> edit_in_scope(
 
 void Editor::place_inserted(const io::ImportedScene& imported) {
     const Opening::Request& request = opening_->request();
-    // The middle of its underside comes to stand on what is seen there.
+    // The middle of its underside lands on the visible surface there.
     const query::ViewRay ray =
         query::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
     const auto hits = query::raycast_all(scene(), ray.origin, ray.direction);

@@ -96,7 +96,7 @@ void Editor::redo() {
 }
 
 void Editor::request_quit() {
-    if (!modals_.empty() && modals_.front().title == "Unsaved changes") return; // it was asked already
+    if (!modals_.empty() && modals_.front().title == "Unsaved changes") return; // already asked
     ask_unsaved(*this, "closing Restage", [](Editor& e) { e.quit_ = true; });
 }
 
@@ -159,7 +159,7 @@ void Editor::follow_opening() {
     }
     if (request.purpose == Opening::Purpose::recover) {
         session_->adopt_recovered(std::move(*(*result)->document));
-        // The old file goes when there is a new one.
+        // The old file is removed once a new one exists.
         files_->autosave.write_now(*session_, ImGui::GetTime());
         if (std::filesystem::exists(files_->autosave.file())) document::discard_recoverable({.file = request.path});
     } else {
@@ -179,13 +179,13 @@ void Editor::follow_plugins() {
     constexpr double every = 0.4; // [s]
     if (ImGui::GetTime() < plugins_looked_at_ + every) return;
     plugins_looked_at_ = ImGui::GetTime();
-    for (const plugin::Reload& news : registry_.reload_changed()) // what failed is in the log, which shows here too
-        if (news.error.empty()) notices.add(LogLevel::info, news.plugin->name() + " was loaded anew");
+    for (const plugin::Reload& news : registry_.reload_changed()) // failures are in the log, which shows here too
+        if (news.error.empty()) notices.add(LogLevel::info, news.plugin->name() + " was reloaded");
 }
 
 namespace {
 
-// Names whose script no font here has would be boxes without a word.
+// Without this, names in scripts that no font covers would be boxes without explanation.
 std::string unreadable_scripts(const scene::Scene& s) {
     ImFont* font = ImGui::GetFont();
     std::set<std::string> found;
@@ -300,7 +300,7 @@ void Editor::refresh_picture() {
         shown.active_camera = scene().active_camera;
         shown.film = scene().film;
     }
-    if (const auto id = shown.active_camera.value; views.now() && shown.cameras.find(id)) // versions no edit ever has
+    if (const auto id = shown.active_camera.value; views.now() && shown.cameras.find(id)) // versions no edit reaches
         shown.cameras.set(id, camera(), (std::uint64_t(1) << 48) + views.version());
     const std::uint64_t request = live_->show(std::move(shown), {.size = wanted.size,
                                                                  .document = document_,
@@ -320,7 +320,7 @@ void Editor::presented(double frame_seconds) {
     keep(latency_.frames, frame_seconds * 1000);
     const std::uint64_t shown = viewport.shown_request();
     for (auto it = latency_.asked.begin(); it != latency_.asked.end() && it->first <= shown;) {
-        // ImGui::GetTime() is that of the frame's begin.
+        // ImGui::GetTime() is the frame's start.
         if (it->first == shown) {
             latency_.shown_asked = it->second;
             ++latency_.count;
@@ -376,7 +376,7 @@ void Editor::draw_menu() {
         menu_item(*this, "view.reset_layout");
         ImGui::EndMenu();
     }
-    // What goes on, at the right end.
+    // Activity, at the right end.
     const view::ViewStatus status = live_->status();
     const bool waits = scene().instances.live() > 0; // for a picture
     const std::string state = status.state == view::ViewState::starting    ? waits ? "starting the renderer" : ""
@@ -462,7 +462,7 @@ void Editor::draw_modals() {
     if (modals_.empty()) return;
     Modal& modal = modals_.front(); // one at a time
     if (modal.frames == 0) ImGui::OpenPopup(modal.title.c_str());
-    // It finds its size in its first frames; then it can be moved, until the window has another size.
+    // Auto-sized in its first frames; then it can be moved, until the window is resized.
     const ImVec2 center = ImGui::GetMainViewport()->GetCenter(), space = ImGui::GetMainViewport()->Size;
     if (modal.width != space.x || modal.height != space.y) modal.frames = std::min(modal.frames, 1);
     modal.width = space.x, modal.height = space.y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Editor: the desktop program without its window: a Session, the live picture of it, and what the user sees of both.
-// What panels and actions see of it is PanelContext; what they asked for is done at one place, apply_pending().
+// What panels and actions see of it is PanelContext; their requests are carried out in one place, apply_pending().
 // Everything here is [main] and inside a Dear ImGui frame unless it says otherwise.
 #pragma once
 
@@ -15,19 +15,19 @@ namespace restage::editor {
 
 class Editor final : public PanelContext {
   public:
-    // `notices`: where `log` is shown, from before the editor lives.
+    // `notices`: shows `log`, including lines from before the editor exists.
     Editor(plugin::Registry& registry, Log& log, Notices& notices, EditorOptions options);
     ~Editor();
 
-    // Builds one frame of the UI, then does what it asked for. `keys`: ImGuiKeyChords pressed since the last one, by a
-    // window that knows better than Dear ImGui (see Window::take_keys); null = Dear ImGui's own.
+    // Builds one frame of the UI, then carries out requests. `keys`: ImGuiKeyChords pressed since the last one, by a
+    // window that tracks them better than Dear ImGui (see Window::take_keys); null = Dear ImGui's own.
     void frame(const std::vector<int>* keys = nullptr);
-    // The window shows what the last frame() drew; it began so long ago [s]. For the latencies of `make bench`.
+    // The window shows what the last frame() drew, begun this long ago [s]. For the latencies of `make bench`.
     void presented(double frame_seconds);
     bool quit_confirmed() const { return quit_; }
     void request_quit(); // asks about unsaved changes first
     void run_commands(const std::string& lines); // of tests, see probe.cpp
-    // What the window's title says.
+    // The window's title.
     std::string title() const;
     // True while frames should follow each other without waiting for events (flying, a fading notice).
     bool animating() const;
@@ -52,17 +52,17 @@ class Editor final : public PanelContext {
     void draw_modals();
     void apply_pending();
     void follow_opening();
-    void follow_plugins(); // loads anew what has changed on disk
+    void follow_plugins(); // reloads what has changed on disk
     void document_changed(); // another one is open now
     void place_inserted(const io::ImportedScene& imported);
     void ask_for_base(const std::string& message, bool some_fits);
     void refresh_picture();
-    void follow_camera(); // the view comes back to the scene's camera where that was moved
+    void follow_camera(); // the view returns to the scene's camera when that was moved
     void remember_preferences(); // when they changed
 
     Preferences remembered_;
     double plugins_looked_at_ = 0; // [s], as ImGui::GetTime
-    std::optional<glm::dmat4> camera_place_; // of the scene's camera when the view last looked
+    std::optional<glm::dmat4> camera_place_; // of the scene's camera as last seen by the view
     bool quit_ = false, reset_layout_ = false;
     struct Shown { // what the live picture was last asked for
         scene::Version version = 0;
@@ -77,14 +77,14 @@ class Editor final : public PanelContext {
         bool operator==(const Shown&) const = default;
     } asked_;
     struct Latency { // the latest of each [ms]
-        std::map<std::uint64_t, double> asked; // request of the live picture: when it was asked for
+        std::map<std::uint64_t, double> asked; // live picture request -> its time
         std::uint64_t count = 0; // of `pixels`, with those that were dropped
         std::deque<double> pixels; // from the begin of the frame that asked, to the picture of it on the screen
         std::deque<double> frames; // of the window
         double shown_asked = 0; // when what is shown was asked for [s]
         std::uint64_t clean_request =
-            0; // the latest of which a denoised picture, at half resolution or finer, was shown,
-        double clean_seconds = 0; // and how long after it was asked for
+            0; // the latest request with a denoised picture shown, at half resolution or finer,
+        double clean_seconds = 0; // and how long after the request
     } latency_;
 };
 

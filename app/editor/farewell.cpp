@@ -20,7 +20,7 @@ namespace restage::editor {
 
 namespace {
 
-// What a signal handler, and Xlib's error handler, must find.
+// State for the signal handler and Xlib's error handler.
 std::atomic<int> heard = 0;
 std::atomic<int> pipe_end = -1;
 static_assert(std::atomic<int>::is_always_lock_free);
@@ -56,8 +56,8 @@ struct Farewell::Impl {
     struct sigaction before[std::size(signals)]{};
 #endif
 
-    // Xlib ends the process when this returns. Its lock is held by the thread that failed: another one that talks to
-    // the display stands still, which is why the lock of a main thread that does is not waited for for ever.
+    // Xlib ends the process when this returns. The failed thread holds its lock: another thread in a display call
+    // is stuck, so the wait for a main thread in one must time out.
     static std::atomic<Impl*> current;
     [[noreturn]] static void display_gone() {
         Impl* self = current;
@@ -67,7 +67,7 @@ struct Farewell::Impl {
             self->last_words();
             if (locked) self->busy.unlock();
         } else if (self) {
-            std::this_thread::sleep_for(std::chrono::seconds(10)); // another thread is at it, and ends the process
+            std::this_thread::sleep_for(std::chrono::seconds(10)); // another thread is already ending the process
         }
         std::_Exit(1);
     }

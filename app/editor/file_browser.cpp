@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// --- what is asked of the file system, on threads of their own
+// --- file system queries, each on a thread of its own
 // -----------------------------------------------------------
 
 template <class T>
@@ -33,7 +33,7 @@ struct Asked {
 template <class T, class F>
 std::shared_ptr<Asked<T>> ask(const std::function<void()>& wake, F&& f) {
     auto asked = std::make_shared<Asked<T>>();
-    // Nobody waits for it: it may never come back, and holds nothing but what it was given.
+    // Detached: it may never return, and owns only its arguments.
     std::thread([asked, wake, f = std::forward<F>(f)] {
         asked->answer = f();
         asked->done = true;
@@ -52,7 +52,7 @@ Listing list_folder(const fs::path& folder, const std::string& make) {
     Listing result{folder, {}, {}};
     std::error_code code;
     if (!make.empty() && !fs::create_directory(folder / make, code) && code) {
-        result.problem = make + " cannot be made: " + code.message();
+        result.problem = make + " cannot be created: " + code.message();
         return result;
     }
     if (!make.empty()) result.folder = folder / make;
@@ -114,12 +114,12 @@ class Browser {
         typed_ = options_.name;
     }
 
-    bool draw(PanelContext& e); // false = done with
+    bool draw(PanelContext& e); // false = closed
 
   private:
     void go(const fs::path& folder, const std::string& make = {});
     void accept(const fs::path& path);
-    bool act(PanelContext& e); // on what accept() found out; true = chosen
+    bool act(PanelContext& e); // on the answer to accept(); true = chosen
     std::string select(int step); // the name of what is selected then
     void update_shown();
     bool fits(const FileEntry& entry) const;
@@ -133,7 +133,7 @@ class Browser {
     std::function<void()> wake_;
     fs::path folder_;
     std::shared_ptr<Asked<Listing>> listing_;
-    const Listing* drawn_ = nullptr; // what shown_ was made of
+    const Listing* drawn_ = nullptr; // what shown_ was built from
     std::vector<const FileEntry*> shown_;
     std::string shown_filter_;
     int sort_column_ = 0;
@@ -142,7 +142,7 @@ class Browser {
     int selected_ = -1;
     bool scroll_ = false;
     std::string typed_, folder_text_, new_folder_, problem_;
-    bool use_folder_ = false; // accept() is for good when it is a folder
+    bool use_folder_ = false; // accept() is final when it is a folder
     bool naming_folder_ = false, focus_folder_ = false, focus_name_ = true;
     fs::path asked_path_;
     std::shared_ptr<Asked<Kind>> asked_kind_;
@@ -239,13 +239,13 @@ bool Browser::act(PanelContext& e) {
         return false;
     }
     if (options_.folder) {
-        problem_ = asked_path_.string() + " is no folder";
+        problem_ = asked_path_.string() + " is not a folder";
         return false;
     }
     if (options_.save) {
         if (!asked_path_.has_extension() && !options_.extension.empty()) {
             asked_path_ += options_.extension;
-            accept(asked_path_); // is that one there?
+            accept(asked_path_); // does that one exist?
             return false;
         }
         if (kind == Kind::file && replace_ != asked_path_) {
@@ -366,7 +366,7 @@ void Browser::draw_name(PanelContext& e) {
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
                                      ImGuiInputTextFlags_CallbackHistory,
                                  on_key, this))
-        accept(typed_); // the field has the keyboard again when it is known what that is
+        accept(typed_); // the field regains the keyboard once the answer is in
     e.mark("browser.name");
     if (options_.filters.empty()) return;
     ImGui::SameLine();
@@ -404,7 +404,7 @@ bool Browser::draw_buttons(PanelContext& e) {
     e.mark("browser.cancel");
     ImGui::SameLine();
     ImGui::Checkbox("Hidden files", &hidden_);
-    ImGui::SetItemTooltip("Show what has a name that begins with a dot (Ctrl+H)");
+    ImGui::SetItemTooltip("Show files whose names begin with a dot (Ctrl+H)");
     if (ImGui::IsKeyChordPressed(ImGuiMod_Ctrl | ImGuiKey_H)) hidden_ = !hidden_;
     if (options_.save) {
         ImGui::SameLine();

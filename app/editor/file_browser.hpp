@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FileBrowser: choosing a file inside the window. Folders are listed, and paths looked at, on threads that are left
-// alone when they hang, as those of a network that is gone do.
+// FileBrowser: choosing a file inside the window. Folders are listed, and paths checked, on threads that are
+// abandoned if they hang, as on a lost network drive.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,7 @@ struct BrowseOptions {
     std::vector<FileFilter> filters;
     std::filesystem::path start; // a folder; "" = the last used one
     std::string name;            // at first in the field
-    std::string extension;       // put behind a name without one, when saving: ".restage"
+    std::string extension;       // appended to a name without one, when saving: ".restage"
     std::function<void(PanelContext&, const std::filesystem::path&)> done;
 };
 
@@ -40,7 +40,7 @@ struct FileEntry {
     std::filesystem::file_time_type time;
 };
 
-// The part of `names` that goes on from `typed` in all that begin with it: what Tab adds.
+// The common continuation of all `names` that begin with `typed`: what Tab adds.
 std::string completion(const std::string& typed, const std::vector<FileEntry>& names);
 
 } // namespace restage::editor

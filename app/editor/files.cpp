@@ -53,7 +53,7 @@ void Recent::clear() {
 void Recent::save() const {
     if (file_.empty()) return;
     const nlohmann::json j{{"files", files_}, {"folders", folders_}};
-    // A list that cannot be kept is no reason to bother anybody.
+    // Failing to save the list is not worth a message.
     (void)write_file_atomic(file_, j.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files: what the editor knows of files beyond the document: the recent ones, unsaved work written aside, work that
-// goes on in the background.
+// Files: the editor's file state beyond the document: recent files, recovery copies of unsaved work, background
+// jobs.
 #pragma once
 
 #include "background.hpp"
@@ -40,7 +40,7 @@ struct Files {
     Recent recent;
     std::filesystem::path recovery_folder;
     document::Autosave autosave;
-    std::string autosave_problem; // that was said
+    std::string autosave_problem; // that was logged
     BackgroundJobs jobs;
     std::filesystem::path last_picture; // where one was written last
 };

@@ -27,7 +27,7 @@ namespace {
 struct Wish {
     std::uint32_t samples = 64;
     float error = 0; // > 0: stop there, at `samples` at the latest
-    bool from_view = true; // not from the scene's camera, where both differ
+    bool from_view = true; // instead of the scene's camera, where they differ
     bool denoise = true;
     std::string denoiser; // as in Preferences
     fs::path path;
@@ -48,7 +48,7 @@ struct Finished {
     std::string text; // what was done
 };
 
-// Where it cannot be written it is kept, until it is written elsewhere or given up: it may have taken hours.
+// If it cannot be written it is kept until the user saves it elsewhere or discards it: it may have taken hours.
 Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
     const auto written = view::write_picture(path.string(), done->picture, done->how);
     if (written) return say(LogLevel::info, path.string() + ": " + done->text);
@@ -99,10 +99,10 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
             if (error <= double(wish.error)) break;
         }
         if (!job.report(done * traced, stage)) break;
-        // Batches of about a fifth of a second, so that a stop is quick and the bar moves.
+        // Batches of about 0.2 s, so that a stop is quick and the bar moves.
         batch = std::uint32_t(std::clamp(0.2 / std::max((now_seconds() - before) / batch, 1e-6), 1.0, 1024.0));
     }
-    if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was given up");
+    if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was cancelled");
     auto finished = std::make_shared<Finished>();
     view::Picture& picture = finished->picture;
     picture = {.film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
@@ -120,7 +120,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
             return {};
         };
         const auto cleaned = clean();
-        if (!cleaned && cleaned.error().cancelled()) return say(LogLevel::info, "The final picture was given up");
+        if (!cleaned && cleaned.error().cancelled()) return say(LogLevel::info, "The final picture was cancelled");
         if (!cleaned) { // what was rendered is worth keeping all the same
             log.error("the final picture is not denoised: " + cleaned.error().message);
             denoiser = "none";
@@ -136,8 +136,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
                                   {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
                                   {"restage:denoiser", denoiser}}};
     for (const auto& [type, count] : stats.not_finite)
-        log.warning(
-            fmt::format("{} samples of material type \"{}\" were not finite numbers and were left out", count, type));
+        log.warning(fmt::format("{} samples of material type \"{}\" were not finite and were left out", count, type));
     finished->text = fmt::format("{}x{}, {} samples a pixel in {:.1f} s", picture.film.width, picture.film.height,
                                  renderer->samples(), now_seconds() - start);
     return write(finished, wish.path);
@@ -168,11 +167,10 @@ void final_render_dialog(PanelContext& e) {
     e.show_modal("Final picture", [wish](PanelContext& editor) {
         const scene::Film& film = editor.scene().film.value;
         dialog_width(360);
-        form_row("Size", "Of the picture: change it in the Scene panel, under Picture");
+        form_row("Size", "The picture's size: change it in the Scene panel, under Picture");
         ImGui::Text("%u × %u pixels", film.width, film.height);
         if (editor.views.now()) {
-            form_row("From",
-                     "Where it is seen from: here, or from the scene's camera, which you have looked away from");
+            form_row("From", "The viewpoint: the current view, or the scene's camera, which the view has left");
             if (ImGui::RadioButton("View", wish->from_view)) wish->from_view = true;
             editor.mark("final.view");
             ImGui::SameLine();
@@ -185,13 +183,12 @@ void final_render_dialog(PanelContext& e) {
             wish->samples = std::uint32_t(samples);
         editor.mark("final.samples");
         float percent = wish->error * 100;
-        form_row("Stop at error",
-                 "Where the noise is so small: the estimated relative error before denoising. 0 = no target");
+        form_row("Stop at error", "Stop at this noise: the estimated relative error before denoising. 0 = no target");
         if (ImGui::DragFloat("##error", &percent, 0.05f, 0, 100, percent > 0 ? "%.2f %%" : "No target"))
             wish->error = percent / 100;
         editor.mark("final.error");
         form_row("Denoise",
-                 "Removes the noise that is left, in high quality; the raw picture is kept beside it in an EXR");
+                 "Removes the remaining noise, in high quality; the raw picture is kept beside it in an EXR");
         ImGui::BeginDisabled(editor.registry().denoisers().empty());
         ImGui::Checkbox("##denoise", &wish->denoise);
         editor.mark("final.denoise");

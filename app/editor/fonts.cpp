@@ -29,7 +29,7 @@ constexpr auto scripts = std::to_array<Script>({
 constexpr std::size_t most_files = 20000; // of all folders
 constexpr int most_faces = 16;
 
-// Big-endian numbers of an OpenType file (ISO/IEC 14496-22), each read where it lies: fonts of CJK are 20 MB.
+// Big-endian numbers of an OpenType file (ISO/IEC 14496-22), each read in place: CJK fonts are 20 MB.
 class FontFile {
   public:
     explicit FontFile(const fs::path& file) : in_(file, std::ios::binary) {}
@@ -115,7 +115,7 @@ class FontFile {
     bool good_ = true;
 };
 
-// Regular faces before others, and fonts of many scripts before those of one.
+// Regular faces first, and fonts for many scripts before those for one.
 int preference(const fs::path& file) {
     std::string name = file.filename().string();
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -172,12 +172,12 @@ FallbackFonts find_fallback_fonts(std::span<const fs::path> folders) {
         for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, code), end;
              !code && it != end && files.size() < most_files; it.increment(code)) {
             const std::string extension = it->path().extension().string();
-            std::error_code none; // a FIFO called .ttf would be read for ever
+            std::error_code none; // reading a FIFO called .ttf would block for ever
             if ((extension == ".ttf" || extension == ".ttc" || extension == ".otf") && it->is_regular_file(none))
                 files.push_back(it->path());
         }
     }
-    // Not in the order of the directory.
+    // Independent of directory order.
     std::ranges::sort(files, {}, [](const fs::path& p) { return std::pair(preference(p), p.string()); });
 
     FallbackFonts found;

@@ -11,11 +11,11 @@ namespace restage::editor {
 
 struct Script {
     const char* name; // "Japanese"
-    char32_t sample; // a character that a font for it has
-    char32_t first, last; // where its characters lie
+    char32_t sample; // a character that any font for it has
+    char32_t first, last; // its code point ranges
 };
 std::span<const Script> known_scripts();
-// That of a character outside of what the UI's font covers; null = none of ours.
+// The script of a character that the UI's font does not cover; null = not listed.
 const Script* script_of(char32_t c);
 
 // Where this system keeps fonts.
@@ -26,10 +26,10 @@ struct FallbackFont {
     int face = 0; // within a collection (.ttc)
 };
 struct FallbackFonts {
-    std::vector<FallbackFont> fonts; // in the order in which they are asked
-    std::vector<std::string> missing; // scripts that none of them has
+    std::vector<FallbackFont> fonts; // in lookup order
+    std::vector<std::string> missing; // scripts that none of them covers
 };
-// As few fonts as cover every script, where there are some. Reads no more than the character maps.
+// As few fonts as cover every script that any font covers. Reads no more than the character maps.
 FallbackFonts find_fallback_fonts(std::span<const std::filesystem::path> folders);
 
 // Whether that face of the file has a glyph for the character (its table "cmap", formats 4 and 12).

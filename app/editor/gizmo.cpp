@@ -19,13 +19,13 @@ namespace restage::editor {
 namespace {
 
 constexpr float knob_pixels = 10; // half of its side, as ImGuizmo draws it
-constexpr float handle_pixels = 90; // of one across the view; those that point at the viewer are shorter
+constexpr float handle_pixels = 90; // of one across the view; handles towards the viewer are shorter
 
 glm::dmat3 rotation_of(const glm::dmat4& m) {
     glm::dmat3 r(m);
     for (int i = 0; i < 3; ++i)
         r[i] = glm::length(r[i]) > 0 ? glm::normalize(r[i]) : glm::dmat3(1)[i];
-    // Handles need a right-angled frame, whatever shear the object has.
+    // Handles need an orthogonal frame, even for sheared objects.
     r[1] = glm::normalize(r[1] - r[0] * glm::dot(r[0], r[1]));
     r[2] = glm::cross(r[0], r[1]);
     return r;
@@ -40,13 +40,13 @@ DragPath::Mouse mouse_of(const PanelContext& e) {
 } // namespace
 
 void release_gizmo() {
-    ImGuizmo::Enable(false); // its one way to forget a drag
+    ImGuizmo::Enable(false); // the only way to make it forget a drag
     ImGuizmo::Enable(true);
 }
 
 GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
     Drag& drag = e.viewport.gizmo_drag;
-    // Handles are straight; what a spherical camera sees is not. The camera's panel says so.
+    // Handles are straight; the view of a spherical camera is not. The camera's panel says so.
     if (e.selection.empty() || e.view.gizmo == GizmoMode::select || scene::is_spherical(e.camera())) {
         drag = {};
         return {};
@@ -97,9 +97,9 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
                        : e.view.gizmo == GizmoMode::rotate ? e.view.snap_angle
                                                            : e.view.snap_scale;
     const float snap[3] = {step, step, step};
-    // The knob in the middle would move in the plane of the screen, so that things end up in the air: there, as on the
-    // object itself, the viewport slides them over the floor (viewport_drag.cpp). ImGuizmo takes no click while an item
-    // is under the mouse, so the knob is one.
+    // ImGuizmo's knob in the middle moves in the screen plane, leaving things in the air: there, as on the
+    // object itself, the viewport slides them over the floor (viewport_drag.cpp). ImGuizmo ignores clicks while an item
+    // is under the mouse, so the knob is an item.
     const glm::dvec3 middle = query::project(camera, drag.pivot, e.film_aspect());
     const ImVec2 knob(corner.x + float(middle.x) * size.x, corner.y + float(middle.y) * size.y);
     GizmoState state;
@@ -129,11 +129,11 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
     e.mark("gizmo.center", knob);
 
     if (ImGuizmo::IsUsing() && !drag.active && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) {
-        begin_drag(e, drag, io.KeyShift); // a click is none
+        begin_drag(e, drag, io.KeyShift); // a click is not a drag
         drag.path.begin(drag.pivot, e.up(), mouse_of(e), true);
     }
     if (drag.active && (moved || io.KeyAlt)) {
-        // What the handles did since the start, about the pivot.
+        // The handles' change since the start, about the pivot.
         const glm::dmat4 there = glm::translate(glm::dmat4(1), drag.pivot);
         if (e.view.gizmo == GizmoMode::move) {
             const glm::dvec3 by = drag.path.update(io.KeyAlt, mouse_of(e), glm::dvec3(drag.current[3]),

@@ -9,8 +9,8 @@ namespace restage::editor {
 class PanelContext;
 
 struct GizmoState {
-    bool wants_mouse = false; // a handle is under it, or dragged
-    bool knob = false; // the knob between the handles that move is under it, or held
+    bool wants_mouse = false; // over a handle, or dragging one
+    bool knob = false; // over the knob between the move handles, or holding it
 };
 
 // Draws the handles over the picture (its rectangle on screen) and asks for the changes.

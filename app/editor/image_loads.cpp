@@ -46,7 +46,7 @@ ImageLoads::~ImageLoads() {
 void ImageLoads::start(Job job) {
     {
         std::lock_guard lock(mutex_);
-        // Before the first thumbnail, or at the end.
+        // Before the first thumbnail, or at the back.
         const auto at = job.thumbnail
                             ? jobs_.end()
                             : std::find_if(jobs_.begin(), jobs_.end(), [](const Job& j) { return j.thumbnail != 0; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ImageLoads: image files are read on a thread of its own, one after the other; what is done with them happens on the
-// main thread, at poll().
+// ImageLoads: image files are read on a thread of its own, one after the other; their callbacks run on the main
+// thread, in poll().
 #pragma once
 
 #include "base/result.hpp"

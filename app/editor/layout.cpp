@@ -42,9 +42,9 @@ void keep_picture_large(ImGuiID space, ImVec2 size) {
     if (!center || size.x <= 0 || size.y <= 0) return;
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 least(std::min(0.45f * size.x, 640 * scale), std::min(0.45f * size.y, 400 * scale));
-    constexpr float narrow = 90; // of a panel that gives way [at scale 1]
+    constexpr float narrow = 90; // of a shrunk panel [at scale 1]
     for (const int axis : {0, 1}) {
-        // What the nodes beside the picture take of the window, from the picture outwards.
+        // How much of the window the nodes beside the picture take, from the picture outwards.
         float taken = 0;
         for (const ImGuiDockNode* node = center; node->ParentNode; node = node->ParentNode) {
             const ImGuiDockNode* parent = node->ParentNode;

@@ -8,8 +8,8 @@ namespace restage::editor {
 
 namespace {
 
-// Dear ImGui finds the size and place of a window in its first frames: what is in it is not where a click would find
-// it.
+// Dear ImGui settles a window's size and place in its first frames: until then its contents are not where a click
+// would land.
 bool settled(const ImGuiWindow* window) {
     for (; window; window = window->ParentWindow)
         if (window->Appearing || window->Hidden || window->AutoFitFramesX > 0 || window->AutoFitFramesY > 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks: the names of what was drawn in the last frame, by which tests that drive the program from outside find it.
+// Marks: names of what the last frame drew, for tests that drive the program from outside.
 #pragma once
 
 #include <map>

@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::uint32_t side = 64; // [pixel]
 constexpr std::uint32_t samples = 32; // a pixel
-constexpr std::size_t most_waiting = 64; // balls; what was scrolled past long ago is asked for again when it is seen
+constexpr std::size_t most_waiting = 64; // balls; older requests are dropped, and repeated once visible again
 
-// A unit ball around the origin. Textures go around it twice, so that their scale is seen.
+// A unit ball around the origin. Textures go around it twice, so that their scale is visible.
 std::shared_ptr<const scene::MeshData> ball_mesh() {
     constexpr std::uint32_t rows = 48, columns = 96;
     auto mesh = std::make_shared<scene::MeshData>();
@@ -131,7 +131,7 @@ void MaterialBalls::poll() {
 void MaterialBalls::work(Maker maker) {
     lower_thread_priority(10);
     maker.options.stand_ins = false;
-    maker.options.threads = 1; // the picture needs the others
+    maker.options.threads = 1; // the picture needs the other threads
     std::unique_ptr<render::Renderer> renderer;
     bool said = false;
     std::unique_lock lock(mutex_);

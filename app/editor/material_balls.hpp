@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MaterialBalls: a path-traced ball of each material that a list shows, in a neutral studio, made by a renderer of its
-// own on a thread of lower priority when it is first asked for.
+// MaterialBalls: a path-traced ball of each material that a list shows, in a neutral studio, rendered on first use
+// by a renderer of its own on a thread of lower priority.
 #pragma once
 
 #include "base/log.hpp"
@@ -29,14 +29,14 @@ class MaterialBalls {
     MaterialBalls(const MaterialBalls&) = delete;
     MaterialBalls& operator=(const MaterialBalls&) = delete;
 
-    // What renders, and says what went wrong. Both outlive this.
+    // The renderer's host, and the log for failures. Both outlive this.
     struct Maker {
         const plugin::Registry& registry;
         Log& log;
         render::RendererOptions options;
     };
     // [main] The ball as it was last rendered, null until there is one; one that is older than the scene's materials
-    // and textures is asked for again. Latest asked, first rendered.
+    // and textures is requested again. The latest request is rendered first.
     const Texture* ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id);
     void poll(); // [main] once a frame
     void forget(); // [main] of another document
@@ -49,7 +49,7 @@ class MaterialBalls {
         bool operator==(const Made&) const = default;
     };
     struct Ball {
-        Made made; // what was asked for last
+        Made made; // the latest request
         std::unique_ptr<Texture> texture;
     };
     struct Job {

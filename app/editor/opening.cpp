@@ -11,7 +11,7 @@ Opening::~Opening() {
 }
 
 void Opening::start(Request request) {
-    if (thread_.joinable()) { // importers stop when they next ask; the window does not wait for that
+    if (thread_.joinable()) { // importers stop at their next progress call; the window does not wait for it
         cancelled_ = true;
         next_ = std::move(request);
         return;

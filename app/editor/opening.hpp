@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening: a scene or project file is read on a thread of its own while the editor goes on, with progress and cancel.
+// Opening: a scene or project file is read on a thread of its own while the editor runs, with progress and cancel.
 #pragma once
 
 #include "document/document.hpp"
@@ -37,7 +37,7 @@ class Opening {
         : registry_(registry), wake_(std::move(wake)), isolate_(std::move(isolate)) {}
     ~Opening();
 
-    // Gives up what is being read, if anything.
+    // Cancels the running read, if any.
     void start(Request request);
     void cancel();
     bool running() const { return thread_.joinable(); }
@@ -45,9 +45,9 @@ class Opening {
     std::string stage() const;
     const Request& request() const { return request_; }
     const std::filesystem::path& path() const { return request_.path; }
-    // What came of it, once; nothing while it runs, or when it was given up.
+    // The result, once; nothing while it runs or after it was cancelled.
     std::optional<Result<Opened>> take();
-    document::BaseProblem problem() const { return problem_; } // when take() gave an error
+    document::BaseProblem problem() const { return problem_; } // if take() returned an error
 
   private:
     void run();
@@ -57,7 +57,7 @@ class Opening {
     std::shared_ptr<const document::IsolateOptions> isolate_;
     std::thread thread_;
     Request request_;
-    std::optional<Request> next_; // starts when the running one has stopped
+    std::optional<Request> next_; // starts once the running one has stopped
     std::atomic<bool> cancelled_ = false, finished_ = false;
     std::atomic<float> progress_ = 0;
     document::BaseProblem problem_ = document::BaseProblem::none;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PanelContext: the editor as panels see it: the document to read, edits and actions to ask for, what is shown, and
-// what panels remember. What they asked for is done at one place, after all of them are drawn (Editor::frame).
+// what panels remember. Their requests are carried out in one place, after all of them are drawn (Editor::frame).
 // Everything here is [main] and inside a Dear ImGui frame.
 #pragma once
 
@@ -49,7 +49,7 @@ struct EditorOptions {
     render::RendererOptions renderer;
     std::function<void()> wake; // [any] asks for another frame
     std::filesystem::path config_dir; // layout, preferences; "" = nothing is remembered
-    double autosave_seconds = 60; // unsaved work is written aside so often
+    double autosave_seconds = 60; // interval between recovery copies of unsaved work
     std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a process of their own
 };
 
@@ -64,38 +64,38 @@ class PanelContext {
     const scene::Scene& scene() const;
     const plugin::Registry& registry() const { return registry_; }
     scene::Id<scene::Camera> camera_id() const { return scene().active_camera.value; }
-    // What the picture is seen from: the scene's camera, or the view that has left it. A default one where the scene
-    // has none.
+    // The picture's viewpoint: the scene's camera, or the view that has left it. A default one if the scene has no
+    // camera.
     const scene::Camera& camera() const;
     const scene::Camera& scene_camera() const;
     double film_aspect() const;
     const glm::dvec3& up() const { return up_; }
-    std::uint64_t document() const { return document_; } // another number = another one was opened; as in Frame
+    std::uint64_t document() const { return document_; } // changes when another document is opened; as in Frame
     const std::optional<scene::Scene>& original() const { return original_; } // as opened
-    // The camera the file was opened with; null when there is none.
+    // The camera the file was opened with; null if there is none.
     const scene::Camera* opened_camera() const {
         return original_ ? original_->cameras.find(original_->active_camera.value) : nullptr;
     }
 
     // --- asking
     // --------------------------------------------------------------------------------------------------------
-    // For an edit. The builder sees the scene as it is when its turn comes; an error becomes a notice. Edits with
+    // For an edit. The builder sees the scene as it is when it runs; an error becomes a notice. Edits with
     // the same gesture, until the mouse button or the widget is let go, are one step of the history.
     using Builder = std::function<Result<scene::Edit>(const scene::Scene&)>;
     void edit(Builder builder, std::string gesture = {});
-    // For something that is more than an edit, at the same place. Runs in order with the edits.
+    // For something beyond an edit, at the same point. Runs in order with the edits.
     void later(std::function<void()> work);
     void change(std::function<void(document::Session&)> work);
     void run(std::string_view action) { actions_to_run_.emplace_back(action); }
     void end_gesture() { end_gesture_ = true; }
-    // Looks from there. Where the camera is locked only the view goes, which is no change of the document; else the
-    // camera does.
+    // Looks from there. If the camera is locked only the view moves, which does not change the document; else the
+    // camera moves.
     void look_from(const glm::dmat4& camera_to_world, const std::string& gesture = {},
                    const char* label = "Move camera");
     virtual void open(const std::filesystem::path& path) = 0; // asks about unsaved changes first
     // A file as new objects, on what is seen at this point of the picture.
     virtual void insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point = {}) = 0;
-    // Files that were let go at this point of the window: scenes are opened, objects inserted, images applied.
+    // Files dropped at this point of the window: scenes are opened, objects inserted, images applied.
     void drop(const std::vector<std::filesystem::path>& paths, ImVec2 screen);
     // Another device, tracer, number of threads.
     virtual void configure_renderer(const render::RendererOptions& renderer) = 0;
@@ -109,7 +109,7 @@ class PanelContext {
     Selection selection;
     InstanceId hovered; // under the mouse in the viewport or a list, by the panels drawn in this frame
     InstanceId hovered_before; // in the frame before: what is outlined
-    InstanceId drop_target; // what is dragged would go there: outlined alone, in the frame after
+    InstanceId drop_target; // drop target of what is dragged: outlined alone, in the next frame
     InstanceId drop_target_before;
     ViewSettings view;
     ViewHistory views;
@@ -131,7 +131,7 @@ class PanelContext {
     Copied copied;
     std::optional<PickTool> pick_tool;
 
-    // --- what panels use besides
+    // --- other things panels use
     // ----------------------------------------------------------------------------------------
     std::unique_ptr<PanelState> panel_state; // what panels remember: searches, open folds
     Files& files() { return *files_; }

@@ -125,7 +125,7 @@ std::optional<std::string> dropped_path() {
     return path;
 }
 
-// The name of a table's file, which is dropped on or chosen. Beneath it, what is wrong with it.
+// The name of a table's file, a drop target and file chooser. Beneath it, what is wrong with it.
 bool table_field(PanelContext& e, const model::Param& line, scene::Value& v, const plugin::TableReader* reader,
                  const std::string& mark) {
     const std::filesystem::path path(v.text);
@@ -193,7 +193,7 @@ bool color_field(const char* id, float* linear, bool hdr) {
         seen[i] = io::linear_to_srgb(linear[i]);
     const float before[3] = {seen[0], seen[1], seen[2]};
     if (!ImGui::ColorEdit3(id, seen, ImGuiColorEditFlags_Float)) return false;
-    for (int i = 0; i < 3; ++i) // a channel that was not touched keeps its exact value
+    for (int i = 0; i < 3; ++i) // an untouched channel keeps its exact value
         if (seen[i] != before[i]) linear[i] = io::srgb_to_linear(seen[i]);
     return true;
 }
@@ -212,7 +212,7 @@ ParamAsk param_widget(PanelContext& e, const model::Param& line, const scene::Va
         const scene::Texture* texture = e.scene().textures.find(value.texture);
         const std::string name = texture ? texture->name : "None";
         if (ImGui::Button((name + "###value").c_str(), {ImGui::CalcItemWidth(), 0})) ImGui::OpenPopup("texture");
-        tip(texture ? "A texture stands for this value: click to choose another, or none"
+        tip(texture ? "A texture replaces this value: click to choose another, or none"
                     : "Click to choose a texture; or drop an image here");
         accept_image(ask);
     } else {
@@ -309,7 +309,7 @@ void texture_settings(PanelContext& e, scene::Id<scene::Texture> id, const std::
          .label = "Outside",
          .type = model::ParamType::choice,
          .choices = {"repeat", "black", "clamp"},
-         .tooltip = "What is seen where the image ends"},
+         .tooltip = "What is shown beyond the image's edge"},
         number("uscale", "Repeat across", -100, 100, 1, "How often the image fits along u, its width"),
         number("vscale", "Repeat up", -100, 100, 1, "How often the image fits along v, its height"),
         number("udelta", "Shift across", -1, 1, 0, "In widths of the image (u)"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The widget of one parameter that a plugin declares, made from its table line, and of a texture that stands for it.
+// The widget of one parameter that a plugin declares, made from its table line, and of a texture that replaces it.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -15,7 +15,7 @@ namespace restage::editor {
 
 class PanelContext;
 
-struct ParamAsk { // what the user wants of it; nothing most of the time
+struct ParamAsk { // the user's request; mostly empty
     std::optional<scene::Value> value;
     bool reset = false; // back to the table's default
     std::string image_file; // a texture of this image
@@ -29,10 +29,10 @@ ParamAsk param_widget(PanelContext& editor, const model::Param& line, const scen
 // Scale, wrap, inversion and placing of an image texture, as rows that ask for edits themselves.
 void texture_settings(PanelContext& editor, scene::Id<scene::Texture> texture, const std::string& mark);
 
-// A colour that is linear inside and chosen as it is seen. True when changed.
+// A colour that is stored linear and chosen in sRGB. True when changed.
 bool color_field(const char* id, float* linear, bool hdr = false);
 
-// A menu entry that asks for an image file in the file browser, which comes instead of the menu.
+// A menu entry that asks for an image file in the file browser, which replaces the menu.
 void image_file_item(PanelContext& editor, const std::string& mark);
 // The file that was chosen there for this mark, once; else "".
 std::string chosen_image_file(PanelContext& editor, const std::string& mark);

@@ -35,9 +35,9 @@ bool run_pick_tool(PanelContext& e, bool over) {
     const ImVec2 at = ImGui::GetIO().MousePos;
     e.hovered = e.viewport.instance_at(e, at);
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    ImGui::SetTooltip("%s (Esc: give up)", e.pick_tool->hint.c_str());
+    ImGui::SetTooltip("%s (Esc: cancel)", e.pick_tool->hint.c_str());
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-        const PickTool tool = *e.pick_tool; // done() may take up another
+        const PickTool tool = *e.pick_tool; // done() may start another tool
         e.pick_tool.reset();
         tool.done(e, picked_at(e, at), at);
     }
@@ -58,7 +58,7 @@ PickTool material_eyedropper(const PanelContext& editor) {
 
 PickTool focus_picker() {
     return {
-        "Click what shall be sharp", [](PanelContext& e, InstanceId, ImVec2 screen) {
+        "Click what should be sharp", [](PanelContext& e, InstanceId, ImVec2 screen) {
                 // The distance along the camera's axis: what pbrt calls focal distance.
             const query::ViewRay ray = query::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
             const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);

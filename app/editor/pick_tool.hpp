@@ -13,16 +13,16 @@ namespace restage::editor {
 
 class PanelContext;
 
-// What the next click in the picture is for, instead of selecting. Esc gives it up.
+// What the next click in the picture is for, instead of selecting. Esc cancels it.
 struct PickTool {
     std::string hint; // "Click the object whose material to take"
     std::function<void(PanelContext&, InstanceId, ImVec2 screen)> done;
 };
 
-// By the viewport, before it picks. True while a tool is in hand: the click is its own. `over`: the mouse is free
-// there.
-// The object a click there means. Asked of the picture, which knows cut-outs, when a sharp one of the scene as it is
-// now is shown; else of the scene: a coarse picture would miss what is thin.
+// Called by the viewport, before it picks. True while a tool is active: it takes the click. `over`: the mouse is
+// free there.
+// The object a click there means. Taken from the picture, which knows cut-outs, if a sharp one of the current scene
+// is shown; else from the scene: a coarse picture would miss thin things.
 InstanceId picked_at(const PanelContext& editor, ImVec2 screen);
 
 bool run_pick_tool(PanelContext& editor, bool over);

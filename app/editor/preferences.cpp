@@ -45,7 +45,7 @@ void write_preferences(const std::filesystem::path& config_dir, const Preference
                            {"snap_scale", preferences.snap_scale},
                            {"history_mib", preferences.history_mib},
                            {"denoiser", preferences.denoiser}};
-    // What cannot be remembered is no reason to bother anybody.
+    // Failing to save preferences is not worth a message.
     (void)write_file_atomic(file_in(config_dir), j.dump(1) + "\n");
 }
 

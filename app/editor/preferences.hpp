@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preferences: what a user chose or has seen once, remembered in the configuration folder; no part of any document.
+// Preferences: what a user chose or has seen once, stored in the configuration folder; not part of any document.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct Preferences {
     bool operator==(const Preferences&) const = default;
 };
 
-// Defaults where there is no such file, or it holds nothing that can be read.
+// Defaults if the file is missing or unreadable.
 Preferences read_preferences(const std::filesystem::path& config_dir);
 // Does nothing without a folder.
 void write_preferences(const std::filesystem::path& config_dir, const Preferences& preferences);

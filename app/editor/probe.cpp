@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor::probe(): what tests that drive the program with real mouse and key events need to know of it; and what they
-// cannot do with a mouse and keys.
+// Editor::probe(): state for tests that drive the program with real mouse and key events; and commands for what
+// mouse and keys cannot do.
 #include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
@@ -117,7 +117,7 @@ void Editor::run_commands(const std::string& lines) {
     for (std::string line; std::getline(in, line);) {
         const std::size_t y = line.rfind(' '), x = y == 0 || y == std::string::npos ? y : line.rfind(' ', y - 1);
         if (!line.starts_with("drop ") || x == std::string::npos || x < 5) {
-            log_.warning("probe: \"" + line + "\" is no command");
+            log_.warning("probe: \"" + line + "\" is not a command");
             continue;
         }
         const auto number = [&](std::size_t at) {

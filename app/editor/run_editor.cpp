@@ -36,7 +36,7 @@ Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const
         if (const int signal = farewell.signal()) return 128 + signal;
         if (window.close_requested()) {
             window.refuse_close();
-            write_aside(); // the desktop's session may be at its end, and will not wait for an answer
+            write_aside(); // the desktop session may be ending, and will not wait for an answer
             if (window.display_gone()) return fail("the display is gone");
             editor.request_quit();
         }
@@ -64,7 +64,7 @@ Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const
     return 0;
 }
 
-// The folder for what the editor remembers; "" or why nothing will be. It is read where it cannot be written.
+// The configuration folder; "", or why nothing will be remembered. A read-only one is still read.
 std::string prepare(std::filesystem::path& config) {
     if (config.empty()) {
         auto user = user_data_dir();
@@ -81,7 +81,7 @@ std::string prepare(std::filesystem::path& config) {
 } // namespace
 
 Result<int> run_editor(const RunOptions& options) {
-    // The order matters: what comes later goes first. The editor outlives the window, see texture.hpp.
+    // The order matters: later objects are destroyed first. The editor outlives the window, see texture.hpp.
     Notices notices;
     Log log([&](LogLevel level, std::string_view line) {
         if (level != LogLevel::debug) std::fprintf(stderr, "restage: %.*s\n", int(line.size()), line.data());
@@ -132,7 +132,7 @@ Result<int> run_editor(const RunOptions& options) {
         write_aside();
         if (ended) log.warning("ended by " + signal_name(*ended - 128) + "; unsaved work is kept for the next start");
     }
-    // What is kept is offered at the next start; else nothing is left.
+    // Kept work is offered at the next start; otherwise nothing is left.
     if ((ended && *ended == 0) || !editor.session().modified()) editor.files().autosave.forget();
     return ended;
 }

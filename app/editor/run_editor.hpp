@@ -18,7 +18,7 @@ struct RunOptions {
     float scale = 0; // of the UI; 0 = the monitor's
     glm::ivec2 size{1440, 860};
     std::filesystem::path config_dir; // "" = the user's
-    double autosave_seconds = 60;     // unsaved work is written into its `recovery` so often
+    double autosave_seconds = 60;     // interval between copies of unsaved work in its `recovery`
     struct {
         bool safe_mode = false; // none but the program's own
         std::vector<plugin::SearchPath> paths;

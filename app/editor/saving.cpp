@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// All that can be opened together first, then each importer's, then every file.
+// First everything that can be opened, then each importer's, then every file.
 std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool projects) {
     std::vector<FileFilter> filters;
     FileFilter all{projects ? "Scenes and projects" : "Everything known", {}};
@@ -174,8 +174,8 @@ void revert(Editor& e) {
     }
     e.show_modal("Revert", [path, reopen, steps = e.session().history().position(), &editor = e](PanelContext&) {
         dialog_width(400);
-        ImGui::TextWrapped("Give up all changes since %s was saved?", path.filename().string().c_str());
-        empty_note(fmt::format("{} steps of the history go; this cannot be undone.", steps).c_str());
+        ImGui::TextWrapped("Discard all changes since %s was saved?", path.filename().string().c_str());
+        empty_note(fmt::format("{} steps of the history are lost; this cannot be undone.", steps).c_str());
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Revert")) {

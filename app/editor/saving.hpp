@@ -11,7 +11,7 @@ class Editor;
 class PanelContext;
 using Then = std::function<void(Editor&)>;
 
-// Does it at once when nothing is unsaved; else after Save or Discard, and not at all after Cancel. `doing`: "opening
+// Does it at once if nothing is unsaved; else after Save or Discard, and not at all after Cancel. `doing`: "opening
 // another scene".
 void ask_unsaved(Editor& editor, const char* doing, Then then);
 
@@ -23,17 +23,17 @@ void save_as(Editor& editor, Then then = {});
 void revert(Editor& editor);
 void export_dialog(PanelContext& editor);
 void save_image_dialog(PanelContext& editor);
-// What could not be written, and why, with the ways out of it: a note that fades would be missed, and work lost.
+// What could not be written, why, and how to proceed: a fading notice would be missed, and work lost.
 struct WriteFailure {
     std::string title, reason; // "The project was not saved"
-    std::function<void()> again; // the same once more
+    std::function<void()> again; // retries
     std::function<void()> elsewhere; // asks for another place
 };
 void show_failure(PanelContext& editor, WriteFailure failure);
 void recent_menu(PanelContext& editor); // a submenu
 // The scene at its film's full size, by a renderer of its own in the background, while editing goes on.
 void final_render_dialog(PanelContext& editor);
-// At the start, when an earlier one ended with unsaved work; nothing when there is none.
+// At the start, if an earlier run ended with unsaved work; else does nothing.
 void offer_recovery(Editor& editor);
 
 } // namespace restage::editor

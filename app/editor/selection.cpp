@@ -16,7 +16,7 @@ void Selection::set(std::span<const InstanceId> ids, Mode mode) {
     const std::unordered_set<InstanceId> given(ids.begin(), ids.end());
     std::erase_if(instances_, [&](InstanceId id) { return given.contains(id) && members_.erase(id) > 0; });
     if (mode == Mode::toggle && all_there) return;
-    // Each once; of repeated ones the last place counts, as the last of all is the active one.
+    // Each once; of duplicates the last position counts, as the very last is the active one.
     const std::size_t before = instances_.size();
     for (auto id = ids.rbegin(); id != ids.rend(); ++id)
         if (members_.insert(*id).second) instances_.push_back(*id);

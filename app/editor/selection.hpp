@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selection: what the user has picked. No part of the document: it is in no history and no file. Objects in a group are
+// Selection: what the user has picked. Not part of the document, its history or any file. Objects in a group are
 // picked together until the group is entered.
 #pragma once
 
@@ -32,7 +32,7 @@ class Selection {
     void set_light(scene::Id<scene::Light> light);
     void clear();
     void enter(GroupId group) { entered_ = group; }
-    // Forgets what is not there any more (after undo, delete).
+    // Forgets what no longer exists (after undo, delete).
     void prune(const scene::Scene& scene);
 
     // What a click on `id` means: the object itself, or all of its outermost group that is not entered.

@@ -11,7 +11,7 @@ constexpr std::size_t most_sizes = 8;
 }
 
 Texture::~Texture() {
-    IM_ASSERT(!ImGui::GetCurrentContext() && "the window goes before what it shows");
+    IM_ASSERT(!ImGui::GetCurrentContext() && "the window is destroyed before its textures");
     for (auto& [size, data] : sizes_)
         IM_DELETE(data);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture: pixels that Dear ImGui can draw. Uploading and freeing are its backend's affair.
+// Texture: pixels that Dear ImGui can draw. Its backend uploads and frees them.
 #pragma once
 
 #include <imgui.h>
@@ -11,8 +11,8 @@
 
 namespace restage::editor {
 
-// A picture whose size changes often (the viewport's): one texture a size is kept, so that going back and forth between
-// coarse and fine makes none. It outlives the window, whose end frees what is on the device.
+// A picture whose size changes often (the viewport's): one texture per size is kept, so that switching between
+// coarse and fine creates none. It outlives the window, whose end frees the device's copies.
 class Texture {
   public:
     Texture() = default;

@@ -20,7 +20,7 @@ void apply_theme(float scale, const std::filesystem::path& fonts, std::span<cons
         ImFontConfig config;
         config.MergeMode = true;
         config.FontNo = static_cast<ImU32>(font.face);
-        config.Flags |= ImFontFlags_NoLoadError; // it is a help, and no reason to stop
+        config.Flags |= ImFontFlags_NoLoadError; // optional: not a reason to fail
         io.Fonts->AddFontFromFileTTF(font.file.string().c_str(), 15.f, &config);
     }
 
@@ -46,7 +46,7 @@ void apply_theme(float scale, const std::filesystem::path& fonts, std::span<cons
     style.WindowMenuButtonPosition = ImGuiDir_None;
     style.DisabledAlpha = 0.45f;
 
-    // Neutral greys: colours of the picture are judged beside them.
+    // Neutral greys, so as not to bias how the picture's colours are seen.
     ImGui::StyleColorsDark();
     ImVec4* c = style.Colors;
     c[ImGuiCol_Text] = grey(0.90f);

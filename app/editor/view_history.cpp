@@ -5,7 +5,7 @@ namespace restage::editor {
 
 namespace {
 
-constexpr std::size_t most = 200; // places
+constexpr std::size_t most = 200; // entries
 
 } // namespace
 

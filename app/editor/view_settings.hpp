@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ViewSettings: how things are shown; no part of the document, so none of it is undone or restarts the picture.
+// ViewSettings: how things are shown; not part of the document, so none of it is undone or restarts the picture.
 #pragma once
 
 #include "preferences.hpp"

@@ -46,7 +46,7 @@ void Viewport::draw(PanelContext& e) {
         draw->AddImage(picture_.ref(), corner, end);
     } else if (e.scene().instances.live() == 0 && !e.opening().running()) {
         draw_welcome(e, origin, space);
-    } else if (e.scene().instances.live() > 0) { // a picture is on its way: draw_progress() says how far
+    } else if (e.scene().instances.live() > 0) { // a picture is coming: draw_progress() shows how far along
         draw->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));
     }
     GizmoState gizmo;
@@ -56,7 +56,7 @@ void Viewport::draw(PanelContext& e) {
         gizmo = draw_gizmo(e, corner, size);
         if (cone_held_) gizmo.wants_mouse = true;
     }
-    // No button: ImGuizmo takes no click while an item is hovered, or was a frame ago.
+    // Not a button: ImGuizmo ignores clicks while an item is hovered, or was a frame ago.
     ImGui::SetCursorScreenPos(corner);
     ImGui::Dummy(size);
     e.mark("picture");
@@ -99,7 +99,7 @@ InstanceId Viewport::instance_at(const PanelContext& e, ImVec2 screen) const {
 
 void Viewport::update_textures(PanelContext& e) {
     const auto frame = e.shown_frame();
-    if (!frame) { // another scene, of which nothing is there yet
+    if (!frame) { // another scene, with no picture yet
         drawn_ = nullptr;
         picture_.hide();
         outline_.hide();
@@ -121,7 +121,7 @@ void Viewport::update_textures(PanelContext& e) {
     // Outlines: the edge of what is selected or hovered, from the instance ids.
     OutlineKey key{frame.get(), e.selection.instances(), {}};
     if (e.scene().instances.find(e.drop_target_before))
-        key.hovered = {e.drop_target_before}, key.selected.clear(); // it alone
+        key.hovered = {e.drop_target_before}, key.selected.clear(); // the drop target alone
     else if (e.scene().instances.find(e.hovered_before) && frame->divider <= 2)
         key.hovered = e.selection.click_target(e.scene(), e.hovered_before);
     if (key == outlined_) return;
@@ -158,8 +158,8 @@ void Viewport::draw_overlays(PanelContext& e) {
 // --- picking
 // -----------------------------------------------------------------------------------------------------------
 
-// Dragged to the right, a box takes what is seen in it and nowhere else, so that neither the floor nor the wall behind
-// comes with it; dragged to the left, all that is seen in it. As CAD programs have it.
+// Dragged to the right, a box takes what is visible in it and nowhere else, so that neither the floor nor the wall
+// behind comes along; dragged to the left, all that is visible in it. As in CAD programs.
 std::vector<InstanceId> Viewport::in_box(const PanelContext& e, ImVec2 from, ImVec2 to) const {
     std::vector<InstanceId> ids;
     if (!drawn_) return ids;
@@ -175,7 +175,7 @@ std::vector<InstanceId> Viewport::in_box(const PanelContext& e, ImVec2 from, ImV
             if (id < seen.size()) seen[id] |= inside ? 1 : 2;
         }
     const bool whole = to.x >= from.x;
-    std::set<std::uint32_t> taken; // groups, each looked at once
+    std::set<std::uint32_t> taken; // groups, each checked once
     for (std::uint32_t value = 0; value < seen.size(); ++value) {
         const InstanceId id{value};
         if (!(seen[value] & 1) || e.locked.contains(value) || !e.scene().instances.find(id)) continue;
@@ -198,7 +198,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        // Into the group; on nothing, or a single object: what is there becomes the centre of orbits.
+        // Into the group; on nothing, or on a single object: the point there becomes the centre of orbits.
         const InstanceId id = pickable(picked_at(e, io.MousePos));
         if (const GroupId group = e.selection.click_group(e.scene(), id)) {
             e.selection.enter(group);
@@ -252,7 +252,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         return;
     }
     InstanceId id = pickable(picked_at(e, io.MousePos));
-    // The same place again, with what was picked there still selected: what is behind.
+    // The same place again, with what was picked there still selected: picks what is behind.
     const bool again = !e.selection.instances().empty() &&
                        std::abs(io.MousePos.x - last_click_.x) + std::abs(io.MousePos.y - last_click_.y) < 3;
     behind_ = again && mode == Selection::Mode::replace ? behind_ + 1 : 0;
@@ -263,7 +263,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
                                              [&](InstanceId hit) { return e.locked.contains(hit.value); });
         // Each thing that can be picked once, however many parts of it the ray meets.
         std::vector<InstanceId> targets;
-        std::set<std::pair<std::uint32_t, std::uint32_t>> seen; // group, or object where there is none
+        std::set<std::pair<std::uint32_t, std::uint32_t>> seen; // group, or the object if it has none
         for (const query::RayHit& hit : hits) {
             const GroupId group = e.selection.click_group(e.scene(), hit.instance);
             if (seen.insert({group.value, group ? 0 : hit.instance.value}).second) targets.push_back(hit.instance);

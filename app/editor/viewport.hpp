@@ -26,7 +26,7 @@ class Viewport {
     // The picture's rectangle on screen, of the last frame.
     ImVec2 corner{0, 0}, size{1, 1};
     Drag gizmo_drag; // of the handles
-    // Where a screen point lies in the picture: (0,0) top left, (1,1) bottom right.
+    // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object seen there in the shown picture; none outside.
     InstanceId instance_at(const PanelContext& editor, ImVec2 screen) const;
@@ -35,7 +35,7 @@ class Viewport {
     bool shows_clean() const { return drawn_ && drawn_->denoised && drawn_->divider <= 2; }
     bool navigating() const { return navigation_ != Navigation::none; }
     bool dragging() const; // what is selected, or a box
-    void cancel(PanelContext& editor); // the drag that runs; until all is let go, the mouse and T do nothing more
+    void cancel(PanelContext& editor); // the running drag; until all is released, the mouse and T do nothing else
 
   private:
     enum class Navigation { none, orbit, pan, dolly, fly };
@@ -49,11 +49,11 @@ class Viewport {
     void draw_status(PanelContext& editor);
     void draw_progress(PanelContext& editor); // over the picture, while a scene is opened and prepared
     void draw_darkness(PanelContext& editor); // over a scene without light
-    void draw_hint(PanelContext& editor); // until the first gesture of somebody's first start
-    void draw_welcome(PanelContext& editor, ImVec2 origin, ImVec2 space); // where there is no scene
+    void draw_hint(PanelContext& editor); // at a user's first start, until the first gesture
+    void draw_welcome(PanelContext& editor, ImVec2 origin, ImVec2 space); // without a scene
     void navigate(PanelContext& editor, bool over);
     void pick(PanelContext& editor, bool over, const GizmoState& gizmo);
-    bool can_drag(const PanelContext& editor, ImVec2 screen) const; // something selected is there
+    bool can_drag(const PanelContext& editor, ImVec2 screen) const; // over something selected
     void start_sliding(PanelContext& editor, ImVec2 screen);
     void slide(PanelContext& editor);
     std::vector<InstanceId> in_box(const PanelContext& editor, ImVec2 from, ImVec2 to) const;
@@ -82,12 +82,12 @@ class Viewport {
     bool pressed_ = false, boxing_ = false, sticking_ = false;
     bool on_knob_ = false; // the knob was pressed
     bool cone_held_ = false; // the handle of a spot's cone
-    bool cancelled_ = false; // until all buttons, and T, are up
+    bool cancelled_ = false; // until all buttons and T are released
     ImVec2 last_click_{-1, -1};
     std::size_t behind_ = 0; // how often the same point was clicked
 };
 
-// What is said at the picture's corner. `compiling`: a material whose code is not ready; "" = none.
+// The text at the picture's corner. `compiling`: a material whose code is not ready; "" = none.
 std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera);
 
 } // namespace restage::editor

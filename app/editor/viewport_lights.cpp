@@ -19,7 +19,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t rim_points = 48;
 
-// Where a point falls on the screen; none behind the camera.
+// A point's place on the screen; none behind the camera.
 std::optional<ImVec2> on_screen(const PanelContext& e, const Viewport& v, const glm::dvec3& world) {
     const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
     if (!(p.z > 0) || std::abs(p.x) > 1e4 || std::abs(p.y) > 1e4) return std::nullopt;
@@ -34,7 +34,7 @@ struct Cone {
     }
 };
 
-// As long as it is to what it shines on, but for wide ones, whose rim would be far out.
+// Reaches to what it shines on; shorter for wide ones, whose rim would be far out.
 Cone cone_of(const PanelContext& e, const scene::Light& light) {
     const glm::dmat4& m = light.light_to_world;
     Cone cone{.tip = glm::dvec3(m[3]), .x = {}, .y = {}, .z = glm::normalize(glm::dvec3(m[2]))};
@@ -135,7 +135,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!cone_held_ && !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) return;
     cone_held_ = true;
-    // Where the mouse is on the plane of the rim.
+    // The mouse on the plane of the rim.
     const query::ViewRay ray = query::view_ray(e.camera(), film_point(mouse), e.film_aspect());
     const double t = glm::dot(cone.tip + cone.z * cone.length - ray.origin, cone.z) / glm::dot(ray.direction, cone.z);
     if (!std::isfinite(t) || t <= 0) return;
@@ -146,7 +146,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     e.edit(
         [id, angle](const scene::Scene& s) {
             const scene::Light* now = s.lights.find(id);
-            if (!now) return Result<scene::Edit>(fail("the light is not there any more"));
+            if (!now) return Result<scene::Edit>(fail("the light no longer exists"));
             scene::Light changed = *now;
             changed.cone_angle = angle;
             changed.cone_delta = std::min(changed.cone_delta, angle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mouse and WASD do to the view, or to the camera where it is not locked. Every gesture is one step of its
+// What the mouse and WASD do to the view, or to the camera if it is not locked. Every gesture is one step of its
 // history.
 #include "panel_context.hpp"
 #include "query/navigation.hpp"
@@ -18,7 +18,7 @@ glm::dvec3 Viewport::pivot(const PanelContext& e) const {
     if (orbit_center_) return *orbit_center_;
     const scene::Bounds chosen = e.selection.bounds(e.scene());
     if (!chosen.empty()) return chosen.center();
-    // What is in the middle of the picture; else somewhere in the scene.
+    // The point in the middle of the picture; else a point in the scene.
     const query::ViewRay ray = query::view_ray(e.camera(), {0.5, 0.5}, e.film_aspect());
     if (drawn_ && !drawn_->image.depth.empty()) {
         const auto& image = drawn_->image;
@@ -42,7 +42,7 @@ void Viewport::navigate(PanelContext& e, bool over) {
         else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
             navigation_ = alt ? Navigation::dolly : Navigation::fly;
         else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt && !on_knob_)
-            navigation_ = Navigation::orbit; // wherever it begins: looking around changes nothing. Handles lift
+            navigation_ = Navigation::orbit; // wherever it begins: looking around changes nothing. On handles Alt lifts
     }
     const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ||
                       ImGui::IsMouseDown(ImGuiMouseButton_Right);
@@ -55,7 +55,7 @@ void Viewport::navigate(PanelContext& e, bool over) {
     scene::Camera camera = e.camera();
     const glm::dvec2 delta(io.MouseDelta.x / size.y, io.MouseDelta.y / size.y); // of the picture's height
     const bool moved = delta.x != 0 || delta.y != 0;
-    // The world turns with the mouse: the camera goes the other way. Mirrored cameras see it the other way round.
+    // The world turns with the mouse: the camera moves the other way. Mirrored cameras see it the other way round.
     const bool mirrored = glm::determinant(glm::dmat3(camera.camera_to_world)) < 0;
     const double turn = mirrored ? -3.0 : 3.0; // [rad] a picture height
     switch (navigation_) {
@@ -110,7 +110,7 @@ void Viewport::navigate(PanelContext& e, bool over) {
         }
         query::dolly(camera, ray.origin + glm::normalize(ray.direction) * distance,
                      1 - std::pow(0.88, double(io.MouseWheel)));
-        // Turns of the wheel that follow each other are one step.
+        // Consecutive turns of the wheel are one step.
         if (ImGui::GetTime() - wheel_time_ > 0.7) e.end_gesture();
         wheel_time_ = ImGui::GetTime();
         set_camera(e, camera, "wheel");

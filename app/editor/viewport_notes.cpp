@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewport says around and over the picture: the toolbar, its state, how to begin.
+// What the viewport shows around and over the picture: the toolbar, its state, how to begin.
 #include "actions.hpp"
 #include "files.hpp"
 #include "opening.hpp"
@@ -20,7 +20,7 @@ namespace restage::editor {
 
 namespace {
 
-// Of what is dragged with Ctrl held; remembered with the preferences.
+// Snap steps of drags with Ctrl; kept in the preferences.
 void draw_steps(PanelContext& e) {
     if (!ImGui::BeginPopup("steps")) return;
     dialog_width(230);
@@ -44,7 +44,7 @@ void draw_steps(PanelContext& e) {
 void Viewport::draw_toolbar(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain, margin = 6 * scale;
     ImGui::SetCursorPos({margin, ImGui::GetCursorPosY() + 4 * scale});
-    // What does not fit goes to the next line; `joined` ones stand close together.
+    // Items that do not fit wrap to the next line; `joined` ones stand close together.
     const auto next = [&](float width, bool joined = false) {
         ImGui::SameLine(0, joined ? 2 * scale : -1);
         if (ImGui::GetContentRegionAvail().x >= width + margin) return;
@@ -86,7 +86,7 @@ void Viewport::draw_toolbar(PanelContext& e) {
         layers.push_back(choice.label);
     }
     if (combo("##layer", layer, layers, 96,
-              "What is shown: the picture, what the denoiser goes by (surface colours, normals, distance), objects and "
+              "What is shown: the picture, the denoiser's guides (surface colours, normals, distance), objects and "
               "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
               "toolbar.layer"))
         e.view.display.layer = view::layer_choices()[std::size_t(layer)].name;
@@ -104,7 +104,7 @@ void Viewport::draw_toolbar(PanelContext& e) {
         e.view.display.tone = view::ToneCurve(tone);
 }
 
-// Of the picture that is shown, not of the one that is being made.
+// For the shown picture, not for the one being rendered.
 std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera) {
     const std::uint32_t samples = std::max(shown.image.samples, 1u);
     std::string text = fmt::format("{} × {}, {} sample{} a pixel", shown.image.width, shown.image.height, samples,
@@ -164,10 +164,10 @@ void Viewport::draw_progress(PanelContext& e) {
         ImGui::Text("Compiling %zu shader%s", most_compiling_, most_compiling_ == 1 ? "" : "s");
         ImGui::ProgressBar(float(done) / float(most_compiling_), {-1, 0}, status.compiling.c_str());
     } else {
-        // Nobody knows how long: a bar without an end. It need not move; frames are drawn when there is news.
+        // Duration unknown: an indeterminate bar. It need not move; frames are drawn on events.
         ImGui::TextUnformatted(status.state == view::ViewState::starting ? "Starting the renderer"
                                                                          : "Preparing the scene");
-        ImGui::ProgressBar(0, {-1, 0}, drawn_ ? "the first picture is being made" : "reading geometry and textures");
+        ImGui::ProgressBar(0, {-1, 0}, drawn_ ? "rendering the first picture" : "reading geometry and textures");
     }
     e.mark("progress");
     ImGui::EndChild();

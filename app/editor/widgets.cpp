@@ -21,7 +21,7 @@ void form_row(const char* label, const char* tooltip, float right) {
     const float room = above ? all : column - gap;
     const bool cut = ImGui::CalcTextSize(label).x > room;
     ImGui::AlignTextToFramePadding();
-    if (cut) { // an ellipsis says that there is more
+    if (cut) { // an ellipsis marks the cut
         const ImVec2 size(room, ImGui::GetTextLineHeight());
         const float y = at.y + ImGui::GetStyle().FramePadding.y;
         ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), {at.x, y}, {at.x + size.x, y + size.y}, at.x + size.x,
@@ -177,7 +177,7 @@ void searched_list(std::string& search, std::size_t count, const std::function<s
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < count; ++i)
         if (contains_word(name(i), search)) found.push_back(i);
-    if (found.empty()) ImGui::TextDisabled("Nothing is called that.");
+    if (found.empty()) ImGui::TextDisabled("Nothing matches.");
     const float height = row_height > 0 ? row_height : ImGui::GetTextLineHeightWithSpacing();
     if (!ImGui::BeginChild("list",
                            {std::max(ImGui::GetContentRegionAvail().x, 220 * ImGui::GetStyle().FontScaleMain),
@@ -203,7 +203,7 @@ bool name_field(const char* id, std::string& name) {
 }
 
 std::string choice_label(std::string_view choice) {
-    if (choice == "ggx") return "GGX"; // its inventors' name for it
+    if (choice == "ggx") return "GGX"; // its authors' spelling
     if (choice.empty()) return "";
     std::string label(choice);
     if (std::none_of(label.begin(), label.end(), [](char c) { return c >= '0' && c <= '9'; })) // not "v4"

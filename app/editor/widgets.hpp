@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Widgets that panels share: rows of a form, icons, lists with a search field. What a plugin's table declares has its
-// widgets in param_widget.hpp.
+// Widgets that panels share: rows of a form, icons, lists with a search field. Widgets of plugin parameters are in
+// param_widget.hpp.
 #pragma once
 
 #include <imgui.h>
@@ -13,13 +13,13 @@ namespace restage::editor {
 // A row of a form: the label in the left column with its tooltip; the next item fills the rest of the line but `right`
 // pixels. Labels that do not fit are cut and shown in full by the tooltip.
 void form_row(const char* label, const char* tooltip = nullptr, float right = 0);
-// At the begin of a dialog: how wide it is, where the window has room [at scale 1].
+// At the start of a dialog: its width, if the window has room [at scale 1].
 void dialog_width(float width);
 // The header of a section that can be folded away, in a neutral colour: orange is for what is selected.
 bool section_header(const char* label, bool open_at_first = false);
 // The tooltip of the last item, also of a disabled one.
 void tip(const char* text);
-// What a panel says when it has nothing to show: wrapped, dim.
+// A panel's text when it has nothing to show: wrapped, dim.
 void empty_note(const char* text);
 // Wrapped text with the colour of a warning.
 void warning_note(const char* text);
@@ -30,23 +30,23 @@ enum class Icon { eye, eye_closed, lock, lock_open, texture, light, camera, sky,
 bool icon_button(const char* id, Icon icon, bool on, const char* tooltip);
 void draw_icon(ImDrawList* draw, Icon icon, ImVec2 corner, float size, ImU32 color);
 
-// Whether `word` is in `text`, whatever the case. "" is in everything.
+// Whether `word` is in `text`, ignoring case. "" is in everything.
 bool contains_word(std::string_view text, std::string_view word);
-// The next item, so wide, stands beside the last one, or on the next line where the window ends.
+// Puts the next item, this wide, beside the last one, or on the next line where the window ends.
 void flow(float width);
 float check_width(const char* label); // of a checkbox or radio button
 // Buttons after each other, going to the next line where the window ends.
 bool flow_button(const char* label, bool first = false);
 
 // A field for a list that is long: draws "search" and calls row(i) for the names that match, virtualised. Between
-// BeginCombo/BeginPopup and their end. `search` is the caller's, and emptied when the list appears.
+// BeginCombo/BeginPopup and their end. `search` belongs to the caller, and is emptied when the list appears.
 void searched_list(std::string& search, std::size_t count, const std::function<std::string_view(std::size_t)>& name,
                    const std::function<void(std::size_t)>& row, float row_height = 0); // 0 = a line of text
 
-// A name that can be typed over. True once a new one is given, not while it is typed.
+// An editable name. True once a new one is given, not while it is typed.
 bool name_field(const char* id, std::string& name);
 
-// A choice of a plugin's table ("ggx", "repeat") as it is shown.
+// Display text of a choice of a plugin's table ("ggx", "repeat").
 std::string choice_label(std::string_view choice);
 
 // How fast a drag changes a value of this magnitude.

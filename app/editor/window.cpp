@@ -21,14 +21,14 @@
 #include <dlfcn.h>
 #endif
 
-// Of Dear ImGui's backend; not in its header.
+// Part of Dear ImGui's backend, but not in its header.
 ImGuiKey ImGui_ImplGlfw_KeyToImGuiKey(int keycode, int scancode);
 
 namespace restage::editor {
 
 namespace {
 
-// What Dear ImGui's backend has no way to return.
+// Errors that Dear ImGui's backend cannot return.
 VkResult last_failure = VK_SUCCESS; // [main]
 void note_failure(VkResult result) {
     if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) last_failure = result;
@@ -55,7 +55,7 @@ struct Window::Impl {
     std::vector<ImGuiKeyChord> keys;
     float scale = 1;
     bool imgui = false, imgui_glfw = false, imgui_vulkan = false;
-    bool stale = false; // the swapchain does not fit the window any more
+    bool stale = false; // the swapchain no longer fits the window
     int settling = 0;   // frames that should follow soon
 
     ~Impl() {
@@ -91,7 +91,7 @@ struct Window::Impl {
         return {};
     }
 
-    // The part of the window that has to be drawn [pixel]; none when all of it is as it was.
+    // The part of the window that has to be drawn [pixel]; none if nothing changed.
     std::optional<VkRect2D> take_damage(ImDrawData& draw) {
         ImRect rect = damage.update(draw);
         const bool textures = draw.Textures && std::ranges::any_of(*draw.Textures, [](const ImTextureData* texture) {
@@ -100,7 +100,7 @@ struct Window::Impl {
         const ImVec2 density = draw.FramebufferScale, corner = draw.DisplayPos;
         if (rect.Min.x >= rect.Max.x) {
             if (!textures) return {};
-            rect = {corner, {corner.x + 1, corner.y + 1}}; // the backend has textures to free: a pixel will do
+            rect = {corner, {corner.x + 1, corner.y + 1}}; // the backend has textures to free: one pixel is enough
         }
         Damage::clip(draw, rect);
         const int x0 = std::clamp(int((rect.Min.x - corner.x) * density.x), 0, swap.Width - 1),
@@ -185,7 +185,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
             self.dropped.emplace_back(paths[i]);
     });
 
-    // What was covered has to be shown again.
+    // An exposed window must be shown again.
     glfwSetWindowRefreshCallback(impl->window, [](GLFWwindow* window) {
         static_cast<Impl*>(glfwGetWindowUserPointer(window))->damage.forget();
     });
@@ -210,7 +210,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     device_options.device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
     RESTAGE_TRY(impl->device, gpu::Device::create(device_options, log));
     gpu::Device& device = *impl->device;
-    // Dear ImGui's backend calls volk's globals; everybody else has a table, so they can be this device's.
+    // Dear ImGui's backend calls volk's globals; all other code has a table, so they can be this device's.
     volkLoadDevice(device.handle());
 
     if (const VkResult result = glfwCreateWindowSurface(device.instance(), impl->window, nullptr, &impl->surface);
@@ -233,9 +233,9 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     ImPlot::CreateContext();
     impl->imgui = true;
     ImGuiIO& io = ImGui::GetIO();
-    io.ConfigFlags |= ImGuiConfigFlags_DockingEnable; // keys are the editor's: its own shortcuts, not menu navigation
+    io.ConfigFlags |= ImGuiConfigFlags_DockingEnable; // keys serve the editor's shortcuts, not menu navigation
     io.ConfigWindowsMoveFromTitleBarOnly = true;
-    io.MouseDoubleClickTime = 0.5f; // as desktops have it; 0.3 s loses clicks when frames are slow
+    io.MouseDoubleClickTime = 0.5f; // the usual desktop value; 0.3 s loses clicks when frames are slow
     io.MouseSingleClickDelay = 0.6f;
     float monitor_scale = 1;
     glfwGetWindowContentScale(impl->window, &monitor_scale, nullptr);
@@ -280,8 +280,8 @@ Result<bool> Window::begin_frame() {
 }
 
 Result<void> Window::end_frame() {
-    // Dear ImGui spreads what came at once (a press and its release) over frames, and what a click opens finds its size
-    // and place in the frames after it.
+    // Dear ImGui spreads simultaneous events (a press and its release) over frames, and what a click opens settles its
+    // size and place in the next frames.
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     const bool input = !context.InputEventsQueue.empty() || !context.InputEventsTrail.empty();
     impl_->settling = input ? 3 : std::max(impl_->settling - 1, 0);
@@ -307,7 +307,7 @@ bool Window::input_waits() const {
 bool Window::close_requested() const { return glfwWindowShouldClose(impl_->window); }
 bool Window::display_gone() const {
 #if defined(__linux__)
-    // Both by name: a GLFW that knows no Wayland has no such function.
+    // Both looked up by name: a GLFW without Wayland lacks the function.
     using Get = void* (*)();
     using Error = int (*)(void*);
     static const auto get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "glfwGetWaylandDisplay"));

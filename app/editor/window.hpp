@@ -36,18 +36,18 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Waits for events, at most so long [s]; wake() from any thread ends the wait.
+    // Waits for events, at most this long [s]; wake() from any thread ends the wait.
     void wait(double seconds);
     static void wake();
 
-    Result<bool> begin_frame(); // false = there is nothing to draw on (minimised)
+    Result<bool> begin_frame(); // false = nothing to draw on (minimised)
     Result<void> end_frame();
-    // More frames should follow soon: input waits for one, or what came has not had all its effects yet.
+    // More frames should follow soon: input is pending, or has not taken full effect yet.
     bool unsettled() const;
 
     // Keys pressed since the last call, each with the modifiers it was pressed with. Dear ImGui sees modifiers as they
-    // are a frame later, which loses "Ctrl+Z" typed fast while a frame is slow. None while a click before them is still
-    // to be answered: it may be into a field that they are typed into.
+    // are a frame later, which loses "Ctrl+Z" typed fast while a frame is slow. None while an earlier click is still
+    // unprocessed: it may focus the field that they are typed into.
     std::vector<ImGuiKeyChord> take_keys();
     bool input_waits() const; // Dear ImGui takes some events a frame later than others
 

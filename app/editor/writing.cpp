@@ -159,7 +159,7 @@ void export_dialog(PanelContext& e) {
         const auto& exporters = editor.registry().exporters();
         const model::Exporter& exporter = *exporters[state->exporter].table;
         dialog_width(360);
-        form_row("Format", "Of the file, by the exporter plugins that are loaded");
+        form_row("Format", "The file's format, from the loaded exporter plugins");
         if (ImGui::BeginCombo("##format", exporter.label.c_str())) {
             for (std::size_t i = 0; i < exporters.size(); ++i)
                 if (ImGui::Selectable(exporters[i].table->label.c_str(), i == state->exporter)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CopyOnWrite<T>: a value that its copies share until one of them changes it. Each holder is used by one thread at a
-// time, as any value; different holders of the same value may be read, changed and destroyed on different threads.
+// CopyOnWrite<T>: a value that copies share until one of them changes it. Each holder is used by one thread at a
+// time, like any value; different holders of the same value may be read, changed and destroyed on different threads.
 #pragma once
 
 #include <atomic>
@@ -31,13 +31,13 @@ class CopyOnWrite {
     const T& operator*() const { return box_->value; }
     const T* operator->() const { return &box_->value; }
 
-    // The value, to be changed; copied first when others hold it, too. With one holder nobody else can become one
-    // meanwhile; `acquire` is for what the last other one read before it let go.
+    // The value for writing; copied first if shared. With a single holder no other can appear
+    // meanwhile; `acquire` orders the last other holder's reads before our writes.
     T& own() {
         if (box_->holders.load(std::memory_order_acquire) != 1) *this = CopyOnWrite(box_->value);
         return box_->value;
     }
-    void assign(T value) { // the same without a copy of the old value
+    void assign(T value) { // likewise, without copying the old value
         if (box_ && box_->holders.load(std::memory_order_acquire) == 1)
             box_->value = std::move(value);
         else

@@ -28,7 +28,7 @@ struct Fatal {
     struct sigaction before;
 };
 
-// A signal handler has no object to belong to: what it needs is here, and only here.
+// A signal handler belongs to no object: its state is global, here and only here.
 thread_local const CrashNote* current = nullptr;
 std::array<Fatal, 5> fatal{{{SIGSEGV, "SIGSEGV", {}},
                             {SIGBUS, "SIGBUS", {}},
@@ -45,7 +45,7 @@ void put(int file, const char* text, std::size_t size) {
     }
 }
 
-// Only what is async-signal-safe.
+// Async-signal-safe calls only.
 void on_fatal(int number) {
     const Fatal* which = nullptr;
     for (const Fatal& f : fatal)
@@ -60,7 +60,7 @@ void on_fatal(int number) {
             ::close(file);
         }
     }
-    // What was to happen before happens now: a fault comes again when this returns, an abort() goes on by itself.
+    // The previous action takes its course: a fault recurs when this returns, abort() proceeds by itself.
     if (which) sigaction(number, &which->before, nullptr);
 }
 

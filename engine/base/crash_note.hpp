@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// CrashNote: who is to blame if this thread crashes now. While one lives, a fatal signal of its thread (SIGSEGV,
-// SIGBUS, SIGILL, SIGFPE, SIGABRT) writes a note into a file before the program ends as it would have ended; nothing is
-// written otherwise. POSIX; elsewhere it does nothing. Not for crashes of other threads, nor of an overflowed stack.
+// CrashNote: what to blame if this thread crashes now. While one exists, a fatal signal on its thread (SIGSEGV,
+// SIGBUS, SIGILL, SIGFPE, SIGABRT) writes a note to a file before the program terminates as usual; nothing is
+// written otherwise. POSIX; elsewhere it does nothing. Covers neither other threads nor stack overflow.
 #pragma once
 
 #include <string>
 
 namespace restage {
 
-// The file to write, whose folder must exist, and what it will hold before a line with the signal's name.
+// The file to write, whose folder must exist, and its text, followed by a line with the signal's name.
 struct Blame {
-    std::string file, text; // empty: nobody is to blame
+    std::string file, text; // empty: nothing to blame
 };
 
 class CrashNote {
@@ -23,7 +23,7 @@ class CrashNote {
 
   private:
     Blame blame_;
-    const CrashNote* outer_ = nullptr; // of this thread, while this one lives
+    const CrashNote* outer_ = nullptr; // the thread's enclosing note
 };
 
 } // namespace restage

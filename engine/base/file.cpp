@@ -47,7 +47,7 @@ bool flush_to_disk(std::FILE* file) {
 #endif
 }
 
-// After a rename the folder's entry has to reach the disk too. File systems that cannot do it are not worse off.
+// After a rename the folder's entry has to reach the disk too. Where file systems cannot do it, nothing is lost.
 void flush_folder(const fs::path& folder) {
 #if !defined(_WIN32)
     const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -87,10 +87,10 @@ Result<RegularFile> RegularFile::open(const fs::path& path) {
     if (!file) return fail(path.string() + ": cannot be opened: " + reason(errno));
     return RegularFile(path, file, fs::file_size(path, code));
 #else
-    // O_NONBLOCK: a pipe without a writer, or a device, must not keep us in open; of regular files it means nothing.
+    // O_NONBLOCK: a pipe without a writer, or a device, must not block open; it has no effect on regular files.
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (fd < 0) {
-        if (errno == ENXIO) return is("a socket or a device"); // what cannot be opened at all
+        if (errno == ENXIO) return is("a socket or a device"); // not openable at all
         return fail(path.string() + ": cannot be opened: " + reason(errno));
     }
     struct stat info{};
@@ -116,7 +116,7 @@ std::FILE* RegularFile::release() { return std::exchange(file_, nullptr); }
 
 Result<std::string> RegularFile::read(std::uint64_t most) {
     std::string bytes;
-    bytes.resize(static_cast<std::size_t>(std::min(most, size_))); // a guess: files grow, and in /proc none has a size
+    bytes.resize(static_cast<std::size_t>(std::min(most, size_))); // a guess: files grow, and /proc reports size 0
     std::size_t filled = 0;
     while (filled < most) {
         if (filled == bytes.size())
@@ -138,7 +138,7 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t most) {
     };
     if (file.size() > most) return too_large(file.size());
     RESTAGE_TRY(std::string bytes, file.read(most + 1));
-    if (bytes.size() > most) return too_large(bytes.size()); // it grew, or had not said
+    if (bytes.size() > most) return too_large(bytes.size()); // it grew, or its size was not reported
     return bytes;
 }
 
@@ -165,15 +165,15 @@ AtomicFile::~AtomicFile() {
 }
 
 Result<AtomicFile> AtomicFile::create(const fs::path& path) {
-    static std::atomic<unsigned> counter{0}; // several writers of one name in one process
+    static std::atomic<unsigned> counter{0}; // one process may have several writers of one name
 #if defined(_WIN32)
     const auto process = static_cast<unsigned long>(GetCurrentProcessId());
 #else
     const auto process = static_cast<unsigned long>(getpid());
 #endif
     std::error_code code;
-    const fs::file_status kind = fs::status(path, code); // what a link leads to
-    if (fs::exists(kind) && !fs::is_regular_file(kind)) // a rename would take its place
+    const fs::file_status kind = fs::status(path, code); // follows links
+    if (fs::exists(kind) && !fs::is_regular_file(kind)) // a rename would replace it
         return fail(path.string() + ": is " +
                     (fs::is_directory(kind) ? "a folder"
                      : fs::is_fifo(kind)    ? "a pipe"

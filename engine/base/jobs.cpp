@@ -22,7 +22,7 @@ namespace {
 
 thread_local bool inside_loop = false;
 
-// Sets flush-to-zero (bit 15) and denormals-are-zero (bit 6) of MXCSR and restores what was there.
+// Sets flush-to-zero (bit 15) and denormals-are-zero (bit 6) of MXCSR and restores the previous state.
 class FlushDenormals {
   public:
 #if defined(RESTAGE_HAVE_MXCSR)
@@ -57,7 +57,7 @@ struct Loop {
     std::size_t count, grain;
     std::atomic<std::size_t> next{0};
     std::atomic<bool> failed{false};
-    std::exception_ptr error; // written once, by who sets `failed`
+    std::exception_ptr error; // written once, by the thread that sets `failed`
 
     void run(unsigned thread) {
         InsideLoop scope;
@@ -76,7 +76,7 @@ struct Loop {
 } // namespace
 
 struct Jobs::Pool {
-    std::mutex call; // held by the thread whose loop has the pool
+    std::mutex call; // held by the thread whose loop owns the pool
     std::mutex mutex;
     std::condition_variable wake, idle;
     Loop* loop = nullptr; // guarded by mutex, as is everything below
@@ -148,7 +148,7 @@ void Jobs::parallel_for(std::size_t count, std::size_t grain, const Body& f) {
             pool_->wake.notify_all();
         loop.run(0);
         std::unique_lock lock(pool_->mutex);
-        pool_->loop = nullptr; // whoever still sleeps does not join any more
+        pool_->loop = nullptr; // threads still asleep do not join any more
         pool_->idle.wait(lock, [&] { return pool_->running == 0; });
     }
     if (loop.error) std::rethrow_exception(loop.error);

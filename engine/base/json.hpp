@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading JSON that somebody else may have written. The library's parser has no recursion, but what is done with its
-// values (copies, comparisons, output, readers built on it) has: text nested too deep would end in a signal.
+// Reading untrusted JSON. The library's parser does not recurse, but what is done with its
+// values (copies, comparisons, output, readers built on it) does: text nested too deep would overflow the stack.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,16 +11,16 @@
 
 namespace restage {
 
-// What is nested deeper than this is refused; nothing this program reads is nested a tenth as deep.
+// Deeper nesting is refused; nothing this program reads is nested a tenth as deep.
 inline constexpr std::size_t most_json_depth = 256;
 
 // The byte at which the nesting of [ and { outside strings exceeds `most`, if it does. Never fails, whatever the text.
 std::optional<std::size_t> too_deep_json(std::string_view text, std::size_t most = most_json_depth);
 
-// "3:17" of a byte of a text; columns count bytes.
+// "3:17" for a byte offset in a text; columns count bytes.
 std::string line_and_column(std::string_view text, std::size_t byte);
 
-// Json: nlohmann::json or ordered_json. Errors: "3:17: not JSON: syntax error ...", for "file:" in front.
+// Json: nlohmann::json or ordered_json. Errors: "3:17: not JSON: syntax error ...", to follow "file:".
 template <class Json>
 Result<Json> parse_json(std::string_view text) {
     if (const auto at = too_deep_json(text))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The log: levelled lines to a sink that the owner of the process chooses (stderr by default). [any] thread.
-// It is handed around by reference; nothing is a global.
+// Passed by reference; there is no global.
 #pragma once
 
 #include <functional>

@@ -6,7 +6,7 @@
 namespace restage {
 Result<ProcessOutcome> run_process(const Process& process) {
     return fail((process.argv.empty() ? "" : process.argv[0]) +
-                ": running a program of its own with limits is not supported on Windows yet");
+                ": running a separate program with limits is not supported on Windows yet");
 }
 } // namespace restage
 
@@ -44,13 +44,13 @@ struct Pipe { // closed with its owner
     ~Pipe() { close_end(0), close_end(1); }
     bool open() {
 #if defined(__linux__)
-        if (::pipe2(fd.data(), O_CLOEXEC) != 0) return false; // at once: another thread may fork at any moment
+        if (::pipe2(fd.data(), O_CLOEXEC) != 0) return false; // atomically: another thread may fork at any moment
 #else
         if (::pipe(fd.data()) != 0) return false;
         for (const int end : fd)
             ::fcntl(end, F_SETFD, FD_CLOEXEC);
 #endif
-        for (int& end : fd) { // not where a child's own 0, 1 and 2 go, which we may have been started without
+        for (int& end : fd) { // not a child's 0, 1 or 2, which may have been closed when we started
             if (end > 2) continue;
             const int higher = ::fcntl(end, F_DUPFD_CLOEXEC, 3);
             if (higher < 0) return false;
@@ -63,7 +63,7 @@ struct Pipe { // closed with its owner
     }
 };
 
-// Cuts a stream into lines, or keeps its end.
+// Splits a stream into lines, or keeps its tail.
 struct Stream {
     const std::function<void(std::string_view)>& on_line;
     std::string& kept;
@@ -101,13 +101,13 @@ std::string signal_text(int number) {
     return (it == names.end() ? "signal " + std::to_string(number) : it->second) + " (" + ::strsignal(number) + ")";
 }
 
-// Between fork and exec only what POSIX calls async-signal-safe: other threads of ours may have held any lock.
+// Between fork and exec only async-signal-safe calls (POSIX): other threads may have held any lock.
 [[noreturn]] void become(char* const* argv, char* const* env, std::uint64_t memory_limit, pid_t parent, int out,
                          int err, int report) {
     ::setpgid(0, 0);
 #if defined(__linux__)
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(127); // it died before we asked
+    if (::getppid() != parent) ::_exit(127); // the parent died before prctl
 #else
     (void)parent;
 #endif
@@ -151,12 +151,12 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
     return result;
 }
 
-bool has_ended(pid_t child) { // without taking its number back, so that its group can still be killed
+bool has_ended(pid_t child) { // without reaping it, so that its group can still be killed
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
 }
 
-// Reads what there is. False at the end of the stream.
+// Reads what is available. False at the end of the stream.
 bool drain(int fd, Stream& stream, bool& heard) {
     std::array<char, 16384> bytes;
     while (true) {
@@ -170,19 +170,19 @@ bool drain(int fd, Stream& stream, bool& heard) {
 } // namespace
 
 Result<ProcessOutcome> run_process(const Process& process) {
-    if (process.argv.empty()) return fail("no program to run was named");
+    if (process.argv.empty()) return fail("no program given to run");
     std::vector<std::string> arguments = process.argv, environment = environment_of(process);
     const auto argv = pointers(arguments), env = pointers(environment);
     const auto system_error = [&](const char* doing, int code) {
         return fail(process.argv[0] + ": " + doing + ": " + std::strerror(code));
     };
     Pipe out, err, report;
-    if (!out.open() || !err.open() || !report.open()) return system_error("no pipe", errno);
+    if (!out.open() || !err.open() || !report.open()) return system_error("cannot create a pipe", errno);
     const auto start = Clock::now();
     const pid_t parent = ::getpid(), child = ::fork();
     if (child < 0) return system_error("cannot be started", errno);
     if (child == 0) become(argv.data(), env.data(), process.memory_limit, parent, out.fd[1], err.fd[1], report.fd[1]);
-    ::setpgid(child, child); // whoever of the two is first
+    ::setpgid(child, child); // whichever of the two comes first
     for (Pipe* pipe : {&out, &err, &report})
         pipe->close_end(1);
     int bad = 0;
@@ -219,7 +219,7 @@ Result<ProcessOutcome> run_process(const Process& process) {
         ::poll(polled, 2, polled[0].fd < 0 && polled[1].fd < 0 ? 5 : 50);
         if (read_all()) last_heard = Clock::now();
     }
-    ::kill(-child, SIGKILL); // also what it has started and left behind
+    ::kill(-child, SIGKILL); // also processes it started and left behind
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs another program (no shell in between), with what it prints captured, and with limits: for work that may crash,
-// hang or eat all memory, such as a stranger's plugin. POSIX; on Windows run_process is an error that says so.
+// Runs another program (no shell in between), with captured output and limits: for work that may crash,
+// hang or exhaust memory, such as an unknown plugin. POSIX; on Windows run_process is an error that says so.
 #pragma once
 
 #include "base/result.hpp"
@@ -18,13 +18,13 @@ namespace restage {
 
 struct Process {
     std::vector<std::string> argv; // argv[0] is the program's path
-    std::vector<std::pair<std::string, std::string>> environment; // set in addition to ours
+    std::vector<std::pair<std::string, std::string>> environment; // added to ours
     std::chrono::milliseconds time_limit{0};    // wall clock; 0 = none
     std::chrono::milliseconds silence_limit{0}; // between two lines of output; 0 = none
     std::uint64_t memory_limit = 0;             // bytes of address space; 0 = none
-    // Complete lines without their newline, on the calling thread. Where there is none, the output is kept instead.
+    // Complete lines without their newline, on the calling thread. If null, the output is kept instead.
     std::function<void(std::string_view line)> on_out, on_err;
-    const std::atomic<bool>* cancel = nullptr; // looked at every 50 ms
+    const std::atomic<bool>* cancel = nullptr; // polled every 50 ms
 };
 
 enum class ProcessEnd { exited, signalled, time_limit, silence_limit, cancelled };
@@ -39,7 +39,7 @@ struct ProcessOutcome {
     std::string what;
 };
 
-// Waits for its end. The program and all it has started are killed when a limit is reached, and when we end.
+// Waits for it to end. The program and all it started are killed when a limit is reached, and when we end.
 // Its standard input is empty. An error means that it could not be started at all.
 Result<ProcessOutcome> run_process(const Process&);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Result<T>: everything that can go wrong for reasons outside our code (files, plugins, shaders, a lost device).
-// Our own bugs are `assert`. An error gathers context on its way up: "scene.pbrt:41:3: shape: bunny.ply: truncated".
+// Our own bugs are `assert`. An error collects context on its way up: "scene.pbrt:41:3: shape: bunny.ply: truncated".
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace restage {
 
 enum class ErrorKind {
     failed,
-    cancelled // somebody asked for it to be stopped: nothing to tell who did
+    cancelled // stopped on request: nothing to report to the requester
 };
 
 struct Error {
@@ -24,12 +24,12 @@ template <class T = void>
 using Result = tl::expected<T, Error>;
 
 inline tl::unexpected<Error> fail(std::string message) { return tl::unexpected<Error>(Error{std::move(message)}); }
-// What was done stopped on request: "scene.pbrt: stopped on request".
+// Work stopped on request: "scene.pbrt: stopped on request".
 inline tl::unexpected<Error> cancelled(std::string message) {
     return tl::unexpected<Error>(Error{std::move(message), ErrorKind::cancelled});
 }
 
-// Puts where we were in front of what went wrong below; its kind stays.
+// Prepends context to an error from below; keeps its kind.
 inline tl::unexpected<Error> fail(const std::string& context, const Error& cause) {
     return tl::unexpected<Error>(Error{context + ": " + cause.message, cause.kind});
 }

@@ -23,7 +23,7 @@ Result<fs::path> make_temporary_folder(const std::string& name) {
     std::string tried;
     for (const fs::path& place : places) {
         const fs::path folder = place / (name + "-" + std::to_string(random()) + "-" + std::to_string(random()));
-        // Not create_directories: `place` must be there. A name that somebody has already is not taken.
+        // Not create_directories: `place` must exist. An existing name is skipped.
         if (fs::create_directory(folder, code) && !code) {
             fs::permissions(folder, fs::perms::owner_all, code);
             if (!code) return folder;
@@ -31,8 +31,7 @@ Result<fs::path> make_temporary_folder(const std::string& name) {
         }
         tried += (tried.empty() ? "" : ", ") + place.string();
     }
-    return fail("no temporary folder can be made; tried were " + tried +
-                ": set TMPDIR to a folder that can be written");
+    return fail("cannot create a temporary folder; tried " + tried + ": set TMPDIR to a writable folder");
 }
 
 } // namespace restage

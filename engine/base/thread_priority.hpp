@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thread priority: what somebody waits for (a window) goes before what fills the time (rendering).
+// Thread priority: interactive work (a window) goes before background work (rendering).
 #pragma once
 
 namespace restage {
 
 // Lowers the calling thread, and every thread it starts afterwards, by `steps` (nice levels, 1..19). A Vulkan device or
-// a Jobs pool made by such a thread works at that priority. Where it cannot be done it does nothing. [any]
+// a Jobs pool created by such a thread runs at that priority. A no-op where unsupported. [any]
 void lower_thread_priority(int steps);
 
 } // namespace restage

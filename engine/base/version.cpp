@@ -3,6 +3,6 @@
 
 namespace restage {
 
-const char* version() { return RESTAGE_VERSION; } // a definition of this file alone, by CMake
+const char* version() { return RESTAGE_VERSION; } // defined by CMake for this file alone
 
 } // namespace restage

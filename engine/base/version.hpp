@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The version of Restage, "0.1.0": project(VERSION) of CMakeLists.txt, where alone it is written.
+// The version of Restage, "0.1.0": from project(VERSION) in CMakeLists.txt, its only source.
 #pragma once
 
 namespace restage {

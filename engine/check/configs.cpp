@@ -177,7 +177,7 @@ std::vector<ParamSet> config_grid(const model::Material& table, Engine& e, std::
     while (grid.size() < count && table.params.size() > 0) {
         const std::size_t before = grid.size();
         add(wide_config(table, e)), add(random_config(table, e));
-        if (grid.size() == before) break; // nothing in the table can be drawn anew
+        if (grid.size() == before) break; // nothing left in the table to draw at random
     }
     return grid;
 }
@@ -185,7 +185,7 @@ std::vector<ParamSet> config_grid(const model::Material& table, Engine& e, std::
 std::string describe(const ParamSet& set) {
     if (set.entries().empty()) return "the defaults";
     std::ostringstream out;
-    out.imbue(std::locale::classic()); // a host's may write decimal commas
+    out.imbue(std::locale::classic()); // the global locale may use decimal commas
     out.precision(9);
     for (const auto& [id, v] : set.entries()) {
         out << (&id == &set.entries().front().id ? "" : " ") << id << '=';
@@ -201,7 +201,7 @@ std::string describe(const ParamSet& set) {
 
 std::string describe(const Vec3& v) {
     std::ostringstream out;
-    out.imbue(std::locale::classic()); // a host's may write decimal commas
+    out.imbue(std::locale::classic()); // the global locale may use decimal commas
     out.precision(9);
     out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
     return out.str();
@@ -209,7 +209,7 @@ std::string describe(const Vec3& v) {
 
 std::string describe(const BsdfJob& job, const BsdfAnswer& a) {
     std::ostringstream out;
-    out.imbue(std::locale::classic()); // a host's may write decimal commas
+    out.imbue(std::locale::classic()); // the global locale may use decimal commas
     out.precision(9);
     out << "wo " << describe(job.wo) << " wi " << describe(job.wi) << " u " << describe(job.u) << " seed " << job.seed
         << " -> eval " << describe(a.eval) << " pdf " << a.pdf << " sample: wi " << describe(a.wi) << " weight "

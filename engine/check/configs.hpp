@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a material is tested with: random directions, and parameter sets drawn from its own table.
+// Test inputs for a material: random directions, and parameter sets drawn from its own table.
 #pragma once
 
 #include "check/bsdf_lab.hpp"
@@ -10,7 +10,7 @@
 
 namespace restage::check {
 
-struct Engine { // std::mt19937 whose numbers have 32 bits by type, too
+struct Engine { // std::mt19937 with a 32-bit result type
     using result_type = std::uint32_t;
     explicit Engine(std::uint32_t seed) : engine(seed) {}
     static constexpr result_type min() { return 0; }
@@ -39,22 +39,22 @@ std::vector<scene::Value> ends(const model::Param& p);
 
 // Scales the colours of an ADDITIVE material so that they sum to at most 1.
 void keep_sum(const model::Material& table, scene::ParamSet& set);
-// Every line anywhere in its range; one in five at an end of it.
+// Every line uniform in its range; one in five at an end of it.
 scene::ParamSet random_values(model::ParamTable table, Engine& e);
 scene::ParamSet random_config(const model::Material& table, Engine& e);
-// A random set whose lobes are wide: roughness between 0.2 and 0.8, taken as alpha where the material lets us.
+// A random set with wide lobes: roughness between 0.2 and 0.8, used as alpha if the material allows it.
 scene::ParamSet wide_config(const model::Material& table, Engine& e);
 // Defaults, with every colour at 1 (ADDITIVE: sharing 1).
 scene::ParamSet white_config(const model::Material& table);
-// Defaults, with every roughness at `r`; where there are two or more, every second at `r_other`.
+// Defaults, with every roughness at `r`; if there are two or more, every second at `r_other`.
 scene::ParamSet rough_config(const model::Material& table, float r, float r_other);
 
 // The grid of the full tests: defaults; roughness from narrow to 1, anisotropic too; each line at its ends and each
 // choice, one at a time on a roughness of 0.3; white; and random ones up to `count`.
 std::vector<scene::ParamSet> config_grid(const model::Material& table, Engine& e, std::size_t count);
 
-// For people, to replay a failure.
-std::string describe(const scene::ParamSet& set); // "the defaults" when empty
+// Human-readable, to reproduce a failure.
+std::string describe(const scene::ParamSet& set); // "the defaults" if empty
 std::string describe(const Vec3& v);              // "(0.5, 0, 0.866)"
 std::string describe(const BsdfJob& job, const BsdfAnswer& a);
 

@@ -11,10 +11,10 @@ namespace {
 constexpr std::size_t pilot_draws = 1 << 16;
 constexpr std::size_t most_in_cell = 160; // of the pilot's samples: 0.24 %
 constexpr std::size_t most_evaluations = 3'000'000;
-// How large the error of an expected count may be, in its standard deviations: adds 1 % to chi-square at most.
+// Allowed error of an expected count, in its standard deviations: adds at most 1 % to chi-square.
 constexpr double integral_sigma = 0.1;
 
-bool is_direction(const Vec3& w) { // anything else has no place on the sphere
+bool is_direction(const Vec3& w) { // anything else is not on the sphere
     const double length = std::hypot(double(w[0]), double(w[1]), double(w[2]));
     return length > 0.5 && length < 2;
 }
@@ -28,7 +28,7 @@ std::string say_cell(const SphereCells& cells, std::size_t i, double expected, d
 } // namespace
 
 double DensityResult::integral_off(double sigmas) const {
-    // Delta and absorbed samples are what is missing to 1.
+    // Delta and absorbed samples are the remainder to 1.
     const double sigma = std::sqrt(std::max(spread * (1 - spread), 1 / draws) / draws);
     return std::abs(pdf_integral - spread) / (sigmas * sigma + pdf_error + 1e-4);
 }
@@ -54,7 +54,7 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
 
     RESTAGE_TRY(const std::vector<BsdfDrawn> samples, lab.draw(c.config, c.wo, c.seed * 2, draws));
     std::vector<double> observed(cells.size()), expected(cells.size());
-    std::vector<std::uint32_t> found(samples.size()); // the search is most of the work on the CPU
+    std::vector<std::uint32_t> found(samples.size()); // the search dominates the CPU work
     jobs.parallel_for(samples.size(), 1 << 14, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i)
             if (is_spread(samples[i])) found[i] = static_cast<std::uint32_t>(cells.find(samples[i].wi));
@@ -89,7 +89,7 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
         const double n = value * result.draws;
         return std::abs(observed[cell] - n) > 2.5 * std::sqrt(n + 1);
     };
-    // Of eval, to a hundredth of a per cent of all light in each of the cells that have a hundredth of it.
+    // Of eval, to 0.01 % of all light in each cell with a hundredth of it.
     double carried = 0;
     for (const Mean& m : result.weight)
         carried = std::max(carried, m.mean());
@@ -110,7 +110,7 @@ Result<DensityResult> measure_density(BsdfLab& lab, Jobs& jobs, const DensityCas
         result.eval_error += cell.others_error;
         result.eval_side[cells.cell(i).upper == (c.wo[2] > 0) ? 0 : 1] +=
             0.2126 * cell.value[1] + 0.7152 * cell.value[2] + 0.0722 * cell.value[3];
-        // What quadrature cannot settle (a discontinuity finer than float directions) says nothing about the samples.
+        // What quadrature cannot resolve (a discontinuity finer than float directions) is no evidence on the samples.
         if (cell.error * result.draws > 0.5 * std::sqrt(expected[i] + 1)) {
             result.unresolved += cell.value[0];
             observed[i] = expected[i] = 0;

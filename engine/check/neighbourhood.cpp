@@ -7,9 +7,9 @@
 namespace restage::check {
 namespace {
 
-constexpr double step = 5e-7; // eight units in the last place of 1
+constexpr double step = 5e-7; // eight ulps of 1
 
-// Moved by a tangent vector and normalised again, staying on its side of the surface.
+// Moved by a tangent vector and renormalised, staying on its side of the surface.
 Vec3 moved(const Vec3& w, int direction) {
     const double x = w[0], y = w[1], z = w[2];
     // Towards the pole and around it.
@@ -30,7 +30,7 @@ Result<std::vector<Neighbourhood>> neighbourhoods(Subject& s, std::span<const sc
                                                   std::span<const std::size_t> which) {
     std::vector<Neighbourhood> result(which.size());
     if (which.empty()) return result;
-    constexpr std::size_t each = 16; // 4 moves of wo and 4 of wi, there and back
+    constexpr std::size_t each = 16; // 4 moves of wo and 4 of wi, in both directions
     std::vector<BsdfJob> around;
     for (const std::size_t i : which)
         for (std::size_t k = 0; k < each; ++k) {

@@ -32,11 +32,11 @@ Result<std::string> image_tag(const scene::PixelData& image, const fs::path& fol
         encode_base64(png), image.width, image.height, caption);
 }
 
-// In the plane of incidence, from the left horizon of the front over the pole and round the back.
+// In the plane of incidence, from the front's left horizon over the pole and around the back.
 Result<std::string> polar_plot(BsdfLab& lab, const ParamSet& set, const Vec3& wo, std::uint32_t seed) {
     constexpr int bins = 180;
     constexpr std::size_t draws = 1 << 20;
-    constexpr double half_band = 0.05; // sine of the latitude over the plane
+    constexpr double half_band = 0.05; // sine of the latitude above the plane
     RESTAGE_TRY(const std::vector<BsdfDrawn> samples, lab.draw(set, wo, seed, draws));
     std::vector<double> counted(bins), expected(bins);
     const double step = 2 * pi / bins, band = step * 2 * half_band;
@@ -65,7 +65,7 @@ Result<std::string> polar_plot(BsdfLab& lab, const ParamSet& set, const Vec3& wo
     double most = 1e-9;
     for (int b = 0; b < bins; ++b)
         most = std::max({most, counted[std::size_t(b)], expected[std::size_t(b)]});
-    // Square roots, so that a lobe's foot is seen beside its peak.
+    // Square roots, so that a lobe's base is visible next to its peak.
     const auto point = [&](int b, double value) {
         const double angle = (b + 0.5) * step - pi, r = 140 * std::sqrt(value / most);
         return fmt::format("{:.1f},{:.1f} ", 160 + r * std::sin(angle), 160 - r * std::cos(angle));
@@ -87,7 +87,7 @@ Result<std::string> polar_plot(BsdfLab& lab, const ParamSet& set, const Vec3& wo
         100 * lost / double(draws));
 }
 
-// A plain sky: bright above, ground below, and a round lamp, 14 degrees from its middle to its edge.
+// A plain sky: bright above, ground below, and a round lamp, 14 degrees from centre to edge.
 Vec3 sky(const Vec3& w) {
     const float up = 0.5f + 0.5f * w[1];
     const bool lamp = w[0] * -0.5f + w[1] * 0.6f + w[2] * 0.6245f > 0.97f;
@@ -101,7 +101,7 @@ Vec3 sky(const Vec3& w) {
     return {0.3f + 0.3f * up, 0.4f + 0.3f * up, 0.5f + 0.4f * up};
 }
 
-// A sphere seen from afar, one bounce: what is transmitted is looked up in the sky as it leaves the front.
+// A distant sphere, one bounce: transmitted light is looked up in the sky as it leaves the front.
 template <class Light>
 Result<scene::PixelData> ball(BsdfLab& lab, const ParamSet& set, int size, int samples, std::uint32_t seed, bool power,
                               Light&& light) {

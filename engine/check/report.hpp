@@ -17,11 +17,11 @@ StepResult step_from_json(const nlohmann::ordered_json&);
 nlohmann::ordered_json to_json(const PluginReport&);
 
 std::string headline(const PluginReport&);                  // "org.restage.material.diffuse 0.1.0 (material, seed 1)"
-std::string text_of(const StepResult&, const PluginReport&); // a line, or a few where it failed
+std::string text_of(const StepResult&, const PluginReport&); // one line, or several if it failed
 std::string verdict_line(const PluginReport&);              // "passed: 14 passed, 3 skipped, 41.2 s"
 
 std::string junit(std::span<const PluginReport>);
-// Table of plugins by steps with figures: docs/conformance.md.
+// Table of plugins and steps with figures: docs/conformance.md.
 std::string markdown(std::span<const PluginReport>);
 
 } // namespace restage::check

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int half_rows = SphereCells::rows / 2;
-constexpr double smallest_side = 2e-5; // [rad] below this the float directions themselves are coarse
+constexpr double smallest_side = 2e-5; // [rad] below this, float directions are too coarse
 
 struct Place {
     double a, phi;
@@ -23,7 +23,7 @@ Place place_of(const Vec3& w) {
     const double x = w[0], y = w[1], z = w[2], c = std::abs(z);
     double phi = std::atan2(y, x);
     if (phi < 0) phi += two_pi;
-    // Near the pole x and y have the digits, near the horizon z.
+    // Near the pole x and y are precise, near the horizon z.
     const double a = c > 0.7 ? (x * x + y * y) / (1 + c) : 1 - c;
     return {std::clamp(a, 0.0, 1.0), phi >= two_pi ? 0 : phi, z >= 0};
 }
@@ -33,7 +33,7 @@ bool is_small(const CellRect& r) {
     return (r.a1 - r.a0) / sine < smallest_side && sine * (r.phi1 - r.phi0) < smallest_side;
 }
 
-// In two, across the longer side.
+// In half, across the longer side.
 struct Halves {
     CellRect part[2];
     bool along_a;
@@ -45,7 +45,7 @@ Halves halves(const CellRect& r) {
     return {{{r.a0, r.a1, r.phi0, phi, r.upper}, {r.a0, r.a1, phi, r.phi1, r.upper}}, false};
 }
 
-// Gauss's rule of three points on [0, 1].
+// Three-point Gauss rule on [0, 1].
 constexpr double gauss_at[3] = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr double gauss_weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 constexpr std::size_t points = 9;
@@ -124,8 +124,8 @@ Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const Quadrat
     std::vector<Part> parts;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         CellRect rect = cells.cell(i);
-        // Next to the horizon densities end at lines that move with wo, so near that no point of a rule would see them.
-        // What a rule misses there must not be the same in every column: each divides its cell elsewhere (the golden
+        // Next to the horizon densities end at lines that move with wo, too close for any quadrature point to see them.
+        // The error must not be the same in every column: each divides its cell differently (the golden
         // ratio spreads them evenly).
         if (rect.a1 == 1)
             for (int k = 0; k < 10; ++k) {
@@ -147,7 +147,7 @@ Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const Quadrat
         RESTAGE_TRY(const std::vector<Integrand> values, options.evaluate(directions));
         result.evaluations += directions.size();
         std::vector<Integrand> sums(parts.size());
-        std::vector<double> estimate(cells.size()); // of each cell: what its tolerance is relative to
+        std::vector<double> estimate(cells.size()); // of each cell: the reference of its tolerance
         for (std::size_t i = 0; i < cells.size(); ++i)
             estimate[i] = result.cells[i].value[0];
         for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -162,7 +162,7 @@ Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const Quadrat
             const Part& part = parts[i];
             const Integrand* f = &values[i * points];
             const double area = part.rect.solid_angle();
-            // Two poorer rules on the same points; the true error is far below their distance where f is smooth.
+            // Two lower-order rules on the same points; the true error is far below their difference if f is smooth.
             const auto error_of = [&](std::size_t c) {
                 const double center = f[4][c] * area, corners = 0.25 * (f[0][c] + f[2][c] + f[6][c] + f[8][c]) * area;
                 return 0.25 * std::max(std::abs(sums[i][c] - center), std::abs(sums[i][c] - corners));
@@ -176,14 +176,14 @@ Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const Quadrat
             if (fine || is_small(part.rect) || result.evaluations + next.size() * points > options.most) {
                 for (std::size_t c = 0; c < integrands; ++c)
                     result.cells[part.cell].value[c] += sums[i][c];
-                // Where f is not smooth, and nobody may look closer, the rules differ by as much as they are wrong.
+                // If f is not smooth, and cannot be refined, the rules' difference is the error.
                 result.cells[part.cell].error += fine ? error : 4 * error;
                 result.cells[part.cell].others_error += fine ? others : 4 * others;
                 result.certain = result.certain && fine;
                 continue;
             }
             for (const CellRect& r : halves(part.rect).part)
-                next.push_back({part.cell, r, 0.7 * part.share}); // errors of parts rarely all have one sign
+                next.push_back({part.cell, r, 0.7 * part.share}); // errors of parts rarely share one sign
         }
         parts = std::move(next);
         if (!parts.empty() || doubted) continue;

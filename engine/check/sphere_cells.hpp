@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sphere in cells for comparing samples with a density: 80 x 160 of equal solid angle, split further where pilot
-// samples are dense, so that a lobe of any width is seen in many cells; and the integral of functions over the cells,
-// by Gauss's rule, split until it is certain. Works in a = 1 - |z|, which keeps its digits near the poles.
+// Partition of the sphere for comparing samples with a density: 80 x 160 cells of equal solid angle, split where pilot
+// samples are dense, so that a lobe of any width covers many cells; and the integral of functions over the cells,
+// by Gauss quadrature, split until certain. Works in a = 1 - |z|, which stays precise near the poles.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -42,7 +42,7 @@ class SphereCells {
     std::vector<CellRect> leaves_;
 };
 
-// What one direction contributes: several functions at once (density, and the value's channels).
+// The contribution of one direction: several functions at once (density, and the value's channels).
 inline constexpr std::size_t integrands = 4;
 using Integrand = std::array<double, integrands>;
 
@@ -61,15 +61,15 @@ struct Quadrature {
 struct QuadratureOptions {
     // Called with batches of directions.
     std::function<Result<std::vector<Integrand>>(std::span<const Vec3>)> evaluate;
-    std::function<double(double value)> tolerance; // how large the error of a cell's value[0] may be
+    std::function<double(double value)> tolerance; // allowed error of a cell's value[0]
     std::size_t most = 0;                          // evaluations
-    // Cells that samples visit more or less often than their integral says are integrated again in 64 parts: where a
-    // density ends inside a cell, nine points may miss it. Exacter integrals favour no outcome.
+    // Cells whose sample counts disagree with their integral are integrated again in 64 parts: if a
+    // density ends inside a cell, nine points may miss it. More exact integrals favour no outcome.
     std::function<bool(std::size_t cell, double value)> doubtful;
-    // How large the error of the other values may be in a cell; cells are split for them too. 0: no matter.
+    // Allowed error of the other values in a cell; cells are split for them too. 0: unlimited.
     double others_tolerance = 0;
 };
-// Value 0 decides where to split, and the others where they have a tolerance.
+// Value 0 decides where to split, as do the others if they have a tolerance.
 Result<Quadrature> integrate(const SphereCells& cells, Jobs& jobs, const QuadratureOptions& options);
 
 } // namespace restage::check

@@ -45,7 +45,7 @@ double sidak(double alpha, std::size_t tests) {
 }
 
 double two_sided_sigma(double p) {
-    double lo = 0, hi = 40; // erfc falls all the way
+    double lo = 0, hi = 40; // erfc is monotonic
     for (int i = 0; i < 100; ++i) {
         const double mid = 0.5 * (lo + hi);
         (std::erfc(mid / std::sqrt(2.0)) > p ? lo : hi) = mid;
@@ -61,7 +61,7 @@ ChiSquare chi_square(std::span<const double> observed, std::span<const double> e
     double pool_observed = 0, pool_expected = 0;
     std::size_t in_pool = 0;
     const auto term = [&](double o, double e) { return (o - e) * (o - e) / e; };
-    double last_observed = 0, last_expected = 0; // of the last term, for what is left over
+    double last_observed = 0, last_expected = 0; // of the last term, for the remainder
     const auto close = [&] {
         last_observed = pool_observed, last_expected = pool_expected;
         result.statistic += term(pool_observed, pool_expected);
@@ -79,7 +79,7 @@ ChiSquare chi_square(std::span<const double> observed, std::span<const double> e
             result.statistic += term(last_observed + pool_observed, last_expected + pool_expected);
         } else if (pool_expected > 0) {
             result.statistic = term(pool_observed, pool_expected), result.terms = 1;
-        } else if (pool_observed > 0) { // samples where none can be
+        } else if (pool_observed > 0) { // samples where none are possible
             result.statistic = std::numeric_limits<double>::infinity(), result.terms = 1, result.p = 0;
             return result;
         }

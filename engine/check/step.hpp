@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of a check: what a step says of a plugin, and what a plugin's report is.
+// The data of a check: the result of a step, and a plugin's report.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace restage::check {
 enum class Verdict { pass, fail, skipped };
 const char* to_string(Verdict);
 
-struct Figure { // something measured
+struct Figure { // a measurement
     std::string name;
     double value = 0;
     std::string unit = {};
@@ -20,9 +20,9 @@ struct Figure { // something measured
 
 struct StepResult {
     std::string step; // "chi-square"
-    std::string of;   // which of the plugin's tables: "diffuse"; empty: the plugin as a whole
+    std::string of;   // one of the plugin's tables: "diffuse"; empty: the whole plugin
     Verdict verdict = Verdict::pass;
-    std::string text; // fail: what is wrong and where; skipped: why; pass: what is worth knowing, or empty
+    std::string text; // fail: what is wrong and where; skipped: why; pass: a remark, or empty
     std::string cause; // fail: what usually causes it
     std::vector<Figure> figures = {};
     double seconds = 0;
@@ -37,16 +37,16 @@ struct StepResult {
 };
 
 struct PluginReport {
-    std::string id;              // of the manifest; the folder where there is none
+    std::string id;              // of the manifest; the folder if there is none
     std::filesystem::path folder;
     std::string kind, version;
     std::uint32_t seed = 0;
     bool quick = false;
     std::vector<StepResult> steps;
-    std::vector<std::filesystem::path> pictures; // pages that were written
+    std::vector<std::filesystem::path> pictures; // pages written
     double seconds = 0;
-    std::string unable; // why steps could not be done here (no Vulkan device): no fault of the plugin's, and no pass
-    bool passed() const; // at least one step, none failed, and all could be done
+    std::string unable; // why steps could not run here (no Vulkan device): neither the plugin's fault nor a pass
+    bool passed() const; // at least one step, none failed, and all could run
 };
 
 } // namespace restage::check

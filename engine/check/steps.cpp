@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and order of the steps, and what usually makes each fail.
+// Names and order of the steps, and the usual cause of failure of each.
 #include "check/steps.hpp"
 
 namespace restage::check {
@@ -8,10 +8,10 @@ static constexpr const char* load_calls = "init(), query() or shutdown()";
 
 const std::vector<Step>& plugin_steps() {
     static const std::vector<Step> steps = {
-        {"manifest", "plugin.json is complete and its files are there", check_manifest, "", load_calls},
-        {"load", "the library opens, answers as its manifest says, and its tables are sound", check_load,
+        {"manifest", "plugin.json is complete and its files exist", check_manifest, "", load_calls},
+        {"load", "the library opens, matches its manifest, and its tables are valid", check_load,
          "the plugin was built against another SDK, or a table does not match its headers", load_calls},
-        {"reload", "a hundred times loaded and unloaded, nothing is left behind", check_reload,
+        {"reload", "loaded and unloaded a hundred times, nothing is left behind", check_reload,
          "memory of init() that shutdown() does not free, or a thread or static object that pins the library",
          load_calls},
     };
@@ -21,44 +21,43 @@ const std::vector<Step>& plugin_steps() {
 const std::vector<Step>& material_steps() {
     static const std::vector<Step> steps = {
         {"glsl", "the GLSL compiles", check_glsl,
-         "see the line that the message names; the GLSL knows <restage/v1/...> and its own files, nothing of the "
+         "see the line that the message names; the GLSL may use <restage/v1/...> and its own files, nothing of the "
          "scene"},
         {"names", "every name starts with the prefix; no bindings, no buffers", check_names,
-         "two materials share one shader where they are mixed, so names must not meet"},
+         "mixed materials share one shader, so names must not clash"},
         {"cost", "first dispatch and time of a call", check_cost, "a loop without a bound"},
-        {"params", "values arrive in the GLSL and come back from a project and a pbrt file", check_params,
-         "two lines of the table with one id, one that means something to a format (plugin), or choices that are not "
-         "those of the GLSL"},
+        {"params", "values reach the GLSL and survive a project and a pbrt file", check_params,
+         "two table lines with one id, one that has a meaning in a format (plugin), or choices that differ from "
+         "those in the GLSL"},
         {"sound", "finite and not negative, whatever the parameters and directions", check_sound,
          "a division by a cosine, by alpha or by 1 - eta, the root or logarithm of something just below 0, or "
          "normalize(0)"},
-        {"chi-square", "samples fall as pdf says", check_chi_square,
+        {"chi-square", "samples follow pdf", check_chi_square,
          "a factor that pdf lacks (the Jacobian of the half vector, the probability of the lobe, the back side)"},
-        {"integral", "pdf integrates to 1, less what is delta or absorbed", check_integral,
+        {"integral", "pdf integrates to 1, minus the delta and absorbed fraction", check_integral,
          "a constant factor in pdf, or pdf is positive where sample never goes"},
         {"reach", "samples carry as much light as eval has over the whole sphere", check_reach,
          "eval is positive where sample never goes (a side, a lobe), or a lobe's weight lacks a factor"},
         {"weight", "weight = eval / pdf, and the pdf of a sample is pdf", check_weight,
-         "sample has formulas of its own that differ from eval's or pdf's"},
-        {"expectation", "of a stochastic material: samples carry what eval means, pdf is a density, MIS is unbiased",
+         "sample uses formulas that differ from eval's or pdf's"},
+        {"expectation", "for a stochastic material: samples match the mean of eval, pdf is a density, MIS is unbiased",
          check_expectation,
-         "eval and sample walk by different rules (absorption, the last bounce, the choice of lobes)"},
+         "eval and sample use different random walks (absorption, the last bounce, the choice of lobes)"},
         {"energy", "no more light leaves than arrives", check_energy,
-         "lobes that are added without sharing the energy, a missing shadowing term, or 1 / cos at grazing angles"},
-        {"furnace", "a white furnace shows nothing, where LOSSLESS is declared", check_furnace,
+         "lobes added without sharing the energy, a missing shadowing term, or 1 / cos at grazing angles"},
+        {"furnace", "a white furnace shows nothing, if LOSSLESS is declared", check_furnace,
          "single scattering loses energy at high roughness: then LOSSLESS must not be declared"},
-        {"albedo", "albedo() is near what is really reflected", check_albedo, "a Fresnel term or a tint is missing"},
-        {"reciprocity", "f(wo, wi) = f(wi, wo), with eta^2 where light is refracted", check_reciprocity,
-         "a term that only looks at wo (Fresnel weights, tints); if the model is so, declare NONRECIPROCAL"},
-        {"isotropy", "without TANGENT, nothing changes when both directions turn about the normal", check_isotropy,
-         "eval looks at x and y apart: declare TANGENT"},
-        {"limit", "a vanishing roughness looks like none", check_limit,
+        {"albedo", "albedo() is close to the actual reflectance", check_albedo, "a Fresnel term or a tint is missing"},
+        {"reciprocity", "f(wo, wi) = f(wi, wo), with eta^2 for refraction", check_reciprocity,
+         "a term that depends only on wo (Fresnel weights, tints); if the model is so, declare NONRECIPROCAL"},
+        {"isotropy", "without TANGENT, rotating both directions about the normal changes nothing", check_isotropy,
+         "eval treats x and y differently: declare TANGENT"},
+        {"limit", "a vanishing roughness looks like zero roughness", check_limit,
          "the smooth and the rough branch differ in a factor (Fresnel, eta^2, the choice of the lobe)"},
         {"inspector", "its part of the inspector draws, whatever the user does", check_inspector,
-         "an id that the table no longer has, an array that is shorter than its count, or a value out of range",
-         "draw()"},
-        {"tables", "any file for its table parameters is read, or refused with a sentence", check_tables,
-         "counts and offsets of a file that are believed", "read()"},
+         "an id no longer in the table, an array shorter than its count, or a value out of range", "draw()"},
+        {"tables", "any file for its table parameters is read, or refused with a message", check_tables,
+         "counts and offsets of a file used unchecked", "read()"},
     };
     return steps;
 }
@@ -66,7 +65,8 @@ const std::vector<Step>& material_steps() {
 const std::vector<Step>& texture_steps() {
     static const std::vector<Step> steps = {
         {"texture-glsl", "the GLSL of a texture compiles, in both colour modes", check_texture_glsl,
-         "see the line that the message names; the GLSL knows <restage/v1/...> and its own files. Colours of its own are "
+         "see the line that the message names; the GLSL knows <restage/v1/...> and its own files. Colours of its own "
+         "are "
          "made by texture_color()"},
         {"texture-names", "every name of a texture starts with its prefix", check_texture_names,
          "the code of all textures and of a material stands in one shader"},
@@ -83,11 +83,11 @@ const std::vector<Step>& texture_steps() {
 
 const std::vector<Step>& denoiser_steps() {
     static const std::vector<Step> steps = {
-        {"denoise", "a constant picture stays what it is", check_denoise, "a scale that is not undone", "run()"},
+        {"denoise", "a constant picture is unchanged", check_denoise, "a scale that is not undone", "run()"},
         {"sizes", "one pixel, odd sizes, each guide alone, in place", check_denoise_sizes,
-         "tiles or vectors that do not fit the size, or guides that are taken for granted (they may be NULL)", "run()"},
-        {"robust", "NaN and infinity, the same twice, a stop at each call of progress", check_denoise_robust,
-         "values that are not looked at before they are used, threads that write to one place, or an answer of "
+         "tiles or vectors that do not fit the size, or guides assumed to exist (they may be NULL)", "run()"},
+        {"robust", "NaN and infinity, determinism, a stop at each call of progress", check_denoise_robust,
+         "values used unchecked, threads that write to one place, or a result of "
          "progress() that is ignored",
          "run()"},
         {"denoise-leaks", "a hundred runs, of which some are stopped, leave nothing behind", check_denoise_leaks,
@@ -101,7 +101,7 @@ const std::vector<Step>& importer_steps() {
         {"probe", "noise and beginnings of its files are answered, its own files recognized", check_probe,
          "reading past the end of the head", "probe()"},
         {"read", "its files twice the same; changed and as noise an answer", check_read,
-         "counts, offsets and indices of a file that are believed", "load()"},
+         "counts, offsets and indices of a file used unchecked", "load()"},
         {"options", "its files are read with each option at its ends, twice the same", check_read_options,
          "a choice that is not told apart, or a value that is divided by", "load()"},
         {"cut", "its files cut short get an answer", check_read_cut, "a length of a file that is believed", "load()"},
@@ -116,8 +116,8 @@ const std::vector<Step>& importer_steps() {
 const std::vector<Step>& exporter_steps() {
     static const std::vector<Step> steps = {
         {"write", "something of everything, each option, twice the same bytes", check_write,
-         "getters that return 0 (removed things, no environment) and optional pointers that are used "
-         "unseen; or hash tables whose order gets into the file",
+         "getters that return 0 (removed things, no environment) and optional pointers used "
+         "unchecked; or hash tables whose order gets into the file",
          "save()"},
         {"write-stop", "it ends at whichever call of progress says so, and the old file stays", check_write_stop,
          "an answer of progress() that is ignored, or a file that is written in place", "save()"},

@@ -67,7 +67,7 @@ Result<StepResult> check_reach(Subject&);
 Result<StepResult> check_weight(Subject&);
 // steps_expectation.cpp
 Result<StepResult> check_expectation(Subject&);
-Result<StepResult> check_mean_reciprocity(Subject&); // what check_reciprocity is for stochastic materials
+Result<StepResult> check_mean_reciprocity(Subject&); // check_reciprocity for stochastic materials
 // steps_energy.cpp
 Result<StepResult> check_energy(Subject&);
 Result<StepResult> check_furnace(Subject&);

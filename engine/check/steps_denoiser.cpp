@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Denoisers: a constant picture of any size stays what it is, with all guides, some or none; pixels that are no numbers
-// do no harm; whoever asks it to stop is heard; the same picture twice gives the same bytes.
+// Denoisers: a constant picture of any size is unchanged, with all guides, some or none; non-finite pixels
+// do no harm; requests to stop are obeyed; the same picture twice gives the same bytes.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
 
@@ -14,7 +14,7 @@ namespace restage::check {
 namespace {
 
 enum Guides : unsigned { none = 0, albedo = 1, normal = 2, both = 3 };
-constexpr std::size_t canary = 64; // floats behind the output that nobody may touch
+constexpr std::size_t canary = 64; // floats past the output that must stay untouched
 constexpr float canary_value = -12345.5f;
 
 struct Picture {
@@ -43,7 +43,7 @@ struct Picture {
         return std::any_of(out.end() - canary, out.end(), [](float x) { return x != canary_value; });
     }
     std::string describe(unsigned guides) const {
-        static constexpr const char* with[] = {"no guides", "albedo alone", "normals alone", "guides"};
+        static constexpr const char* with[] = {"no guides", "albedo only", "normals only", "guides"};
         return fmt::format("{}x{} pixels with {}", width, height, with[guides & 3]);
     }
 };
@@ -163,7 +163,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
                     if (all || e() % 50 == 0) v = x;
             const std::string what =
                 fmt::format("{} in {}, {}", x, all ? "every pixel" : "some pixels", p.describe(both));
-            // Refusing is an answer too, with a reason.
+            // Refusing, with a reason, is a valid answer.
             s.doing("run() of " + what);
             const auto done = lab.d.run(p.job(both));
             s.alive();
@@ -176,7 +176,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
                     return StepResult::failed(fmt::format("{}: pixel ({}, {}) of the result is {}", what,
                                                           i / 3 % p.width, i / 3 / p.width, p.out[i]));
         }
-    // The same twice, bit by bit; noise is what it is for.
+    // Bit-identical when run twice; on noise, its real input.
     Picture p(120, 75, 0);
     for (float& v : p.color)
         v = -std::log(1 - unit(e));
@@ -188,7 +188,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
         if (k == 0)
             first = p.out;
         else if (first != p.out)
-            return StepResult::failed("denoising the same picture twice gives two results");
+            return StepResult::failed("denoising the same picture twice gives different results");
     }
     // Stopped at each call.
     struct Stop {
@@ -208,7 +208,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
             return StepResult::failed(fmt::format("stopped at call {} of {} of progress(), run() returns 1", k, all));
     }
     return StepResult::passed({{"pictures", double(lab.runs)}, {"calls of progress()", double(all)}},
-                              all == 0 ? "it never asks progress(): nobody can stop it" : "");
+                              all == 0 ? "it never calls progress(), so it cannot be stopped" : "");
 }
 
 Result<StepResult> check_denoise_leaks(Subject& s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sample, pdf and eval say the same thing: chi-square of samples against pdf, the integral of pdf, weight = eval / pdf.
+// sample, pdf and eval are consistent: chi-square of samples against pdf, the integral of pdf, weight = eval / pdf.
 #include "check/neighbourhood.hpp"
 #include "check/steps.hpp"
 
@@ -14,7 +14,7 @@ constexpr double family_alpha = 0.01;
 
 std::string not_for(const Subject& s) {
     if (!s.table().has_code()) return "has no GLSL of its own";
-    if (s.table().stochastic) return "stochastic: see the step expectation";
+    if (s.table().stochastic) return "stochastic: see step expectation";
     return "";
 }
 
@@ -31,14 +31,14 @@ Result<StepResult> check_chi_square(Subject& s) {
         const DensityResult& r = (*all)[i];
         if (r.bad_samples > 0)
             return StepResult::failed(fmt::format(
-                "{} of {} samples have a direction that is none (not finite, or no unit vector), or a weight that is "
+                "{} of {} samples have an invalid direction (not finite, or not a unit vector), or a weight that is "
                 "not finite\n  {}",
                 r.bad_samples, r.draws, name_case(s.density_cases()[i])));
         if (r.bad_pdf > 0)
             return StepResult::failed(fmt::format("pdf is not finite, or negative, in {} directions\n  {}", r.bad_pdf,
                                                   name_case(s.density_cases()[i])));
         draws += r.draws, unresolved = std::max(unresolved, r.unresolved), evaluations += double(r.evaluations);
-        if (r.spread == 0 && r.pdf_integral < 1e-6) continue; // delta lobes alone
+        if (r.spread == 0 && r.pdf_integral < 1e-6) continue; // delta lobes only
         ++tests, terms += double(r.chi.terms), again += r.again;
         if (r.chi.p < least) least = r.chi.p, worst = i;
     }
@@ -47,16 +47,16 @@ Result<StepResult> check_chi_square(Subject& s) {
     for (const DensityResult& r : *all)
         failed += (r.spread > 0 || r.pdf_integral >= 1e-6) && r.chi.p < threshold;
     std::vector<Figure> figures = {{"configurations", double(tests)},
-                                   {"looked at again", double(again)},
+                                   {"measured again", double(again)},
                                    {"samples of each", draws / double(all->size())},
                                    {"bins compared, mean", terms / double(tests)},
                                    {"least p", least},
                                    {"threshold (Sidak)", threshold},
-                                   {"largest share of pdf left unresolved", unresolved}};
+                                   {"largest fraction of pdf left unresolved", unresolved}};
     if (failed == 0) return StepResult::passed(figures);
     const DensityResult& r = (*all)[worst];
     return StepResult::failed(
-        fmt::format("samples do not fall as pdf says: chi-square {:.1f} over {} bins, p = {:.2g} < {:.2g} ({} of {} "
+        fmt::format("samples do not follow pdf: chi-square {:.1f} over {} bins, p = {:.2g} < {:.2g} ({} of {} "
                     "configurations fail)\n  {}\n  worst bin: {}",
                     r.chi.statistic, r.chi.terms, r.chi.p, threshold, failed, tests,
                     name_case(s.density_cases()[worst]), r.worst),
@@ -147,8 +147,8 @@ Result<StepResult> check_weight(Subject& s) {
         if (off_value > 0 || off_pdf > 0) suspects.push_back({i, off_pdf, off_value});
     }
     if (compared == 0) return StepResult::skip("all its lobes are delta");
-    // A direction is only known to its last digits: what eval and pdf change when wo and wi move by eight of them
-    // (5e-7) is no difference. Sharp lobes and grazing angles are what this lets through, nothing else.
+    // A direction is only known to its last digits: changes of eval and pdf when wo and wi move by eight ulps
+    // (5e-7) do not count. This tolerates sharp lobes and grazing angles, nothing else.
     RESTAGE_TRY(const std::vector<Neighbourhood> around, neighbourhoods(s, configs, jobs, answers, [&] {
                     std::vector<std::size_t> which;
                     for (const Suspect& x : suspects)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// No energy out of nothing, a white furnace where it is declared, and albedo() beside what is really reflected.
+// Energy conservation, a white furnace if declared, and albedo() against the actual reflectance.
 #include "check/steps.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace restage::check {
 namespace {
 
-struct Power { // leaving for what arrives, per channel; 1/eta^2 of radiance undone
+struct Power { // leaving per arriving light, per channel; 1/eta^2 of radiance undone
     Mean channel[3];
     std::size_t bad = 0; // samples whose weight is not finite
     double most() const { return std::max({channel[0].mean(), channel[1].mean(), channel[2].mean()}); }
@@ -27,7 +27,7 @@ Result<Power> power(BsdfLab& lab, const scene::ParamSet& set, const Vec3& wo, st
     return p;
 }
 
-// The largest excess over `limit` in standard errors, and the channel it is in.
+// The largest excess over `limit` in standard errors, and its channel.
 double excess(const Power& p, double limit, std::size_t& channel) {
     double worst = -1e30;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -50,7 +50,7 @@ Result<StepResult> check_energy(Subject& s) {
     const double limit = declared ? declared->limit : 1;
     std::vector<scene::ParamSet> configs{white_config(s.table())};
     for (scene::ParamSet& set : config_grid(s.table(), e, s.size(48, 10))) {
-        // Bright variants: what a dark colour swallows cannot be seen.
+        // Bright variants: dark colours hide errors.
         for (const model::Param& p : s.table().params)
             if (p.type == model::ParamType::color && p.max == 1 && !set.find(p.id))
                 set.set(p.id, scene::Value::color(1, 1, 1));
@@ -70,7 +70,7 @@ Result<StepResult> check_energy(Subject& s) {
                 return StepResult::failed(fmt::format("{} samples have a weight that is not a finite number\n  with {}",
                                                       p.bad, where(set, wo)));
             std::size_t c = 0;
-            // A first look is cheap; who exceeds it is looked at again with new samples.
+            // The first measurement is cheap; cases that exceed it are measured again with new samples.
             if (excess(p, limit, c) > 2.5) {
                 RESTAGE_TRY(p, power(*lab, set, wo, seed ^ 0x5bd1e995u, 1 << 20));
                 if (excess(p, limit, c) > 4)
@@ -100,7 +100,7 @@ Result<StepResult> check_furnace(Subject& s) {
         bool suspicious = p.bad > 0;
         for (std::size_t c = 0; c < 3; ++c)
             suspicious = suspicious || off_by(c) > 3 * p.channel[c].sigma() + 1e-4;
-        if (suspicious) { // chance comes once
+        if (suspicious) { // chance does not repeat
             RESTAGE_TRY(p, power(*lab, set, wo, e(), s.size(1 << 21, 1 << 18)));
         }
         if (p.bad > 0)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stochastic materials: eval is an estimate, and pdf a density for MIS that need not be that of the samples. So:
-// what samples carry into each cell of the sphere is what eval means there, pdf is a density, light found by both
-// strategies with MIS is the light found by one, and the means are reciprocal.
+// the light samples carry into each cell of the sphere is the mean of eval there, pdf is a density, light found by both
+// strategies with MIS equals the light found by one, and the means are reciprocal.
 #include "check/sphere_cells.hpp"
 #include "check/steps.hpp"
 
@@ -43,20 +43,20 @@ bool is_sound(const BsdfDrawn& d) {
     return length > 0.5 && length < 2 && std::isfinite(luminance(d.weight)) && std::isfinite(d.pdf);
 }
 
-// A smooth light, 0.1 to 2.1, for the comparison of strategies.
+// A smooth light, 0.1 to 2.1, for comparing strategies.
 double light(const Vec3& w) {
     return 0.1 + std::pow(0.5 + 0.5 * (0.48 * w[0] + 0.36 * w[1] + 0.8 * std::abs(w[2])), 4) * 2;
 }
 
 std::string unfit(const Subject& s) {
     if (!s.table().has_code()) return "has no GLSL of its own";
-    if (!s.table().stochastic) return "not stochastic: chi-square, integral and weight say more";
+    if (!s.table().stochastic) return "not stochastic: see chi-square, integral and weight";
     return "";
 }
 
 struct Effort {
     std::size_t draws = 0;
-    int side = 0;              // of the grid of directions in each cell
+    int side = 0; // of the grid of directions in each cell
     std::uint32_t repeats = 1; // of eval in each direction
 };
 
@@ -82,7 +82,7 @@ struct Comparison {
     double mis() const { return std::abs(mis_off) / (mis_sigma + 1e-9); }
 };
 
-// Cells that follow the samples, so that a lobe of any width is seen in many of them.
+// Cells adapted to the samples, so that a lobe of any width covers many of them.
 Result<SphereCells> cells_of(BsdfLab& lab, const DensityCase& c, std::uint32_t seed) {
     RESTAGE_TRY(const std::vector<BsdfDrawn> pilot, lab.draw(c.config, c.wo, seed, 1 << 16));
     std::vector<Vec3> directions;
@@ -139,19 +139,19 @@ Result<Comparison> compare(BsdfLab& lab, const DensityCase& c, const Effort& eff
         result.pdf.add(pdf, area), by_light.add(lit, area);
         if (f.mean() > 0) relative += f.variance() * f.n / (f.mean() * f.mean()), variances += 1;
     }
-    // What one sample carries, as far as the variance of bins with few of them goes.
+    // The light one sample carries, for the variance of bins with few samples.
     const double typical = weights > 0 ? squares / weights : 0;
     for (std::size_t b = 0; b < bins; ++b) {
         const Mean& s = carried[b];
         const Integral& v = meant[b];
         const double variance = std::max(s.variance(), v.value * typical / n) + v.variance;
-        // A bin that a handful of samples reach has no normal distribution yet.
+        // A bin with a handful of samples is not normally distributed yet.
         if (s.mean() * n < 40 * typical && v.value * n < 40 * typical) continue;
         const double z = (s.mean() - v.value) / std::sqrt(variance + 1e-14);
         result.chi += z * z, result.terms += 1;
         if (std::abs(z) > result.worst) {
             result.worst = std::abs(z);
-            result.text = fmt::format("around wi {} samples carry {:.5g} +- {:.2g}, eval means {:.5g} +- {:.2g}",
+            result.text = fmt::format("around wi {} samples carry {:.5g} +- {:.2g}, mean eval is {:.5g} +- {:.2g}",
                                       describe(middle_of(b)), s.mean(), s.sigma(), v.value, v.sigma());
         }
     }
@@ -196,12 +196,12 @@ Result<StepResult> check_expectation(Subject& s) {
            pdf_sigma = 0;
     std::size_t chi_at = 0, bin_case = 0;
     std::string chi_text, bin_text;
-    // Estimates have longer tails than a normal distribution: more sigma than Sidak asks for.
+    // Estimates have longer tails than a normal distribution: more sigma than by Sidak.
     const double limit_mis = two_sided_sigma(sidak(family_alpha, cases.size())) + 1, limit_chi = limit_mis + 1;
     const double limit_bin = two_sided_sigma(sidak(family_alpha, cases.size() * bins)) + 1.5;
     const Effort first{s.size(1'000'000, 100'000), s.options.quick ? 2 : 4, 1};
-    // An estimate whose mean comes from one look in thousands (a sharp coat, far from its mirror direction) seems too
-    // small, and its error too, to whoever looks a few hundred times. What is biased is still biased on a longer look.
+    // An estimate dominated by one evaluation in thousands (a sharp coat, far from its mirror direction) seems too
+    // small, as does its error, after a few hundred evaluations. A real bias persists in a longer measurement.
     const Effort second{first.draws * 4, first.side * 2, 16};
     constexpr double most_pdf = 1.005;
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -217,11 +217,11 @@ Result<StepResult> check_expectation(Subject& s) {
                 fmt::format("{} of {} samples have a direction, weight or density that is not a finite number{}",
                             c.bad_samples, first.draws, at));
         if (c.pdf.value - limit_mis * c.pdf.sigma() > most_pdf) {
-            // Stratified sums of a peak that is finer than their cells lie; a function's integral can be certain.
+            // Stratified sums of a peak finer than their cells are wrong; a function's integral can be certain.
             RESTAGE_TRY(const auto pdf, certain_pdf(*lab, cases[i]));
             if (pdf.first - pdf.second > most_pdf)
                 return StepResult::failed(
-                    fmt::format("pdf integrates to {:.3f} +- {:.2g}: it is no density{}", pdf.first, pdf.second, at));
+                    fmt::format("pdf integrates to {:.3f} +- {:.2g}: not a density{}", pdf.first, pdf.second, at));
         }
         if (c.mis() > limit_mis)
             return StepResult::failed(
@@ -235,28 +235,28 @@ Result<StepResult> check_expectation(Subject& s) {
         if (c.worst > worst_z) worst_z = c.worst, bin_case = i, bin_text = c.text;
     }
     std::vector<Figure> figures = {{"configurations", double(cases.size())},
-                                   {"looked at again", again},
+                                   {"measured again", again},
                                    {"worst bin", worst_z, "sigma"},
                                    {"worst sum over bins", worst_chi, "sigma"},
                                    {"largest integral of pdf", largest_pdf},
                                    {"its standard error", pdf_sigma},
                                    {"relative variance of one eval, mean", spread / double(cases.size())},
-                                   {"MIS against samples alone, worst", worst_mis, "sigma"}};
+                                   {"MIS against samples only, worst", worst_mis, "sigma"}};
     if (worst_chi > limit_chi)
         return StepResult::failed(
-            fmt::format("samples do not carry what eval means: {:.1f} sigma over {} bins\n  {}\n  "
+            fmt::format("samples do not match the mean of eval: {:.1f} sigma over {} bins\n  {}\n  "
                         "with {}",
                         worst_chi, worst_chi_terms, chi_text, where(cases[chi_at].config, cases[chi_at].wo)),
             figures);
     if (worst_z > limit_bin)
-        return StepResult::failed(fmt::format("samples do not carry what eval means: {:.1f} sigma in one bin\n  {}\n  "
+        return StepResult::failed(fmt::format("samples do not match the mean of eval: {:.1f} sigma in one bin\n  {}\n  "
                                               "with {}",
                                               worst_z, bin_text, where(cases[bin_case].config, cases[bin_case].wo)),
                                   figures);
     return StepResult::passed(figures);
 }
 
-// Of the means of many estimates, at fewer places.
+// For the means of many estimates, at fewer places.
 Result<StepResult> check_mean_reciprocity(Subject& s) {
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("reciprocity");
@@ -300,7 +300,7 @@ Result<StepResult> check_mean_reciprocity(Subject& s) {
     }
     RESTAGE_CHECK(look(pairs, streams, repeats));
     const double limit = two_sided_sigma(sidak(family_alpha, sets)) + 2;
-    // A mean that few of the estimates carry seems too small, and so does its error: look again, longer.
+    // A mean dominated by few estimates seems too small, and so does its error: measure again, longer.
     double again = 0;
     for (Pair& p : pairs) {
         if (p.z() <= limit) continue;
@@ -309,7 +309,7 @@ Result<StepResult> check_mean_reciprocity(Subject& s) {
     }
     const Pair& worst =
         *std::max_element(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.z() < q.z(); });
-    std::vector<Figure> figures = {{"pairs", double(sets)}, {"looked at again", again}, {"worst", worst.z(), "sigma"}};
+    std::vector<Figure> figures = {{"pairs", double(sets)}, {"measured again", again}, {"worst", worst.z(), "sigma"}};
     if (worst.z() <= limit) return StepResult::passed(figures);
     return StepResult::failed(
         fmt::format("f(wo, wi) is {:.5g} +- {:.2g}, f(wi, wo) is {:.5g} +- {:.2g} (luminance, means)\n  with {}; wi {}",

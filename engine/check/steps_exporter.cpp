@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exporters: a scene with something of everything, with holes where things were removed, in every choice of their
+// Exporters: a scene with every feature, with holes from removed items, with every choice of their
 // options; twice the same bytes.
 #include "check/export_scenes.hpp"
 #include "check/steps.hpp"
@@ -35,22 +35,21 @@ Result<StepResult> check_write(Subject& s) {
     const struct {
         Scene scene;
         const char* name;
-    } scenes[] = {{everything_scene(), "a scene with something of everything"},
-                  {empty_scene(), "a scene without objects"}};
+    } scenes[] = {{everything_scene(), "a scene with every feature"}, {empty_scene(), "a scene without objects"}};
     for (const auto& [scene, name] : scenes)
         for (const ParamSet& set : option_sets(exporter)) {
             options.values = set;
             const std::string what = std::string(name) + ", options " + describe(set);
             Contents written[2];
             for (int k = 0; k < 2; ++k) {
-                const fs::path place = folder.path / "saved"; // the same: paths may stand in the files
+                const fs::path place = folder.path / "saved"; // the same: the files may contain paths
                 std::error_code ignored;
                 fs::remove_all(place, ignored);
                 if (const auto done = save(scene, place, what); !done)
                     return StepResult::failed(what + ": " + done.error().message);
                 written[k] = contents_of(place);
             }
-            if (written[0].empty()) return StepResult::failed(what + ": save() returns 1 and has written nothing");
+            if (written[0].empty()) return StepResult::failed(what + ": save() returns 1 but wrote nothing");
             if (const std::string off = first_difference(written[0], written[1]); !off.empty())
                 return StepResult::failed(what + ": saving twice gives different bytes, first in " + off);
             for (const auto& [file, text] : written[0])

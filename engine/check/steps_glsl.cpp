@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps about the GLSL as text and as code: it compiles, keeps its names to itself, and what it costs.
+// Steps for the GLSL as text and as code: it compiles, its names are prefixed, and its cost.
 #include "check/steps.hpp"
 
 #include "base/file.hpp"
@@ -36,7 +36,7 @@ struct Definition {
     std::size_t line;
 };
 
-// Comments become spaces; lines stay where they are.
+// Comments become spaces; line numbers are kept.
 std::string without_comments(const std::string& text) {
     std::string out = text;
     for (std::size_t i = 0; i + 1 < out.size(); ++i) {
@@ -63,8 +63,8 @@ std::string last_word(std::string_view text) {
     return std::string(text.substr(begin, end - begin));
 }
 
-// What a file defines outside of braces: functions, structs, constants, macros. `forbidden` gets lines that declare
-// what belongs to the host.
+// What a file defines outside of braces: functions, structs, constants, macros. `forbidden` receives lines that declare
+// what is reserved for the host.
 std::vector<Definition> definitions(const std::string& source, std::vector<Definition>& forbidden) {
     const std::string text = without_comments(source);
     std::vector<Definition> found;
@@ -133,7 +133,7 @@ Result<StepResult> check_glsl(Subject& s) {
     const double seconds = seconds_since(start);
     if (const auto spectral = compile(s, render::ColorMode::spectral); !spectral)
         return StepResult::failed(spectral.error().message +
-                                  "\nin spectral mode, where a colour has four components: say "
+                                  "\nin spectral mode, where a colour has four components: write "
                                   "Spectrum, not vec3 or .rgb (restage/v1/spectrum.glsl)");
     return StepResult::passed({{"compile time", seconds * 1000, "ms"},
                                {"code", static_cast<double>(spirv.words.size() * 4), "bytes of SPIR-V"}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Importers: any file is answered, not crashed on; a file of its own is read the same twice, and whoever asks it to
-// stop is heard. Good files to begin with are those in the plugin's folder that have one of its extensions.
+// Importers: any file gets an answer, not a crash; a file of its own format reads identically twice, and requests to
+// stop are obeyed. The valid samples are the files in the plugin's folder with one of its extensions.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The smallest few, in order of their names.
+// The few smallest, sorted by name.
 std::vector<fs::path> samples(const fs::path& folder, const std::vector<std::string>& extensions) {
     std::vector<fs::path> found;
     std::error_code code;
@@ -36,7 +36,7 @@ std::vector<fs::path> samples(const fs::path& folder, const std::vector<std::str
     return found;
 }
 
-// Everything of it, as the text of a project without a base.
+// The complete scene, as the text of a project without a base.
 std::string all_of(const io::ImportedScene& imported) {
     const document::Base base;
     const document::DataSources sources;
@@ -55,7 +55,7 @@ struct Loading {
         options.format = s.importer->format;
         options.read_images = false;
     }
-    // A sentence where the contract is broken, else "".
+    // A sentence if the contract is broken, else "".
     std::string load(const fs::path& file, const std::string& what) {
         s.doing("load() of " + what);
         ++loads;
@@ -108,7 +108,7 @@ Result<StepResult> check_probe(Subject& s) {
                 "its " + name + " cut short");
     }
     if (!problem.empty()) return StepResult::failed(problem);
-    return StepResult::passed({{"heads", double(asked)}, {"taken for its own", double(probed)}});
+    return StepResult::passed({{"heads", double(asked)}, {"claimed as its own", double(probed)}});
 }
 
 Result<StepResult> check_read(Subject& s) {
@@ -119,7 +119,7 @@ Result<StepResult> check_read(Subject& s) {
     Loading loading(s);
     const std::size_t open_before = open_files();
     std::string problem;
-    // What its own files begin with, so that noise gets past the first lines.
+    // The heads of its own files, so that noise gets past the first lines.
     std::vector<std::string> heads{""};
     for (const fs::path& file : good) {
         RESTAGE_TRY(std::string text, read_file(file));
@@ -130,7 +130,7 @@ Result<StepResult> check_read(Subject& s) {
         s.doing("load() of its " + file.filename().string() + " for the second time");
         const auto second = io::import_scene(file.string(), s.registry(), loading.options);
         if (!second || all_of(*first) != all_of(*second))
-            return StepResult::failed("reading " + file.filename().string() + " twice gives two different scenes");
+            return StepResult::failed("reading " + file.filename().string() + " twice gives different scenes");
         heads.push_back(text.substr(0, 64));
         const fs::path bad = with_neighbours(file, folder.path / fmt::format("sample {}", heads.size()));
         for (std::size_t k = 0; k < s.size(160, 48); ++k) {
@@ -152,7 +152,7 @@ Result<StepResult> check_read(Subject& s) {
             fmt::format("{} of {} files were left open", open_after - open_before, loading.loads));
     std::vector<Figure> figures = {{"own files", double(good.size())},
                                    {"broken files and noise", double(loading.loads)},
-                                   {"taken", double(loading.accepted)}};
+                                   {"accepted", double(loading.accepted)}};
     return StepResult::passed(
         figures, good.empty() ? "there is no file with its extension in its folder: put a small one into samples/, and "
                                 "it is read twice, cut short and changed here"
@@ -183,7 +183,7 @@ Result<StepResult> check_read_options(Subject& s) {
                 if (!loaded) return StepResult::failed("its own " + what + " is not read: " + loaded.error().message);
                 const auto again = io::import_scene(file.string(), s.registry(), options);
                 if (!again || all_of(*loaded) != all_of(*again))
-                    return StepResult::failed("reading " + what + " twice gives two different scenes");
+                    return StepResult::failed("reading " + what + " twice gives different scenes");
                 if (first.empty()) first = all_of(*loaded);
                 matters = matters || first != all_of(*loaded);
             }
@@ -211,7 +211,7 @@ Result<StepResult> check_read_cut(Subject& s) {
             if (!problem.empty()) return StepResult::failed(problem);
         }
     }
-    return StepResult::passed({{"files cut short", double(loading.loads)}, {"taken", double(loading.accepted)}});
+    return StepResult::passed({{"files cut short", double(loading.loads)}, {"accepted", double(loading.accepted)}});
 }
 
 Result<StepResult> check_read_stop(Subject& s) {
@@ -236,7 +236,7 @@ Result<StepResult> check_read_stop(Subject& s) {
             s.alive();
             if (loaded)
                 return StepResult::failed(
-                    fmt::format("{}: stopped at call {} of progress(), load() goes on "
+                    fmt::format("{}: stopped at call {} of progress(), load() continues "
                                 "and returns a scene",
                                 name, k));
             if (loaded.error().message.find("the plugin went on") != std::string::npos)
@@ -245,7 +245,7 @@ Result<StepResult> check_read_stop(Subject& s) {
     }
     return StepResult::passed(
         {{"files", double(good.size())}, {"calls of progress()", double(calls_in_all)}, {"stopped", double(stops)}},
-        calls_in_all == 0 ? "it never asks progress(): nobody can stop it" : "");
+        calls_in_all == 0 ? "it never calls progress(), so it cannot be stopped" : "");
 }
 
 Result<StepResult> check_read_leaks(Subject& s) {

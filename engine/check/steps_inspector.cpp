@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Native code of materials that runs in the editor: what draws a part of the inspector, against widgets that answer
-// anything a user might do; and what reads the files of table parameters, with any file.
+// Native code of materials that runs in the editor: drawing a part of the inspector, with widgets that simulate
+// any user input; and reading files of table parameters, with any file.
 #include "check/fake_ui.hpp"
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
@@ -17,20 +17,20 @@ namespace restage::check {
 namespace fs = std::filesystem;
 Result<StepResult> check_inspector(Subject& s) {
     const plugin::Inspector* const inspector = s.registry().find_inspector(s.table().type);
-    if (!inspector) return StepResult::skip("it has no part of the inspector of its own");
+    if (!inspector) return StepResult::skip("it has no inspector of its own");
     Engine e = s.random("inspector");
     std::size_t shown = 0, sets = 0;
     const std::size_t draws = s.size(400, 120);
     FakeUi ui(s.table().params, e);
     for (std::size_t i = 0; i < draws; ++i) {
-        // What one draw has set, the next one shows; and now and then another material is selected.
+        // What one draw sets, the next one shows; occasionally another material is selected.
         if (i % 8 == 7) ui.values = random_config(s.table(), e);
         s.doing(fmt::format("draw() number {} with {}", i + 1, describe(ui.values)));
         inspector->draw(ui);
         s.alive();
         shown += ui.widgets, sets += ui.sets;
         ui.widgets = ui.sets = 0;
-        if (ui.problem.empty() && !ui.groups.empty()) ui.note("draw() returns with a group that is open: end_group()");
+        if (ui.problem.empty() && !ui.groups.empty()) ui.note("draw() returns with an open group: call end_group()");
         if (!ui.problem.empty())
             return StepResult::failed(
                 fmt::format("{}\n  in draw() number {} with {}", ui.problem, i + 1, describe(ui.values)));
@@ -60,7 +60,7 @@ Result<StepResult> check_tables(Subject& s) {
         for (std::size_t k = 0; k < s.size(300, 100); ++k) {
             const bool broken = !good.empty() && good.size() <= 4 << 20 && k % 2;
             const std::string bytes = broken ? broken_version(e, good, k / 2) : noise(e, k, k % 3 ? "" : head);
-            // Each has a name of its own: what was read is remembered.
+            // Each has a unique name: results are cached.
             const fs::path file = folder.path / fmt::format("{} {}.{}", p->id, k, reader->extensions()[0]);
             RESTAGE_CHECK(write_file_atomic(file, bytes));
             s.doing(fmt::format("read() of {} for \"{}\", {} bytes",
@@ -76,7 +76,7 @@ Result<StepResult> check_tables(Subject& s) {
         }
     }
     return StepResult::passed(
-        {{"default files", double(defaults)}, {"broken files and noise", double(files)}, {"taken", double(taken)}});
+        {{"default files", double(defaults)}, {"broken files and noise", double(files)}, {"accepted", double(taken)}});
 }
 
 } // namespace restage::check

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values keep what they are on their way: from a ParamSet through the packed words into the struct that the GLSL sees,
+// Values are preserved in transit: from a ParamSet through the packed words into the GLSL struct,
 // and through a project file and a pbrt file and back.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
@@ -30,8 +30,8 @@ std::string placed(std::string text, const std::string& id) { // "m.$" becomes "
     return text;
 }
 
-// One expression a word, in the order of the table.
-std::vector<std::pair<std::string, std::string>> words_of(const model::Material& table) { // GLSL, name for people
+// One expression per word, in table order.
+std::vector<std::pair<std::string, std::string>> words_of(const model::Material& table) { // GLSL, display name
     std::vector<std::pair<std::string, std::string>> words;
     for (std::uint32_t i = 0; i < table.params.size(); ++i) {
         const model::Param& p = table.params[i];
@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, std::string>> words_of(const model::Material&
     return words;
 }
 
-// What the GLSL must see, from the set itself and not from how it is packed.
+// The values expected in the GLSL, from the set itself, independent of packing.
 Result<std::vector<std::uint32_t>> expected_words(const Subject& s, const ParamSet& set) {
     const model::Material& table = s.table();
     std::vector<std::uint32_t> words;
@@ -135,7 +135,7 @@ Result<StepResult> through_glsl(Subject& s, const std::vector<ParamSet>& sets) {
     return StepResult::passed({});
 }
 
-// One material a set, each on a triangle: pbrt keeps no material that nothing has.
+// One material per set, each on a triangle: pbrt drops unused materials.
 scene::Scene scene_of(const model::Material& table, const std::vector<ParamSet>& sets) {
     scene::Scene scene;
     scene::apply(scene, scene::insert(scene, scene::Camera{}, "check"));
@@ -178,7 +178,7 @@ Result<StepResult> through_project(Subject& s, const scene::Scene& scene) {
     return text.empty() ? StepResult::passed({}) : StepResult::failed(text);
 }
 
-// Do both say the same, defaults filled in? What the file says in decimal may differ in the last bit.
+// Are both equal, with defaults filled in? Decimal values from the file may differ in the last bit.
 bool same_values(const model::Material& table, const ParamSet& a, const ParamSet& b) {
     for (std::uint32_t i = 0; i < table.params.size(); ++i) {
         const model::Param& p = table.params[i];
@@ -201,7 +201,7 @@ bool same_values(const model::Material& table, const ParamSet& a, const ParamSet
     return true;
 }
 
-// The largest relative difference of f; of stochastic materials, whose walks may part at a rounding, the median.
+// The largest relative difference of f; for stochastic materials, whose walks may diverge by rounding, the median.
 Result<double> difference(Subject& s, const ParamSet& a, const ParamSet& b, Engine& e) {
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     std::vector<BsdfJob> jobs;
@@ -227,8 +227,8 @@ Result<double> difference(Subject& s, const ParamSet& a, const ParamSet& b, Engi
     return s.table().stochastic ? off[off.size() / 2] : off.back();
 }
 
-// pbrt says some values otherwise (roughnesses as microfacets' alpha, metals by one of two ways), so it is the BSDF
-// that must be the same where the values are not. Needs the importer and the exporter that come with Restage.
+// pbrt expresses some values differently (roughness as microfacet alpha, metals in one of two ways), so the BSDF
+// must be equal where the values are not. Needs Restage's own importer and exporter.
 Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size_t& otherwise) {
     RESTAGE_TRY(const std::filesystem::path bin, executable_dir());
     const auto plugins = bin.parent_path() / "lib/restage/plugins";
@@ -238,7 +238,7 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
         {s.folder, true}, {plugins / "importer-pbrt", true}, {plugins / "exporter-pbrt", true}};
     registry.scan(paths);
     if (!registry.find_importer("pbrt") || !registry.find_exporter("pbrt"))
-        return StepResult::passed({}, "not through a pbrt file: the plugins for it are not there");
+        return StepResult::passed({}, "not through a pbrt file: its plugins are missing");
     const TemporaryFolder folder;
     const std::string file = (folder.path / "check.pbrt").string();
     if (const auto done = io::export_scene(scene, file, registry); !done)
@@ -261,7 +261,7 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
         RESTAGE_TRY(const double off, difference(s, m.params, other, e));
         if (!(off <= (s.table().stochastic ? 0.1 : 1e-2)))
             return StepResult::failed(
-                fmt::format("a pbrt file gives back another material, whose f differs by {:.2g} %:\n  {}\n  for {}",
+                fmt::format("a pbrt file gives back a different material, whose f differs by {:.2g} %:\n  {}\n  for {}",
                             100 * off, describe(other), describe(m.params)));
     }
     return StepResult::passed({});
@@ -290,7 +290,7 @@ Result<StepResult> check_params(Subject& s) {
     }
     return StepResult::passed({{"parameters", double(s.table().params.size())},
                                {"sets", double(sets.size())},
-                               {"said otherwise by pbrt", double(otherwise)}},
+                               {"expressed differently by pbrt", double(otherwise)}},
                               kept.text);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps that every plugin takes, whatever it provides: manifest, loading with its tables, reloading.
+// Steps for every plugin, whatever it provides: manifest, loading with its tables, reloading.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
 #include "io/services.hpp"
@@ -31,7 +31,7 @@ Result<StepResult> check_load(Subject& s) {
         StepResult result = StepResult::failed(loaded.error().message);
         const auto manifest = plugin::read_manifest(s.folder / "plugin.json");
         if (manifest && !manifest->library.empty() && !fs::exists(s.folder / manifest->library))
-            result.cause = "the plugin is not built yet, or this is the folder of its sources";
+            result.cause = "the plugin is not built yet, or this is its source folder";
         return result;
     }
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -63,7 +63,7 @@ Result<StepResult> check_reload(Subject& s) {
     std::vector<Figure> figures = {{"loads", times},
                                    {"one load", seconds * 1000 / (warm_up + times), "ms"},
                                    {"memory grown", grown(before.resident, after.resident) / 1024, "KiB"}};
-    constexpr double most_growth = 1 << 20; // a page here and there is the allocator's
+    constexpr double most_growth = 1 << 20; // a few pages are due to the allocator
     if (grown(before.resident, after.resident) > most_growth)
         return StepResult::failed(fmt::format("memory grew by {:.1f} MiB in {} loads",
                                               grown(before.resident, after.resident) / (1 << 20), times),

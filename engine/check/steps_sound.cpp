@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing but sound numbers: random and extreme parameters, grazing directions, directions in the plane of the surface,
+// Valid numbers only, for random and extreme parameters, grazing directions, directions in the surface plane,
 // mirror and refracted directions, the ends of [0, 1).
 #include "check/steps.hpp"
 
@@ -22,7 +22,7 @@ std::string bad_value(const char* what, const Vec3& v) {
     return fmt::format("{} is {}: not finite, or negative", what, describe(v));
 }
 
-// What is wrong with an answer, or "".
+// The problem with an answer, or "".
 std::string problem(const Subject& s, const BsdfJob& job, const BsdfAnswer& a) {
     const bool transmissive = s.table().transmissive;
     if (!not_negative(a.eval)) return bad_value("eval(wo, wi)", a.eval);
@@ -40,7 +40,7 @@ std::string problem(const Subject& s, const BsdfJob& job, const BsdfAnswer& a) {
     if (!not_negative(a.weight)) return bad_value("the weight of a sample", a.weight);
     if (!(a.sample_pdf > 0) || !std::isfinite(a.sample_pdf))
         return fmt::format("the density of a sample is {}: not above 0, or not finite", a.sample_pdf);
-    if (!(a.eta > 0.1f && a.eta < 10)) return fmt::format("eta of a sample is {}, which is not believable", a.eta);
+    if (!(a.eta > 0.1f && a.eta < 10)) return fmt::format("eta of a sample is {}, which is implausible", a.eta);
     const std::uint32_t side = a.flags & (reflect | transmit);
     if (side != (a.wi[2] * job.wo[2] > 0 ? reflect : transmit))
         return fmt::format("the flags of a sample ({}) do not say on which side of the surface {} is", a.flags,
@@ -49,7 +49,7 @@ std::string problem(const Subject& s, const BsdfJob& job, const BsdfAnswer& a) {
     return "";
 }
 
-// Each line at an end of its range, or next to it: alpha -> 0, eta -> 1, k -> 0.
+// Each line at an end of its range, or close to it: alpha -> 0, eta -> 1, k -> 0.
 ParamSet extreme_config(const model::Material& table, Engine& e) {
     ParamSet set = random_config(table, e);
     for (const model::Param& p : table.params) {
@@ -93,7 +93,7 @@ Result<StepResult> check_sound(Subject& s) {
                .seed = e()};
         for (float& x : job.u)
             if (e() % 16 == 0) x = e() % 2 ? 0.f : 0.99999994f; // the ends of [0, 1)
-        if (e() % 8 == 0) // mirrored, straight through, and back where it came from: where lobes are highest
+        if (e() % 8 == 0) // mirrored, straight through, and back: where lobes peak
             job.wi = {-job.wo[0], -job.wo[1], e() % 2 ? job.wo[2] : -job.wo[2]};
         else if (e() % 16 == 0)
             job.wi = job.wo;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reciprocity, and that a rough surface becomes the smooth one when its roughness goes to 0.
+// Reciprocity, and that a rough surface converges to the smooth one as its roughness goes to 0.
 #include "check/neighbourhood.hpp"
 #include "check/steps.hpp"
 
@@ -37,7 +37,7 @@ Result<StepResult> check_reciprocity(Subject& s) {
         const double co = std::abs(jobs[i].wo[2]), ci = std::abs(a.wi[2]);
         double worst = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            // Times both cosines: what the energy that is exchanged differs by.
+            // Times both cosines: the difference in exchanged energy.
             const double there = double(a.eval_sampled[c]) * a.eta * a.eta * co, back = double(a.eval_reverse[c]) * ci;
             worst = std::max(worst, std::abs(there - back) - tolerance * std::max({there, back, 1e-6}));
         }
@@ -77,7 +77,7 @@ Vec3 turned(const Vec3& w, double angle) {
     return {static_cast<float>(c * w[0] - s * w[1]), static_cast<float>(s * w[0] + c * w[1]), w[2]};
 }
 
-// Of a stochastic material: means of many estimates, at fewer places. Two looks, for estimates have long tails.
+// For a stochastic material: means of many estimates, at fewer places. Two measurements, as estimates have long tails.
 Result<StepResult> check_mean_isotropy(Subject& s) {
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("isotropy");
@@ -111,8 +111,8 @@ Result<StepResult> check_mean_isotropy(Subject& s) {
             worst = z;
             const BsdfJob &a = jobs[i * 2 * streams], &b = jobs[i * 2 * streams + 1];
             text = fmt::format(
-                "eval is {:.5g} +- {:.2g}, and {:.5g} +- {:.2g} when both directions are turned about the "
-                "normal, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
+                "eval is {:.5g} +- {:.2g}, and {:.5g} +- {:.2g} when both directions are rotated about the "
+                "normal, but TANGENT is not declared\n  with {}; wi {}; rotated wo {} wi {}",
                 here.mean(), here.sigma(), there.mean(), there.sigma(), where(configs[i], a.wo), describe(a.wi),
                 describe(b.wo), describe(b.wi));
         }
@@ -126,7 +126,7 @@ Result<StepResult> check_mean_isotropy(Subject& s) {
 
 } // namespace
 
-// Without TANGENT the frame's x axis is anywhere: what depends on it changes from triangle to triangle.
+// Without TANGENT the frame's x axis is arbitrary: dependence on it would vary between triangles.
 Result<StepResult> check_isotropy(Subject& s) {
     if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
     if (s.table().tangent) return StepResult::skip("TANGENT is declared");
@@ -147,7 +147,7 @@ Result<StepResult> check_isotropy(Subject& s) {
     std::vector<BsdfJob> turned_jobs = jobs;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const BsdfAnswer& a = sampled[i];
-        // Half of them where lobes are.
+        // Half of them in the lobes.
         if (i % 2 && a.flags != 0 && !(a.flags & delta) && std::isfinite(a.wi[0] + a.wi[1] + a.wi[2]))
             jobs[i].wi = a.wi;
         const double angle = uniform(e, 0.3f, 6.f);
@@ -155,7 +155,7 @@ Result<StepResult> check_isotropy(Subject& s) {
     }
     RESTAGE_TRY(const std::vector<BsdfAnswer> here, lab->run(configs, jobs));
     RESTAGE_TRY(const std::vector<BsdfAnswer> there, lab->run(configs, turned_jobs));
-    // Turning rounds: what eval and pdf change with the last digits of wi is no difference.
+    // Rotation rounds: changes of eval and pdf from the last digits of wi do not count.
     std::vector<std::size_t> suspects;
     std::vector<double> off;
     constexpr double tolerance = 1e-3;
@@ -166,7 +166,7 @@ Result<StepResult> check_isotropy(Subject& s) {
                                       std::abs(p - q) - tolerance * std::max({p, q, 1e-5}));
         if (worst > 0) suspects.push_back(i), off.push_back(worst);
     }
-    std::vector<BsdfAnswer> at = here; // neighbourhoods() looks around the sampled directions
+    std::vector<BsdfAnswer> at = here; // neighbourhoods() perturbs the sampled directions
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         at[i].wi = jobs[i].wi, at[i].eval_sampled = here[i].eval, at[i].pdf_sampled = here[i].pdf;
         at[i].eval_reverse = here[i].eval;
@@ -179,8 +179,8 @@ Result<StepResult> check_isotropy(Subject& s) {
         if (off[k] <= 2 * std::max(around[k].value, around[k].pdf)) continue;
         if (bad++ > 0) continue;
         text = fmt::format(
-            "eval is {:.6g} and pdf {:.6g}; when both directions are turned about the normal, {:.6g} and "
-            "{:.6g}, but TANGENT is not declared\n  with {}; wi {}; turned wo {} wi {}",
+            "eval is {:.6g} and pdf {:.6g}; when both directions are rotated about the normal, {:.6g} and "
+            "{:.6g}, but TANGENT is not declared\n  with {}; wi {}; rotated wo {} wi {}",
             luminance(here[i].eval), here[i].pdf, luminance(there[i].eval), there[i].pdf,
             where(configs[jobs[i].config], jobs[i].wo), describe(jobs[i].wi), describe(turned_jobs[i].wo),
             describe(turned_jobs[i].wi));
@@ -203,7 +203,7 @@ Result<double> delta_share(BsdfLab& lab, const ParamSet& set, const Vec3& wo) {
     return n / static_cast<double>(samples.size());
 }
 
-// The light that comes back from a few smooth environments: 1, a gradient each way, and broad lobes.
+// The light reflected from a few smooth environments: 1, a gradient along each axis, and broad lobes.
 constexpr std::size_t environments = 8;
 double environment(std::size_t i, const Vec3& w, const Vec3& wo) {
     switch (i) {
@@ -238,12 +238,12 @@ Result<std::array<Mean, environments>> response(BsdfLab& lab, const ParamSet& se
 
 Result<StepResult> check_limit(Subject& s) {
     if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
-    if (with_roughness(s.table(), 0).entries().empty()) return StepResult::skip("no parameter is called a roughness");
+    if (with_roughness(s.table(), 0).entries().empty()) return StepResult::skip("no parameter is named a roughness");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     const Vec3 tilted = from_degrees(40, 20);
     RESTAGE_TRY(const double smooth_delta, delta_share(*lab, with_roughness(s.table(), 0), tilted));
     if (smooth_delta == 0) return StepResult::skip("roughness 0 is not a delta lobe");
-    // The least roughness without that lobe, by bisection of its logarithm.
+    // The smallest roughness without that lobe, by bisection of its logarithm.
     double lo = -12, hi = std::log10(0.5);
     RESTAGE_TRY(const double rough_delta, delta_share(*lab, with_roughness(s.table(), 0.5f), tilted));
     if (rough_delta >= smooth_delta) return StepResult::skip("roughness 0.5 is as much a delta lobe as 0");

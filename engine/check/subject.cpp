@@ -34,7 +34,7 @@ Subject::Subject(fs::path f, CheckOptions o, std::function<void()> a)
       log_([this](LogLevel level, std::string_view l) {
           if (level >= LogLevel::warning) log_lines.emplace_back(l);
       }) {
-    // The keys of the manifest that are ours alone; what is wrong with it is the manifest step's affair.
+    // The manifest keys used only here; the manifest step reports its errors.
     const auto text = read_file(folder / "plugin.json");
     const auto json = parse_json<nlohmann::json>(text ? *text : "").value_or(nlohmann::json());
     if (json.is_object() && json.contains("exceptions") && json["exceptions"].is_array())
@@ -80,8 +80,8 @@ Result<gpu::ShaderCompiler*> Subject::compiler() {
         RESTAGE_TRY(const fs::path bin, executable_dir());
         const fs::path shaders = bin.parent_path() / "share/restage/shaders";
         if (!fs::exists(shaders / "check_lab.glsl"))
-            return fail(shaders.string() + ": Restage's shaders are not there; the installation is incomplete");
-        // No cache: compiling is one of the things that are measured.
+            return fail(shaders.string() + ": Restage's shaders are missing; the installation is incomplete");
+        // No cache: compile time is measured.
         compiler_ = std::make_unique<gpu::ShaderCompiler>(gpu::ShaderCompilerOptions{.include_dirs = {shaders}});
     }
     return compiler_.get();
@@ -110,8 +110,8 @@ const std::vector<DensityCase>& Subject::density_cases() {
     return density_cases_;
 }
 
-// Of a hundred configurations of a sound material one in ten shows such a p by chance. It is measured anew, with four
-// times the samples: chance does not come twice, and a fault shows all the more. So are integrals that are off.
+// Of a hundred configurations of a valid material one in ten shows such a p by chance. It is measured again, with four
+// times the samples: chance does not repeat, and a fault shows all the more. So are integrals that are off.
 constexpr double suspicious = 1e-3, suspicious_sigma = 3;
 
 Result<const std::vector<DensityResult>*> Subject::densities() {
@@ -155,13 +155,13 @@ std::string where(const scene::ParamSet& config, const Vec3& wo) {
 
 void run_steps(Subject& subject, const std::function<void(const std::string&, const std::string&)>& begun,
                const std::function<void(const StepResult&)>& done, const std::function<void()>& measured) {
-    std::string broken; // why nothing that follows makes sense
+    std::string broken; // why the following steps are pointless
     std::size_t number = 0;
     const auto run_all = [&](const std::vector<Step>& steps, const std::string& of) {
         for (const Step& step : steps) {
             const std::string name = step.name;
             if (!subject.options.only.empty() && subject.options.only != name && name != "load") continue;
-            if (++number <= subject.options.skip) { // done before; but what follows needs the plugin
+            if (++number <= subject.options.skip) { // already done; but later steps need the plugin
                 if (name == "load")
                     if (auto loaded = subject.load(); !loaded) broken = loaded.error().message;
                 continue;
@@ -173,7 +173,7 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
                 result = StepResult::skip(broken);
             } else {
                 auto answer = step.run(subject);
-                // That this machine cannot run GLSL is no fault of the plugin's.
+                // Not the plugin's fault if this machine cannot run GLSL.
                 result = answer                        ? std::move(*answer)
                          : subject.no_device().empty() ? StepResult::failed(answer.error().message)
                                                        : StepResult::skip("not checked: " + subject.no_device());

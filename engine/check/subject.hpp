@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plugin under test and what its steps share: its registry of its own, the device, and the material's lab.
+// The plugin under test and data shared by its steps: a private registry, the device, and the material's lab.
 #pragma once
 
 #include "check/configs.hpp"
@@ -19,11 +19,11 @@ struct CheckOptions {
     bool quick = false;
     std::string only;               // a step's name; empty: all
     std::filesystem::path pictures; // folder for the pages; empty: none
-    std::size_t skip = 0; // steps that were done before, in a process that crashed
+    std::size_t skip = 0; // steps already done in a process that crashed
 };
 
 // plugin.json's "exceptions": [{"step": "energy", "limit": 1.015, "why": "..."}]: what a published model is known to
-// break, and by how much. The report states it; beyond its limit the step fails all the same.
+// violate, and by how much. The report states it; beyond its limit the step still fails.
 struct Exception {
     double limit = 0;
     std::string why;
@@ -35,18 +35,18 @@ class Subject {
 
     const std::filesystem::path folder;
     const CheckOptions options;
-    const std::function<void()> alive; // a sign of life for who supervises us
-    std::function<void(const std::string&)> say_doing; // what a crash from now on happens in; may be empty
+    const std::function<void()> alive; // a heartbeat for the supervisor
+    std::function<void(const std::string&)> say_doing; // announces the activity a later crash belongs to; may be empty
     void doing(const std::string& what) const {
         if (say_doing) say_doing(what);
     }
     std::vector<std::string> log_lines; // warnings and errors of the last load
 
-    Result<> load(); // scans the folder, alone
+    Result<> load(); // scans this folder only
     plugin::Registry& registry() { return *registry_; }
     const plugin::Entry* entry() const { return entry_; } // null before load
 
-    // What the following steps are about, if it is no material.
+    // The object of the following steps, if not a material.
     const model::Importer* importer = nullptr;
     plugin::ImporterEntry importer_entry; // of it
     const model::Exporter* exporter = nullptr;
@@ -55,7 +55,7 @@ class Subject {
     plugin::PanelEntry panel;
     plugin::SkyEntry sky;
     std::optional<plugin::TextureEntry> texture;
-    // The material that the following steps are about.
+    // The material of the following steps.
     void choose(const plugin::MaterialEntry& material);
     const model::Material& table() const { return *table_; }
     render::MaterialPlugin material() const { return {table_, folder, source_}; }
@@ -63,12 +63,12 @@ class Subject {
     const std::string& no_device() const { return no_device_; } // why this machine cannot run GLSL; "" = it can
     Result<gpu::ShaderCompiler*> compiler();
     Result<BsdfLab*> lab(); // compiled at first use
-    // Of the material's density tests; measured at first use.
+    // Results of the material's density tests; measured at first use.
     Result<const std::vector<DensityResult>*> densities();
     const std::vector<DensityCase>& density_cases();
 
     std::optional<Exception> exception(const std::string& step) const;
-    Engine random(const char* step) const; // the same numbers whatever other steps do
+    Engine random(const char* step) const; // independent of what other steps draw
     std::size_t size(std::size_t full, std::size_t quick) const { return options.quick ? quick : full; }
 
   private:
@@ -94,10 +94,10 @@ struct Step {
     const char* name;
     const char* tests; // one line for --help and the documents
     Result<StepResult> (*run)(Subject&);
-    const char* cause; // what usually makes it fail
-    const char* calls = ""; // native functions of the plugin that it calls; "" = its GLSL
+    const char* cause; // the usual cause of failure
+    const char* calls = ""; // the plugin's native functions that it calls; "" = its GLSL
 };
-const std::vector<Step>& plugin_steps();   // of every plugin, once
+const std::vector<Step>& plugin_steps(); // of every plugin, once
 const std::vector<Step>& material_steps(); // of every material of the plugin
 const std::vector<Step>& texture_steps();
 const std::vector<Step>& denoiser_steps();
@@ -107,10 +107,10 @@ const std::vector<Step>& action_steps();
 const std::vector<Step>& panel_steps();
 const std::vector<Step>& sky_steps();
 std::span<const std::vector<Step>* const> all_steps(); // every list, in the order of reports
-const Step* find_step(const std::string& name); // null: there is none
+const Step* find_step(const std::string& name); // null if there is none
 
-// All steps in order. `begun` is called before each, `done` after it; `measured` after those of a material whose GLSL
-// compiles, while it is still chosen.
+// All steps in order. Calls `begun` before each, `done` after it; `measured` after those of a material whose GLSL
+// compiles, while it is still current.
 void run_steps(Subject& subject, const std::function<void(const std::string& step, const std::string& of)>& begun,
                const std::function<void(const StepResult&)>& done, const std::function<void()>& measured = {});
 

@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::string_view mark = "\x1frestage-check "; // nothing that a plugin prints by chance
+constexpr std::string_view mark = "\x1frestage-check "; // unlikely in a plugin's own output
 
 void say(const ordered_json& event) {
     const std::string line =
@@ -28,7 +28,7 @@ void say(const ordered_json& event) {
     std::fflush(stdout);
 }
 
-// Why the process ended before it said so.
+// Why the process ended unexpectedly.
 StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, const std::string& of,
                        const Supervision& s) {
     StepResult result;
@@ -44,13 +44,13 @@ StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, c
                     ? fmt::format("no answer from the plugin within {:g} s", limit)
                     : fmt::format("no answer from the GPU within {:g} s: an endless loop in its GLSL?", limit);
             result.cause = !calls.empty() ? calls + " does not return"
-                                          : "a loop whose end depends on a number that can be NaN, or never gets there";
+                                          : "a loop whose end depends on a number that can be NaN, or is never reached";
             break;
         case ProcessEnd::signalled:
             result.text = fmt::format("the plugin crashed: {}", outcome.what);
-            result.cause = calls.empty() ? "GLSL that the driver cannot compile, or memory of the plugin's that is gone"
+            result.cause = calls.empty() ? "GLSL that the driver cannot compile, or freed memory of the plugin"
                                          : "a bug in " + calls +
-                                               ", or a table that lies about its size, its count or its "
+                                               ", or a table that misstates its size, its count or its "
                                                "pointers";
             break;
         case ProcessEnd::cancelled:
@@ -63,13 +63,13 @@ StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, c
     return result;
 }
 
-// Is there sense in the steps after this one, in a new process?
+// Should the steps after this one run in a new process?
 bool goes_on(const ProcessOutcome& outcome, const std::string& step) {
     if (step.empty() || step == "manifest" || step == "load" || step == "glsl" || step == "names") return false;
     if (outcome.end == ProcessEnd::cancelled) return false;
     const Step* known = find_step(step);
     const bool hung = outcome.end == ProcessEnd::silence_limit || outcome.end == ProcessEnd::time_limit;
-    return known && (*known->calls || !hung); // GLSL that does not end does not end in any step
+    return known && (*known->calls || !hung); // GLSL that hangs would hang in every step
 }
 
 } // namespace
@@ -114,16 +114,16 @@ Result<PluginReport> check_plugin(const Supervision& s) {
     }
     std::string step, of, doing;
     bool ended = false;
-    std::size_t begun = 0; // steps, in all processes
+    std::size_t begun = 0; // number of steps, in all processes
     Process process;
     process.silence_limit = s.answer_limit;
     process.memory_limit = s.memory_limit;
     process.cancel = s.cancel;
     if (!s.options.quick)
-        process.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}}; // the driver's work is measured
+        process.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}}; // driver compile time is measured
     process.on_out = [&](std::string_view line) {
         const std::size_t at = line.find(mark);
-        if (at == line.npos) return; // the plugin's own words
+        if (at == line.npos) return; // the plugin's own output
         const auto event = parse_json<ordered_json>(line.substr(at + mark.size())).value_or(ordered_json());
         if (!event.is_object()) return;
         const std::string kind = event.value("event", "");
@@ -157,7 +157,7 @@ Result<PluginReport> check_plugin(const Supervision& s) {
         report.seconds += outcome.seconds;
         if (ended && outcome.ok()) break;
         StepResult result = ended_early(outcome, step, of, s);
-        if (ended) result.step = "shutdown", result.of = ""; // after its last word
+        if (ended) result.step = "shutdown", result.of = ""; // after its last message
         if (!doing.empty() && !ended) result.text += "\n  in " + doing;
         std::string said = outcome.err;
         while (!said.empty() && said.back() == '\n')
@@ -165,7 +165,7 @@ Result<PluginReport> check_plugin(const Supervision& s) {
         if (!said.empty()) result.text += "\n  it last said: " + said.substr(said.rfind('\n') + 1);
         report.steps.push_back(std::move(result));
         if (s.on_step) s.on_step(report, report.steps.back());
-        // A crash is this step's; the others are looked at all the same.
+        // A crash counts for this step only; the others still run.
         more = !ended && begun > before && goes_on(outcome, step);
     }
     return report;
@@ -184,7 +184,7 @@ Result<std::vector<fs::path>> find_plugins(const fs::path& program, std::span<co
             unknown.push_back(name);
     }
     if (!names.empty() && unknown.empty()) return folders;
-    // Listing loads them all, which is not done in this process either.
+    // Listing loads them all, hence also in a child process.
     Process list;
     list.argv = {program.string(), "--quiet", "plugins", "--json"};
     list.time_limit = std::chrono::seconds(60);
@@ -193,8 +193,7 @@ Result<std::vector<fs::path>> find_plugins(const fs::path& program, std::span<co
     RESTAGE_TRY(const ProcessOutcome outcome, run_process(list));
     const auto parsed = parse_json<ordered_json>(json).value_or(ordered_json());
     if (!outcome.ok() || !parsed.is_array())
-        return fail("listing the plugins failed (" + outcome.what +
-                    "): name the folder of each plugin that is to be checked");
+        return fail("listing the plugins failed (" + outcome.what + "): name the folder of each plugin to check");
     const auto provides = [](const ordered_json& p, const std::string& name) {
         if (p.value("id", "") == name) return true;
         const auto list_of = p.value("provides", std::vector<std::string>{});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checking a plugin in a process of its own, so that it may crash, hang or print rubbish: `restage check --in-process`
-// says on its standard output, a marked line of JSON each, what it begins and what it found.
+// Checking a plugin in a separate process, so that it may crash, hang or print garbage: `restage check --in-process`
+// reports on its standard output, as marked lines of JSON, what it begins and what it found.
 #pragma once
 
 #include "check/subject.hpp"
@@ -15,19 +15,19 @@ struct Supervision {
     std::filesystem::path program; // the program `restage`
     std::filesystem::path folder;  // of the plugin
     CheckOptions options;
-    std::chrono::milliseconds answer_limit{60'000}; // the longest silence
+    std::chrono::milliseconds answer_limit{60'000}; // maximum silence
     std::uint64_t memory_limit = 0;                 // bytes of address space; 0 = none
     std::function<void(const PluginReport& so_far, const StepResult&)> on_step;
     std::function<void(const std::string& step, const std::string& of)> on_begin;
     const std::atomic<bool>* cancel = nullptr;
 };
-Result<PluginReport> check_plugin(const Supervision&); // [worker] an error: it could not be started
+Result<PluginReport> check_plugin(const Supervision&); // [worker] an error means it could not be started
 
-// The folders of what is named: folders, ids, or what plugins provide ("diffuse"); nothing named = all there are.
+// Resolves folders, ids, or what plugins provide ("diffuse") to plugin folders; none given = all.
 Result<std::vector<std::filesystem::path>> find_plugins(const std::filesystem::path& program,
                                                         std::span<const std::string> names);
 
-// The other end.
+// The child's side.
 void check_in_process(const std::filesystem::path& folder, const CheckOptions& options);
 
 } // namespace restage::check

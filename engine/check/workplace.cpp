@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <locale>
 #include <fstream>
+#include <locale>
 #include <random>
 #include <sstream>
 #if defined(__GLIBC__)
@@ -39,7 +39,7 @@ std::string noise(Engine& e, std::size_t kind, std::string_view head) {
             case 1:
                 bytes += i % 40 == 39 ? '\n' : static_cast<char>(' ' + e() % 95);
                 break;
-            default: // numbers, with what numbers may go wrong by
+            default: // numbers and separators that break parsers
                 constexpr std::string_view words[] = {"0",          "1",           "-1",    "1e38",
                                                       "4294967295", "-2147483648", "nan",   "inf",
                                                       "0.5",        "\n",          "1e-45", "99999999999999999999"};

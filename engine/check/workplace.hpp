@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What steps that run native code of a plugin share: a folder that goes away again, noise, broken versions of a good
+// Shared by steps that run a plugin's native code: a temporary folder, noise, broken versions of a good
 // file, and what of this process somebody left behind.
 #pragma once
 
@@ -23,12 +23,12 @@ struct TemporaryFolder {
     std::filesystem::path path;
 };
 
-// Up to 4 KiB: nothing at all, text, bytes, numbers, or `head` and then any of these. `kind` chooses.
+// Up to 4 KiB: empty, text, bytes, numbers, or `head` followed by any of these. `kind` selects.
 std::string noise(Engine& e, std::size_t kind, std::string_view head = {});
-// Cut short, with bytes changed, with a piece left out or twice.
+// Truncated, with bytes changed, with a piece removed or duplicated.
 std::string broken_version(Engine& e, const std::string& good, std::size_t kind);
 
-std::size_t open_files(); // of this process; 0 where that cannot be known
+std::size_t open_files(); // of this process; 0 if unknown
 // Of this process; 0 where it cannot be known: then nothing is compared.
 struct Resources {
     std::size_t resident = 0, heap = 0; // bytes; heap: what malloc has given and not got back
@@ -40,7 +40,7 @@ Result<StepResult> check_nothing_left(const std::string& what, const std::functi
 
 // Without the flush to the disk that write_file_atomic waits for: for files that are read once.
 Result<> write_scratch(const std::filesystem::path&, std::string_view bytes);
-// Every file below a folder, name and content, in order: whether two are the same.
+// Every file below a folder, name and content, sorted: to compare two folders.
 using Contents = std::vector<std::pair<std::string, std::string>>;
 Contents contents_of(const std::filesystem::path& folder);
 // "" or the first that differs: "scene.obj:12: v 0 0 1".

@@ -23,7 +23,7 @@ struct Assignment {
     std::string name, field, value, who; // who: for messages
 };
 
-// Names may hold dots: the last one before the first = is meant.
+// Names may contain dots: the last one before the first = separates.
 Result<Assignment> split(const std::string& text) {
     const std::size_t equals = text.find('='), dot = text.rfind('.', equals);
     if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot > equals || dot + 1 == equals)
@@ -42,7 +42,7 @@ Result<std::vector<float>> numbers(const Assignment& a) {
         float x = 0;
         const auto [stop, code] = std::from_chars(at, end, x);
         if (code != std::errc() || (stop != end && *stop != ','))
-            return fail(a.who + ": \"" + a.value + "\" is not a number, nor three with commas between");
+            return fail(a.who + ": \"" + a.value + "\" is not a number, nor three separated by commas");
         out.push_back(x);
         if (stop == end) break;
         at = stop + 1;
@@ -67,7 +67,7 @@ Result<std::uint32_t> whole(const Assignment& a) {
 Result<glm::vec3> color(const Assignment& a) {
     RESTAGE_TRY(const auto all, numbers(a));
     if (all.size() == 1) return glm::vec3(all[0]);
-    if (all.size() != 3) return fail(a.who + ": a colour is one number or three with commas between, linear sRGB");
+    if (all.size() != 3) return fail(a.who + ": a colour is one number or three separated by commas, linear sRGB");
     return glm::vec3(all[0], all[1], all[2]);
 }
 
@@ -83,7 +83,7 @@ Result<Id<T>> named(const Scene& scene, const Assignment& a) {
     return id;
 }
 
-// A name that is no number is a texture's.
+// A name that is not a number is a texture's.
 bool begins_number(const std::string& text) { return !text.empty() && text.find_first_of("0123456789.+-") == 0; }
 
 Result<Value> value_of(const Scene& scene, const Assignment& a, model::ParamType type) {
@@ -110,7 +110,7 @@ Result<Value> value_of(const Scene& scene, const Assignment& a, model::ParamType
         case model::ParamType::integer: {
             RESTAGE_TRY(const float x, number(a));
             if (x != std::floor(x) || std::abs(x) > 1e9f)
-                return fail(a.who + ": \"" + a.value + "\" is no whole number");
+                return fail(a.who + ": \"" + a.value + "\" is not a whole number");
             value.i = static_cast<int>(x);
             return value;
         }
@@ -277,7 +277,7 @@ Result<Edit> material_edit(const Session& session, Id<Material> id, const Assign
 
 Result<Edit> edit_of(const Session& session, const Assignment& a) {
     const Scene& scene = session.scene();
-    std::string known; // fields of the things of this name
+    std::string known; // fields of the items of this name
     const auto note = [&](const char* kind, const std::string& fields) {
         known += std::string(known.empty() ? "" : "; ") + kind + " \"" + a.name + "\" has " + fields;
     };

@@ -11,12 +11,12 @@ namespace restage::document {
 
 // "name.field=value" as one edit of the session. The name is
 // - a material's (field: a parameter of its table, or `type`), an object's (material, emission, hidden), a light's
-//   (value, cone_angle, cone_delta, hidden), a camera's (fov, lens_radius, focal_distance); where several things have
-//   it, the first of this order that has the field is meant;
+//   (value, cone_angle, cone_delta, hidden), a camera's (fov, lens_radius, focal_distance); if several items share
+//   it, the first in this order that has the field is used;
 // - or `film` (exposure), `sky` (scale, rotation, hidden_from_camera), `settings` (max_depth, samples).
-// A value is a number, three with commas between (one stands for all three), true or false, a choice, the name of a
-// texture or material, or the path of a table, as the field wants it; `none` takes an emission away. Angles in degrees,
-// colours linear sRGB. The same rules of values hold as for every edit; an error lists the fields that there are.
+// A value is a number, three separated by commas (one stands for all three), true or false, a choice, the name of a
+// texture or material, or the path of a table, depending on the field; `none` removes an emission. Angles in degrees,
+// colours linear sRGB. Values follow the same rules as in every edit; errors list the available fields.
 Result<> assign(Session&, const std::string& assignment);
 
 } // namespace restage::document

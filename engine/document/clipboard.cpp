@@ -20,7 +20,7 @@ constexpr std::size_t most_text = 12 << 20; // X servers take requests of up to 
 
 constexpr const char* mark = "copied"; // in the note
 
-// Bytes of what no path of an image names.
+// Bytes of data not available from a file.
 std::size_t data_bytes(const Scene& s) {
     std::set<const void*> seen;
     std::size_t bytes = 0;
@@ -35,7 +35,7 @@ std::size_t data_bytes(const Scene& s) {
     return bytes;
 }
 
-// A material comes with an object that has it: what nothing uses is no part of a scene that is put into another.
+// A material travels with an object that has it: merging drops unused items.
 void add_carrier(Scene& s, Id<Material> material) {
     auto triangle = std::make_shared<MeshData>();
     triangle->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -58,7 +58,7 @@ Result<std::string> copy_text(const Session& session, const Selected& selected) 
     part.lights.each([&](Id<Light> id, const Light& l) {
         if (id != selected.light) rest.changes.push_back(Change<Light>{id, l, std::nullopt});
     });
-    part.cameras.each([&](Id<Camera> id, const Camera& c) { // the active one says what is up, and which hand it is
+    part.cameras.each([&](Id<Camera> id, const Camera& c) { // the active one defines up and handedness
         if (id != part.active_camera.value) rest.changes.push_back(Change<Camera>{id, c, std::nullopt});
     });
     apply(part, rest);
@@ -66,10 +66,10 @@ Result<std::string> copy_text(const Session& session, const Selected& selected) 
     part.settings.value = {};
     part.film.value = {};
     if (selected.material) {
-        if (!part.materials.find(selected.material)) return fail("the material is not there any more");
+        if (!part.materials.find(selected.material)) return fail("the material no longer exists");
         add_carrier(part, selected.material);
     }
-    if (part.instances.live() + part.lights.live() == 0) return fail("there is nothing to copy");
+    if (part.instances.live() + part.lights.live() == 0) return fail("nothing to copy");
     apply(part, remove_unused(part));
 
     DataSources sources;
@@ -115,7 +115,7 @@ std::size_t triangles(const Scene& s, const Instance& i) {
     return mesh && mesh->data ? mesh->data->triangles.size() : 0;
 }
 
-// Something of that shape is there already, so that what comes would not be seen.
+// The same shape is already in that place, so that the copy would be invisible.
 bool covered(const Scene& into, const Scene& copied, const glm::dmat4& move) {
     bool found = false;
     copied.instances.each([&](auto, const Instance& i) {
@@ -165,18 +165,18 @@ Result<Edit> paste_material(const Scene& into, const Copy& copy, std::span<const
     Id<Material> original;
     copy.scene.instances.each([&](auto, const Instance& i) { original = i.material; });
     const Material* material = copy.scene.materials.find(original);
-    if (!material) return fail("the clipboard holds no material");
+    if (!material) return fail("the clipboard contains no material");
     Merged merged = merge(into, copy.scene, "");
     Edit edit{"Paste material " + material->name, {}};
     Id<Material> pasted;
-    for (AnyChange& change : merged.edit.changes) // but for what carried it
+    for (AnyChange& change : merged.edit.changes) // except its carrier object
         if (const auto* carrier = std::get_if<Change<Instance>>(&change))
             pasted = carrier->after->material;
         else if (!std::holds_alternative<Change<Mesh>>(change))
             edit.changes.push_back(std::move(change));
     for (const Id<Instance> id : to) {
         const Instance* before = into.instances.find(id);
-        if (!before) return fail("an object is not there any more");
+        if (!before) return fail("an object no longer exists");
         Instance after = *before;
         after.material = pasted;
         edit.changes.push_back(Change<Instance>{id, *before, std::move(after)});

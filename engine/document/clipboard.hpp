@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copying between scenes, and windows, as text: a project without a base that holds what was copied and all it needs.
-// Geometry and pixels that a file has are named where they are large, else written into the text.
+// Copying between scenes and windows as text: a project without a base that holds the selection and all it needs.
+// Large geometry and pixels available from a file are referenced, all others written into the text.
 #pragma once
 
 #include "base/result.hpp"
@@ -17,13 +17,13 @@ struct Selected { // objects, or a light, or a material
     scene::Id<scene::Light> light;
     scene::Id<scene::Material> material;
 };
-// An error where it is larger than what a clipboard takes.
+// An error if larger than the clipboard's limit.
 Result<std::string> copy_text(const Session&, const Selected&);
 
 bool is_copy(std::string_view text); // looks like one
 struct Copy {
     scene::Scene scene;
-    bool material = false; // the one of its only object is meant
+    bool material = false; // it stands for the material of its only object
 };
 Result<Copy> read_copy(const std::string& text, const plugin::Registry&); // [worker]
 
@@ -32,7 +32,7 @@ struct Pasted {
     std::vector<scene::Id<scene::Instance>> instances;
     scene::Id<scene::Light> light;
 };
-// Objects and lights where they were; `aside`: moved by this where one of the same place is there already.
+// Objects and lights in their old places; `aside`: offset if the same place is already taken.
 Pasted paste(const scene::Scene& into, const scene::Scene& copied, const glm::dvec3& aside);
 // The material for these objects.
 Result<scene::Edit> paste_material(const scene::Scene& into, const Copy&,

@@ -18,9 +18,9 @@ using namespace scene;
 
 namespace {
 
-constexpr double wanted = 0.6;                // what white comes to in a metered picture
-constexpr double too_dark = 0.08, too_bright = 4; // a picture in between is left as its file gives it
-constexpr double least_lit = 0.02;            // part of the picture; less is no lighting
+constexpr double wanted = 0.6;                // the value of white in a metered picture
+constexpr double too_dark = 0.08, too_bright = 4; // a picture in between keeps its file's exposure
+constexpr double least_lit = 0.02;            // fraction of the picture; less counts as unlit
 
 bool shines(const glm::vec3& c) { return c.x > 0 || c.y > 0 || c.z > 0; }
 bool has_sky(const Scene& s) { return s.environment.value && shines(s.environment.value->scale); }
@@ -30,7 +30,7 @@ glm::vec3 mean_of_sky(const Scene& s) {
     const Environment& sky = *s.environment.value;
     const Image* image = s.images.find(sky.image);
     if (!image || !image->data) return sky.scale;
-    const PixelData& p = *image->data; // rows of a panorama by their share of the sphere, of an octahedron alike
+    const PixelData& p = *image->data; // panorama rows weighted by solid angle, octahedral ones equally
     glm::dvec3 sum(0);
     double weights = 0;
     for (std::uint32_t y = 0; y < p.height; ++y) {
@@ -47,7 +47,7 @@ glm::vec3 mean_of_sky(const Scene& s) {
     return glm::vec3(sum / std::max(weights, 1e-30)) * sky.scale;
 }
 
-// Glass, nothing, and what is less than half there.
+// Glass, null surfaces, and those less than half opaque.
 bool passes(const Scene& s, const plugin::Registry& registry, const Instance& in) {
     if (in.alpha < 0.5f) return true;
     const Material* m = s.materials.find(in.material);
@@ -59,7 +59,7 @@ bool passes(const Scene& s, const plugin::Registry& registry, const Instance& in
     return !line || m->params.number("transmission", line->def[0]) > 0.5f;
 }
 
-// Of the first colour that a material of the type has and does not shine by.
+// Of the type's first colour parameter that is not its emission.
 double albedo_of(const Scene& s, const plugin::Registry& registry, const Instance& in) {
     const Material* m = s.materials.find(in.material);
     const auto plugin = m ? registry.find_material(m->type) : std::nullopt;
@@ -81,7 +81,7 @@ void append(Edit& edit, Edit more) {
     std::move(more.changes.begin(), more.changes.end(), std::back_inserter(edit.changes));
 }
 
-// A point light where the camera stands, that lights what it sees as a studio would.
+// A point light at the camera, as bright on what it sees as a studio would be.
 std::optional<Light> headlamp(const Scene& s, const plugin::Registry& registry) {
     const Camera* camera = s.cameras.find(s.active_camera.value);
     if (!camera) return std::nullopt;
@@ -162,7 +162,7 @@ void expose(io::ImportedScene& in, const plugin::Registry& registry) {
     Film film = in.scene.film.value;
     film.exposure = float(wanted / reading.white);
     in.scene.film = {film, ++in.scene.clock};
-    tell("exposure", fmt::format("set to {:.4g}, because the file says none and a white surface where the camera looks "
+    tell("exposure", fmt::format("set to {:.4g}: the file gives none, and a white surface where the camera looks "
                                  "would have the value {:.4g} in the picture",
                                  double(film.exposure), reading.white));
 }

@@ -27,12 +27,12 @@ using nlohmann::json;
 
 namespace {
 
-// A folder of our own for what the child writes; gone at the end.
+// A private folder for the child's output; removed at the end.
 struct Handover {
     fs::path folder;
     static Result<Handover> create() {
 #if defined(_WIN32)
-        return fail("reading in a process of its own is not supported on Windows yet");
+        return fail("reading in a separate process is not supported on Windows yet");
 #else
         RESTAGE_TRY(fs::path folder, make_temporary_folder("restage-import"));
         return Handover(std::move(folder));
@@ -66,7 +66,7 @@ io::Report read_report(const std::string& text) {
     return report;
 }
 
-// Pictures that the scene names by path: decoded here, in the child, under its limits.
+// Pictures that the scene names by path: decoded here, in the child, within its limits.
 using PictureKey = std::tuple<std::string, int, float>;
 constexpr std::uint64_t most_picture_bytes = std::uint64_t{16} << 30; // handed over, of one scene
 
@@ -74,7 +74,7 @@ PictureKey key_of(const scene::Image& image) { return {image.path, static_cast<i
 
 fs::path pictures_folder(const fs::path& out) { return out.parent_path() / "pictures"; }
 
-// "[[path, encoding, gamma, file], ...]"; what is wrong with one becomes a line of the report.
+// "[[path, encoding, gamma, file], ...]"; a problem with one becomes a report line.
 Result<std::string> hand_over_pictures(io::ImportedScene& imported, const fs::path& out) {
     struct Job {
         scene::Image image;
@@ -86,7 +86,7 @@ Result<std::string> hand_over_pictures(io::ImportedScene& imported, const fs::pa
     });
     std::error_code code;
     fs::create_directories(pictures_folder(out), code);
-    if (code) return fail(pictures_folder(out).string() + ": cannot be made: " + code.message());
+    if (code) return fail(pictures_folder(out).string() + ": cannot be created: " + code.message());
     std::atomic<std::uint64_t> total{0};
     Jobs().parallel_for(work.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -135,7 +135,7 @@ std::map<PictureKey, std::string> read_picture_list(const std::string& text) {
 
 Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry) {
     io::ImportOptions options;
-    options.read_images = false; // they are handed over one by one
+    options.read_images = false; // the child hands them over one by one
     options.progress = [](float done, std::string_view what) {
         fmt::print("{:.4f} {}\n", done, what);
         std::fflush(stdout);
@@ -178,14 +178,14 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
     RESTAGE_TRY(const ProcessOutcome outcome, run_process(child));
     if (outcome.end == ProcessEnd::cancelled) return cancelled(path + ": stopped on request");
     if (!outcome.ok()) {
-        if (outcome.end == ProcessEnd::exited && outcome.code == 1) { // it could say why
+        if (outcome.end == ProcessEnd::exited && outcome.code == 1) { // it has reported why
             const auto at = outcome.err.rfind("error: ");
             std::string why = at == std::string::npos ? outcome.err : outcome.err.substr(at + 7);
             while (!why.empty() && why.back() == '\n')
                 why.pop_back();
             if (!why.empty()) return fail(why);
         }
-        return fail(path + ": reading it ended with " + outcome.what + "; nothing of it was taken");
+        return fail(path + ": reading it ended with " + outcome.what + "; nothing was imported");
     }
     ReadOptions reading;
     RESTAGE_TRY(const std::string list, read_file(pictures_folder(out) / "list"));

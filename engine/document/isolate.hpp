@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading a scene in a process of its own: for files from people one does not know. What crashes, hangs or eats memory
-// there, in an importer or in a library it uses, is an error here. The child runs `restage import-child`, which hands
-// the scene over as a project that holds everything, and beside it, as plain numbers, the pictures that the scene names
-// by path: they are decoded in the child as well, within its limits.
+// Reading a scene in a separate process: for untrusted files. A crash, hang or memory exhaustion
+// there, in an importer or a library it uses, is an error here. The child runs `restage import-child`, which passes
+// the scene back as a self-contained project, and beside it, as plain numbers, the pictures that the scene names
+// by path: they too are decoded in the child, within its limits.
 #pragma once
 
 #include "io/import.hpp"
@@ -21,11 +21,11 @@ struct IsolateOptions {
     std::uint64_t memory_limit = std::uint64_t(4) << 30; // bytes of address space
 };
 
-// [worker] Errors: the importer's own; "scene.obj: reading it crashed (SIGSEGV ...); nothing of it was taken".
+// [worker] Errors: the importer's own; "scene.obj: reading it crashed (SIGSEGV ...); nothing was imported".
 Result<io::ImportedScene> import_isolated(const std::string& path, const plugin::Registry& registry,
                                           const IsolateOptions& options, const io::Progress& progress = {});
 
-// The child's part: imports `path` and writes `out`. Progress goes to stdout, "0.25 meshes" a line. [main]
+// The child's part: imports `path` and writes `out`. Progress goes to stdout, one line "0.25 meshes" each. [main]
 Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry);
 
 } // namespace restage::document

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fields of everything in a scene, each named once: the same list writes a project file and reads it. A visitor is
-// called as v(name, field); v.path(name, file path), v.mesh(m) and v.image(i) for what is not stored as it is.
+// The fields of every item in a scene, each named once: one list writes and reads project files. A visitor is
+// called as v(name, field); v.path(name, file path), v.mesh(m) and v.image(i) for indirectly stored fields.
 #pragma once
 
 #include "scene/tables.hpp"
@@ -12,7 +12,7 @@ namespace restage::document {
 
 using json = nlohmann::ordered_json;
 
-// Projects of before 0.2 have values among what is verbatim, a line "=id text" each.
+// Projects from before 0.2 have values among the verbatim lines, one "=id text" each.
 void take_value_lines(scene::Origin&);
 
 template <class V>
@@ -160,7 +160,7 @@ void fields(V& v, scene::Origin& o) {
     take_value_lines(o);
 }
 
-// Names of choices, in order of their values.
+// Names of choices, in the order of their values.
 template <class E>
 struct Names;
 template <>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON of project files below the level of things: numbers that come back bit for bit, blocks of bytes, geometry and
-// pixels that no file holds, and a layout in which a change of one value is a change of one line.
+// JSON of project files below the level of items: numbers that round-trip exactly, blocks of bytes, geometry and
+// pixels not available from a file, and a layout in which changing one value changes one line.
 #pragma once
 
 #include "base/result.hpp"
@@ -31,7 +31,7 @@ Result<std::shared_ptr<const scene::PixelData>> read_inline_image(const json& j)
 // Lists of numbers on one line, everything else indented.
 std::string pretty(const json& j);
 
-// In what was not understood, an object with this member only leads to a place: it is not to be made anew.
+// Among unknown members, an object with this one only marks a place: it is not to be recreated.
 inline constexpr const char* place_mark = "\x01";
 void erase_marks(json& j);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A project file becomes its base, imported anew, and one edit. References are found by id and name; where the base has
-// changed, by name alone; what cannot be found is an error that names it, or is left out when asked to.
+// Reads a project file as its reimported base and one edit. References are found by id and name; if the base has
+// changed, by name alone; missing items are errors that name them, or are skipped on request.
 #include "document/project.hpp"
 #include "document/project_values.hpp"
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What stands for geometry or pixels that are not to be found: a cube, a grey pixel.
+// Placeholders for missing geometry or pixels: a cube, a grey pixel.
 std::shared_ptr<const MeshData> stand_in_mesh() {
     auto mesh = std::make_shared<MeshData>();
     for (int i = 0; i < 8; ++i)
@@ -81,7 +81,7 @@ class Reader : public ValueReader {
         Scene result = base;
         apply(result, doc_.changes);
         for (const Problem& problem : validate(result))
-            if (problem.severity == Problem::Severity::error && problem.sentence != no_camera) // it may get one yet
+            if (problem.severity == Problem::Severity::error && problem.sentence != no_camera) // it may still get one
                 return fail(path_ + ": " + problem.sentence);
         io::report_tables(result, registry_, doc_.report, &base);
         return std::move(doc_);
@@ -132,11 +132,11 @@ class Reader : public ValueReader {
   private:
     Result<json> parse(const std::string& text) const {
         auto parsed = parse_json<json>(text);
-        if (!parsed) return fail(path_ + ":" + parsed.error().message + "; this is no project file, or it is damaged");
+        if (!parsed) return fail(path_ + ":" + parsed.error().message + "; not a project file, or damaged");
         json& j = *parsed;
         const auto version = j.is_object() ? j.find("restage") : j.end();
         if (!j.is_object() || version == j.end() || !version->is_number_integer())
-            return fail(path_ + ": this is JSON, but no Restage project");
+            return fail(path_ + ": this is JSON, but not a Restage project");
         if (version->get<int>() > project_version)
             return fail(
                 fmt::format("{}: a newer Restage wrote this project (version {}, this one knows {}); open it there",
@@ -148,7 +148,7 @@ class Reader : public ValueReader {
 
     Result<> read_base(const json& j) {
         if (!j.is_object() || !j.contains("file") || !j["file"].is_string())
-            return fail(path_ + ": base: a file is expected");
+            return fail(path_ + ": base: expected a file");
         Base& base = doc_.base;
         const std::string named = j["file"].get<std::string>();
         base.file = options_.base.empty() ? absolute(named) : fs::absolute(options_.base).lexically_normal().string();
@@ -156,7 +156,7 @@ class Reader : public ValueReader {
         if (!fs::exists(base.file, none)) {
             if (options_.problem) *options_.problem = BaseProblem::missing;
             return fail(path_ + ": the scene it is based on is not at " + base.file +
-                        "; put it back there, or open the project with the place where it is now");
+                        "; put it back there, or open the project with its new location");
         }
         RESTAGE_TRY(const std::string bytes, read_file(base.file));
         base.hash = hash64(bytes);
@@ -178,7 +178,7 @@ class Reader : public ValueReader {
         if (lost_.empty()) {
             if (base_changed_)
                 doc_.report.add(io::Fate::approximated, "project",
-                                "its scene has changed on disk since it was saved; the changes were found to fit",
+                                "its scene has changed on disk since it was saved; the changes still fit",
                                 doc_.base.file);
             return {};
         }
@@ -188,18 +188,18 @@ class Reader : public ValueReader {
             for (std::size_t i = 0; i < std::min<std::size_t>(lost_.size(), 5); ++i)
                 list += (i ? ", " : "") + lost_[i];
             if (lost_.size() > 5) list += fmt::format(" and {} more", lost_.size() - 5);
-            return fail(fmt::format(
-                "{}: {} has changed since the project was saved and has no {} any more; restore it, open the "
-                "project with another scene, or leave these changes out",
-                path_, doc_.base.file, list));
+            return fail(
+                fmt::format("{}: {} has changed since the project was saved and no longer has {}; restore it, open the "
+                            "project with another scene, or leave these changes out",
+                            path_, doc_.base.file, list));
         }
         for (const std::string& what : lost_)
-            doc_.report.add(io::Fate::dropped, what, "it is not in the scene any more; what changed it was left out",
+            doc_.report.add(io::Fate::dropped, what, "it is no longer in the scene; changes to it were left out",
                             path_);
         return {};
     }
 
-    // Data that somebody else has: a thing of the base, a new one, or a file. Null: it is none of these.
+    // Data shared with another holder: an item of the base, a new one, or a file. Null: none of these.
     template <class T, class Stand, class New>
     auto shared(const json& j, const char* which, Stand&& stand_in, New& made) -> decltype(T{}.data) {
         if (!j.is_object()) return nullptr;
@@ -232,11 +232,11 @@ class Reader : public ValueReader {
         const T* item = items.find({ref.number});
         if (!item || item->name != ref.name) item = items.find(find_by_name<T>(at->second, ref.name));
         if (item && item->data) return made[current_] = item->data;
-        // Something to see in its place; saved again, it refers to the same file as before.
+        // A visible placeholder; when saved, it still refers to the same file.
         const auto data = stand_in();
         doc_.sources.note(data, {file, format, ref.number, ref.name});
         doc_.report.add(io::Fate::dropped, fmt::format("{} \"{}\"", kind_name<T>, ref.name),
-                        "it is not in " + file + "; something stands in for it", path_);
+                        "it is not in " + file + "; a placeholder replaces it", path_);
         return made[current_] = data;
     }
 
@@ -290,7 +290,7 @@ class Reader : public ValueReader {
             where_ = fmt::format("{}: {}", kind, key);
             const auto ref = parse_ref(key);
             if (!ref || ref->number != sizes_[kind_name<T>] + (next.value - base.size()))
-                return error("added", "new things are numbered one after the other behind those of the scene");
+                return error("added", "new items must be numbered consecutively after those of the scene");
             T item;
             json rest = json::object();
             const std::size_t lost_before = lost_.size();
@@ -312,7 +312,7 @@ class Reader : public ValueReader {
         return std::make_shared<const PixelData>(std::move(pixels));
     }
 
-    // Files of new and changed images, all cores at once.
+    // Files of new and changed images, on all cores.
     void read_images() {
         std::vector<Image*> work;
         for (AnyChange& change : doc_.changes.changes)

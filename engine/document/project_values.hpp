@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading values of a project file: references found by id and name, fields by their names, and what is not known set
-// aside. The mirror of the writer's to_json().
+// Reading values of a project file: references by id and name, fields by name; unknown members are set
+// aside. The inverse of the writer's to_json().
 #pragma once
 
 #include "document/project_fields.hpp"
@@ -57,7 +57,7 @@ class ValueReader {
     std::optional<scene::Id<T>> resolve(const json& j, const char* field) {
         const auto ref = parse_ref(j);
         if (!ref) {
-            error(field, "a reference like \"#17 oak\" is expected");
+            error(field, "expected a reference like \"#17 oak\"");
             return std::nullopt;
         }
         const auto& base = scene::table<T>(*base_);
@@ -82,33 +82,33 @@ class ValueReader {
         if (j.is_string())
             s = j.get<std::string>();
         else
-            error(field, "text is expected");
+            error(field, "expected text");
     }
     void read(const json& j, bool& b, const char* field) {
         if (j.is_boolean())
             b = j.get<bool>();
         else
-            error(field, "true or false is expected");
+            error(field, "expected true or false");
     }
     void read(const json& j, std::uint32_t& n, const char* field) {
         if (j.is_number_unsigned())
             n = j.get<std::uint32_t>();
         else
-            error(field, "a whole number is expected");
+            error(field, "expected a whole number");
     }
     template <class F>
         requires std::is_floating_point_v<F>
     void read(const json& j, F& x, const char* field) {
-        if (!read_number(j, x)) error(field, "a number is expected");
+        if (!read_number(j, x)) error(field, "expected a number");
     }
     template <int N, class T>
     void read(const json& j, glm::vec<N, T>& v, const char* field) {
-        if (!j.is_array() || j.size() != N) return error(field, fmt::format("{} numbers are expected", N));
+        if (!j.is_array() || j.size() != N) return error(field, fmt::format("expected {} numbers", N));
         for (int i = 0; i < N; ++i)
             read(j[std::size_t(i)], v[i], field);
     }
     void read(const json& j, glm::dmat4& m, const char* field) {
-        if (!j.is_array() || j.size() != 4) return error(field, "four columns of four numbers are expected");
+        if (!j.is_array() || j.size() != 4) return error(field, "expected four columns of four numbers");
         for (int c = 0; c < 4; ++c)
             read(j[std::size_t(c)], m[c], field);
     }
@@ -127,7 +127,7 @@ class ValueReader {
                 e = static_cast<E>(int(i) + Names<E>::first);
                 return;
             }
-        error(field, j.dump() + " is not known");
+        error(field, j.dump() + " is unknown");
     }
     template <class T>
     void read(const json& j, std::optional<T>& x, const char* field) {
@@ -161,12 +161,12 @@ class ValueReader {
             const auto type = j.find("type");
             const auto known = std::find_if(std::begin(type_names), std::end(type_names),
                                             [&](const char* name) { return type != j.end() && *type == name; });
-            if (known == std::end(type_names)) return error(field, "the type of the value is not known");
+            if (known == std::end(type_names)) return error(field, "the type of the value is unknown");
             v.type = static_cast<model::ParamType>(known - std::begin(type_names));
             if (const auto list = j.find("v"); list != j.end() && list->is_array())
                 for (std::size_t i = 0; i < std::min<std::size_t>(list->size(), 4); ++i)
                     read((*list)[i], v.v[i], field);
-            if (v.is_whole()) { // whole numbers stand where others do
+            if (v.is_whole()) { // whole numbers may replace others
                 v.i = static_cast<int>(std::clamp(v.v[0], -2147483520.f, 2147483520.f));
                 if (const auto list = j.find("v"); list != j.end() && list->is_array() && !list->empty())
                     if ((*list)[0].is_number_integer()) v.i = (*list)[0].get<int>();
@@ -185,19 +185,19 @@ class ValueReader {
             v.type = model::ParamType::text;
             v.text = j.get<std::string>();
         } else
-            error(field, "a value is expected");
+            error(field, "expected a value");
     }
     void read(const json& j, std::vector<scene::OriginValue>& list, const char* field) {
         list.clear();
-        if (!j.is_array()) return error(field, "a list is expected");
+        if (!j.is_array()) return error(field, "expected a list");
         for (const json& pair : j) {
             if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string())
-                return error(field, "pairs of texts are expected");
+                return error(field, "expected pairs of texts");
             list.push_back({pair[0].get<std::string>(), pair[1].get<std::string>()});
         }
     }
     void read(const json& j, scene::ParamSet& params, const char* field) {
-        if (!j.is_object()) return error(field, "values by name are expected");
+        if (!j.is_object()) return error(field, "expected values by name");
         for (const auto& [id, value] : j.items()) {
             if (value.is_null()) {
                 params.remove(id);
@@ -211,7 +211,7 @@ class ValueReader {
 
     template <class V, class T>
     void read_members(V& visitor, const json& j, T& item, const char* field, json& unknown) {
-        if (!j.is_object()) return error(field, "an object is expected");
+        if (!j.is_object()) return error(field, "expected an object");
         const json* const outer = std::exchange(in_, &j);
         json* const outer_unknown = std::exchange(unknown_, &unknown);
         std::set<std::string> outer_seen = std::exchange(seen_, {});
@@ -228,7 +228,7 @@ class ValueReader {
     const std::filesystem::path folder_; // paths in the file are relative to it
     const scene::Scene* base_ = nullptr;
     std::map<std::string, std::uint32_t> sizes_; // of the base when the project was saved, by kind
-    std::vector<std::string> lost_;              // things the base has no more
+    std::vector<std::string> lost_;              // items missing from the base
     std::string error_, where_;                  // the first one
     const json* in_ = nullptr;
     json* unknown_ = nullptr;

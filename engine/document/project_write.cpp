@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs from the base becomes JSON: things that are gone by reference, changed ones by the fields that differ,
-// new ones by the fields that are not the default.
+// Writes differences from the base as JSON: removed items by reference, changed ones by the fields that differ,
+// new ones by the fields that are not default.
 #include "document/project.hpp"
 #include "document/project_fields.hpp"
 #include "document/project_json.hpp"
@@ -25,7 +25,7 @@ constexpr std::uint32_t coarse_sky_width = 32; // 12 KiB: the light of it, but n
 class Writer {
   public:
     Writer(const ProjectContent& content, const std::filesystem::path& folder) : content_(content), folder_(folder) {
-        // New things are numbered one after the other behind the base's: holes that undone edits left are no news.
+        // New items are numbered consecutively after the base's: holes left by undone edits are not differences.
         each_kind([&]<class T>(const Kind<T>& kind) {
             const auto& base = content.base.scene.*kind.table;
             std::uint32_t next = base.size();
@@ -112,7 +112,7 @@ class Writer {
     json data(const void* pointer, const char* which, F&& inline_data) {
         if (!pointer) return nullptr;
         if (const auto found = known_.find(pointer); found != known_.end()) return found->second;
-        known_[pointer] = {{"same_as", current_}}; // of whoever else shares it
+        known_[pointer] = {{"same_as", current_}}; // for others that share it
         if (const DataSource* source = content_.sources.find(pointer)) {
             json j;
             path_in(j["file"], source->file);
@@ -184,7 +184,7 @@ class Writer {
                 j.push_back(number_json(v.v[i]));
             return j;
         };
-        // The commonest in short.
+        // A short form for the most common.
         if (plain && v.text.empty()) {
             if (v.type == model::ParamType::number && used <= 1) return number_json(v.v[0]);
             if (v.type == model::ParamType::color && used <= 3) return list(3);
@@ -223,7 +223,7 @@ class Writer {
         }
         return j;
     }
-    // Values one by one, when setting them one after the other gives the same order.
+    // Values one by one, if setting them in sequence gives the same order.
     void shorten_params(json& changed, const ParamSet& before, const ParamSet& now) {
         if (!changed.contains("params")) return;
         ParamSet replay = before;
@@ -284,13 +284,13 @@ class Writer {
     const std::filesystem::path& folder_;
     json sizes_;
     std::map<std::string, std::map<std::uint32_t, std::uint32_t>> numbers_; // by kind: id -> number in the file
-    std::map<const void*, json> known_; // data -> whose it is
+    std::map<const void*, json> known_; // data -> its holder
     const PixelData* sky_ = nullptr; // that a sky plugin made
     std::string current_;
     json* out_ = nullptr;
 };
 
-// What an older reading of the file did not understand goes back to where it was, unless its place is gone.
+// Members unknown when the file was read are written back in place, unless the place is gone.
 void put_back(json& into, const json& unknown) {
     for (const auto& [key, value] : unknown.items()) {
         const auto found = into.find(key);

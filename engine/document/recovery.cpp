@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double first_after = 3; // a document's first edit is written aside after so long [s]
+constexpr double first_after = 3; // delay from a document's first edit to its first autosave [s]
 
 long process_id() {
 #if defined(_WIN32)
@@ -33,10 +33,10 @@ long process_id() {
 #endif
 }
 
-// A lock that the system drops with the process, however it ends. -1: another process has it, or there can be none.
+// A lock that the system releases with the process, however it ends. -1: held by another process, or unsupported.
 int take_lock([[maybe_unused]] const fs::path& path) {
 #if defined(_WIN32)
-    return 0; // files of this process are told by name alone
+    return 0; // this process's files are recognized by name alone
 #else
     const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0) return file;
@@ -96,7 +96,7 @@ void Autosave::start(const Session& session, double now) {
     written_ = session.version();
     const std::time_t time = std::time(nullptr);
     if (file_.empty()) {
-        std::error_code ignored; // writing says what is wrong
+        std::error_code ignored; // writing reports the problem
         fs::create_directories(folder_, ignored);
         const std::string name = std::to_string(process_id()) + "-" + std::to_string(time);
         file_ = folder_ / (name + std::string(project_extension));
@@ -113,7 +113,7 @@ void Autosave::start(const Session& session, double now) {
     thread_ = std::thread([this, file = file_, text = std::move(text)] {
         if (const auto written = write_file_atomic(file, text); !written) {
             std::lock_guard lock(mutex_);
-            problem_ = "Unsaved work could not be written aside: " + written.error().message;
+            problem_ = "Autosave failed: " + written.error().message;
         }
     });
 }
@@ -144,7 +144,7 @@ std::vector<Recoverable> find_recoverable(const fs::path& folder) {
     std::error_code code;
     for (const auto& entry : fs::directory_iterator(folder, code)) {
         if (!is_project(entry.path())) continue;
-        // A process that holds the lock is alive, and minds its file itself.
+        // A process that holds the lock is alive, and takes care of its file itself.
         std::error_code none;
         if (fs::exists(lock_of(entry.path()), none)) {
             const int lock = take_lock(lock_of(entry.path()));

@@ -23,7 +23,7 @@ Result<> Session::open(const std::string& path, const ReadOptions& options) {
 }
 
 void Session::take(Scene&& scene) {
-    // Whoever compares versions must not take a slot of the new scene for one of the old: all of them are changed now.
+    // Version comparisons must not confuse slots of the new scene with the old: mark all as changed.
     const Version now = std::max(scene.clock, scene_.clock) + 1;
     scene_ = std::move(scene);
     scene_.clock = now;
@@ -56,9 +56,9 @@ void Session::adopt_recovered(Document document) {
     Edit changes = std::exchange(document.changes, {});
     const auto saved = document.note.find("path");
     document.path = saved != document.note.end() ? saved->second : "";
-    const bool from_base = document.path == document.base.file; // nothing of it was ever saved
+    const bool from_base = document.path == document.base.file; // never saved
     adopt(std::move(document));
-    // Slots that stay empty are no change a history would keep, but the ids after them need them.
+    // Empty slots are not a change that a history would keep, but later ids need them.
     ++scene_.clock;
     for (const AnyChange& change : changes.changes)
         std::visit(
@@ -120,7 +120,7 @@ Result<Merged> Session::insert(const io::ImportedScene& imported, const std::str
                                const std::optional<Stand>& stand) {
     const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
     Merged made = merge(scene_, imported.scene, path.stem().string());
-    if (made.instances.empty()) return fail(file + ": holds no objects");
+    if (made.instances.empty()) return fail(file + ": contains no objects");
     if (stand) {
         std::map<std::uint32_t, std::shared_ptr<const MeshData>> meshes;
         for (const AnyChange& change : made.edit.changes)
@@ -140,11 +140,11 @@ Result<Merged> Session::insert(const io::ImportedScene& imported, const std::str
                 l->after->light_to_world = move * l->after->light_to_world;
         }
     }
-    // What the importer let through with a warning comes in with it.
+    // Warnings accepted by the importer are accepted here.
     RESTAGE_CHECK(check_edit(made.edit, Problem::Severity::error));
     sources_.note_all(imported.scene, path.string(), imported.importer);
     history_.push(scene_, made.edit);
-    for (const io::ReportEntry& entry : imported.report.entries) // what was added for its lack stays behind as well
+    for (const io::ReportEntry& entry : imported.report.entries) // the importer's placeholders stay behind as well
         if (entry.fate != io::Fate::kept || (entry.what != "camera" && entry.what != "environment"))
             report_.entries.push_back(entry);
     return made;

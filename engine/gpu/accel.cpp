@@ -29,7 +29,7 @@ VkAccelerationStructureGeometryKHR triangles_of(const BlasInput& input) {
                                    .data = {.deviceAddress = input.boxes},
                                    .stride = sizeof(VkAabbPositionsKHR)};
     }
-    // A candidate is then reported once: a cut-out that counts, or a stochastic one, needs that.
+    // A candidate is then reported once, as counting or stochastic cut-outs require.
     geometry.flags = input.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
     return geometry;
 }

@@ -22,13 +22,13 @@ struct BlasInput {
     std::uint32_t vertex_count = 0;
     VkDeviceAddress indices = 0; // three uint32 a triangle
     std::uint32_t triangle_count = 0;
-    VkDeviceAddress boxes = 0; // VkAabbPositionsKHR, in place of triangles: intersection shaders say what is in them
+    VkDeviceAddress boxes = 0; // VkAabbPositionsKHR, instead of triangles: intersection shaders define their contents
     std::uint32_t box_count = 0;
     bool opaque = true; // false: any-hit shaders run
     std::string name;
 };
 
-// The Vulkan object and the buffer it lives in; what Blas and Tlas are made of.
+// The Vulkan object and its buffer; the basis of Blas and Tlas.
 class AccelStructure {
   public:
     static Result<AccelStructure> create(Device& device, VkDeviceSize bytes, VkAccelerationStructureTypeKHR type,
@@ -61,23 +61,22 @@ class Blas {
 };
 
 struct BlasOptions {
-    bool compact = true; // copy to the size really needed; saves about half on GPUs
-    std::size_t max_scratch_bytes = std::size_t(256)
-                                    << 20; // batches are cut so that they stay below (a single mesh may not)
+    bool compact = true; // copy to the size needed; saves about half on GPUs
+    std::size_t max_scratch_bytes = std::size_t(256) << 20; // upper limit of a batch (a single mesh may exceed it)
 };
 
-// Builds all and waits. The geometry is not needed afterwards. Result i belongs to input i.
+// Builds all and waits. The geometry may then be freed. Result i belongs to input i.
 Result<std::vector<Blas>> build_blas(Device& device, std::span<const BlasInput> inputs,
                                      const BlasOptions& options = {});
 
 struct TlasInstance {
     // Object to world, three rows of four: x' = m[0]*x + m[1]*y + m[2]*z + m[3].
     std::array<float, 12> transform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    VkDeviceAddress blas = 0;       // 0: nothing is there
+    VkDeviceAddress blas = 0;       // 0: empty
     std::uint32_t custom_index = 0; // gl_InstanceCustomIndexEXT, 24 bits
     std::uint32_t hit_group = 0;    // index into RayTracingShaders::hit_groups, 24 bits
     std::uint8_t mask = 0xff;
-    bool two_sided = true;      // no culling by facing, whatever the ray asks for
+    bool two_sided = true;      // no culling by facing, regardless of ray flags
     bool flip_facing = false;   // front faces are counter-clockwise
     bool force_opaque = false;  // never run any-hit
     bool force_any_hit = false; // run any-hit although the Blas is opaque
@@ -90,7 +89,7 @@ class Tlas {
     static Result<Tlas> create(Device& device, std::uint32_t capacity, const char* name);
 
     explicit operator bool() const { return structure_.handle() != VK_NULL_HANDLE; }
-    VkDeviceAddress address() const { return structure_.address(); } // stays the same over rebuilds
+    VkDeviceAddress address() const { return structure_.address(); } // unchanged by rebuilds
     std::uint32_t capacity() const { return capacity_; }
     std::uint32_t count() const { return count_; }
 

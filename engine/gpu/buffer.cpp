@@ -49,8 +49,8 @@ VmaAllocationCreateInfo allocation_of(BufferKind kind, const DeviceInfo& info) {
             create.preferredFlags = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
             break;
     }
-    // A CPU device hands out memory that is not there, and the process is killed when it is touched. The budget knows
-    // what other programs use; fits_in_memory() counts what we hold but have not touched.
+    // A CPU device overcommits memory, and the process is killed when touching it. The budget includes
+    // what other programs use; fits_in_memory() adds what we hold but have not touched.
     if (info.type == DeviceType::cpu) create.flags |= VMA_ALLOCATION_CREATE_WITHIN_BUDGET_BIT;
     return create;
 }
@@ -95,7 +95,7 @@ void Buffer::release() {
 }
 
 Result<Buffer> Device::create_buffer(std::size_t bytes, BufferKind kind, const char* name) {
-    // 16 readable bytes past the end, and never 0; a multiple of 64 keeps neighbours off each other's cache lines.
+    // 16 readable bytes past the end, and never 0; multiples of 64 avoid shared cache lines.
     const std::size_t padded = (bytes + 16 + 63) & ~std::size_t(63);
     const auto doing = [&] { return std::string("allocating buffer \"") + name + "\" (" + size_text(bytes) + ")"; };
     if (padded < bytes || padded > info_.max_buffer_bytes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A buffer and its memory, known to shaders by its address. Made by Device::create_buffer.
+// A buffer and its memory, addressed by shaders through its address. Created by Device::create_buffer.
 #pragma once
 
 #include <volk.h>
@@ -33,14 +33,14 @@ class Buffer {
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
     VkBuffer handle() const { return buffer_; }
     VkDeviceAddress address() const { return address_; } // at least 256-byte aligned
-    std::size_t size() const { return size_; } // as asked for
-    std::byte* mapped() const { return mapped_; } // nullptr where the host cannot see it
+    std::size_t size() const { return size_; } // as requested
+    std::byte* mapped() const { return mapped_; } // nullptr if not host-visible
     const char* name() const { return name_.c_str(); }
 
-    // The mapped memory as an array of T; what is left over at the end is not part of it.
+    // The mapped memory as an array of T; a partial element at the end is excluded.
     template <class T>
     std::span<T> span() const {
-        assert((mapped_ || size_ == 0) && "the host cannot see this buffer: use BufferKind::host or readback");
+        assert((mapped_ || size_ == 0) && "buffer is not host-visible: use BufferKind::host or readback");
         return {reinterpret_cast<T*>(mapped_), size_ / sizeof(T)};
     }
 

@@ -18,7 +18,7 @@ VkResult Submission::State::wait() {
     if (!pending) return VK_SUCCESS;
     const VkResult result =
         device->vk().vkWaitForFences(device->handle(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
-    pending = false; // also after an error: a lost device never signals
+    pending = false; // even after an error: a lost device never signals
     return result;
 }
 
@@ -37,7 +37,7 @@ void Submission::State::begin_recording() {
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     record_error = device->vk().vkBeginCommandBuffer(commands, &info);
     recording = true;
-    // What earlier lists wrote becomes visible to this one.
+    // Makes writes of earlier lists visible to this one.
     full_barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recording work and waiting for it. A CommandList is recorded once and may be submitted many times (not while an
-// earlier submission of the same list is running: that waits first); reset() makes it recordable again. One thread at a
+// earlier submission of it is running: submitting waits first); reset() makes it recordable again. One thread at a
 // time per list; different lists on different threads are fine.
 #pragma once
 
@@ -34,7 +34,7 @@ std::span<const std::byte> push_bytes(const T& value) {
 class Submission {
   public:
     Submission() = default;
-    Result<void> wait() const; // until the work is done; its writes are then visible to the host
+    Result<void> wait() const; // until the work completes; its writes are then visible to the host
     Result<bool> done() const; // without waiting
 
   private:
@@ -51,7 +51,7 @@ class CommandList {
     CommandList(CommandList&& other) noexcept;
     CommandList& operator=(CommandList&& other) noexcept;
 
-    // Recording. Push constants shorter than what the pipeline declares leave the rest undefined.
+    // Recording. Push constants shorter than declared by the pipeline leave the rest undefined.
     void dispatch(const ComputePipeline& pipeline, std::span<const std::byte> push, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1);
     // The three group counts (VkDispatchIndirectCommand) are read at `offset` when the work runs.
@@ -65,14 +65,14 @@ class CommandList {
     void fill(const Buffer& dst, std::size_t offset, std::size_t bytes, std::uint32_t value);
     // Builds `tlas` from its count() instances, as they are when the work runs.
     void build(Tlas& tlas);
-    // Everything after it sees what everything before it wrote (shaders, copies, builds, indirect counts).
-    // Beginning and end of a list need none: the device and the host see what earlier lists wrote, and what the host
-    // wrote before a submission is visible to it.
+    // Makes all earlier writes visible to everything after it (shaders, copies, builds, indirect counts).
+    // The beginning and end of a list need none: earlier lists' writes are visible to device and host; what the host
+    // wrote before a submission is visible to that submission.
     void barrier();
     // Writes the time at which all work before it was done; see Timestamps.
     void timestamp(Timestamps& timestamps, std::uint32_t index);
 
-    void reset(); // waits for its work and records anew
+    void reset(); // waits for its work and starts recording again
     VkCommandBuffer handle() const;
     explicit operator bool() const { return state_ != nullptr; }
 
@@ -90,8 +90,8 @@ class Timestamps {
     Timestamps(Timestamps&& other) noexcept;
     Timestamps& operator=(Timestamps&& other) noexcept;
 
-    // Seconds since the first one, once the work that writes them is done. NaN where one was not written.
-    // All NaN where the device has no timestamps.
+    // Seconds since the first one, once the work that writes them is done. NaN for any not written.
+    // All NaN if the device has no timestamps.
     Result<std::vector<double>> read() const;
 
   private:

@@ -79,7 +79,7 @@ std::string rewrite_line(std::string_view line, const std::vector<std::string>& 
         while (i < rest.size() && std::isdigit(static_cast<unsigned char>(rest[i])))
             number = number * 10 + static_cast<std::size_t>(rest[i++] - '0');
         const std::string word = kind == "WARNING: " ? "warning: " : "";
-        if (i == 0 || i >= rest.size() || rest[i] != ':' || number >= names.size()) // no place: linking
+        if (i == 0 || i >= rest.size() || rest[i] != ':' || number >= names.size()) // no location: a link error
             return names.front() + ": " + word + std::string(rest);
         rest.remove_prefix(i + 1);
         const auto end = rest.find(": ");
@@ -107,9 +107,9 @@ std::string rewrite_log(std::string_view log, const ExpandedSource& expanded) {
     return text;
 }
 
-// glslang keeps every function of every include, and drivers translate all of it before they throw it away. These few
-// passes cost 20 ms a kernel once and save a quarter of the pipeline's creation at each start (measured on lavapipe
-// with six composed materials: 490 -> 370 ms); the whole set of performance passes costs 300 ms a kernel for 30 ms
+// glslang keeps every function of every include, and drivers translate all of it before discarding it. These few
+// passes cost 20 ms per kernel once and save a quarter of pipeline creation at each start (measured on lavapipe
+// with six composed materials: 490 -> 370 ms); the full set of performance passes costs 300 ms per kernel for 30 ms
 // more, and neither makes code run or compile faster there.
 void optimise(std::vector<std::uint32_t>& words, bool keep_debug_info) {
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
@@ -129,7 +129,7 @@ void optimise(std::vector<std::uint32_t>& words, bool keep_debug_info) {
 
 ShaderCompiler::ShaderCompiler(ShaderCompilerOptions options) : options_(std::move(options)) {
     static std::once_flag once;
-    std::call_once(once, [] { glslang::InitializeProcess(); }); // its tables live as long as the process
+    std::call_once(once, [] { glslang::InitializeProcess(); }); // its tables last as long as the process
     SpirvCache(options_.cache_dir).trim(max_cache_entries);
 }
 ShaderCompiler::~ShaderCompiler() = default;
@@ -170,9 +170,9 @@ Result<Spirv> ShaderCompiler::compile(const ShaderSource& source) const {
 
     glslang::SpvOptions options;
     options.generateDebugInfo = options_.debug_info;
-    options.disableOptimizer = true; // ours below
+    options.disableOptimizer = true; // we run our own passes below
     glslang::GlslangToSpv(*program.getIntermediate(language), spirv.words, &options);
-    if (spirv.words.empty()) return fail(source.name + ": no SPIR-V came out of the compiler");
+    if (spirv.words.empty()) return fail(source.name + ": the compiler produced no SPIR-V");
     if (options_.optimize) optimise(spirv.words, options_.debug_info);
     cache.store(spirv.key, spirv.words);
     return spirv;

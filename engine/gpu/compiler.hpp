@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL -> SPIR-V at run time, with includes, a disk cache, and errors that point at the file and line somebody wrote.
+// GLSL -> SPIR-V at run time, with includes, a disk cache, and errors that point to the original file and line.
 // Any thread; many may compile at once.
 #pragma once
 
@@ -18,13 +18,13 @@ namespace restage::gpu {
 enum class ShaderStage { compute, raygen, closest_hit, any_hit, intersection, miss, callable };
 
 struct ShaderSource {
-    std::string name; // how errors call the text: "shaders/wave_generate.comp", "<composed for diffuse>"
+    std::string name; // for errors: "shaders/wave_generate.comp", "<composed for diffuse>"
     std::string text; // begins with #version
     ShaderStage stage = ShaderStage::compute;
     std::vector<std::pair<std::string, std::string>> defines; // name, value
-    // Files that exist in memory only: the name as #include "name" says it -> text. They hide files on disk.
+    // Files that exist in memory only: the name as in #include "name" -> text. They hide files on disk.
     std::map<std::string, std::string> files;
-    // Looked in before the compiler's own include folders.
+    // Searched before the compiler's own include folders.
     std::vector<std::filesystem::path> include_dirs;
     // Whose files #include <plugin/...> finds: <plugin/file> in the first, <plugin:1/file> in the second, and so on.
     // They are confined: they may include <restage/v1/...> from the compiler's folders and files of their own one,
@@ -47,7 +47,7 @@ struct Spirv {
 struct ShaderCompilerOptions {
     std::vector<std::filesystem::path> include_dirs;
     std::filesystem::path cache_dir; // empty: no cache. Usually restage::cache_dir() / "spirv"; it is created
-    bool optimize = true; // a few cheap passes, mostly to drop what no function uses
+    bool optimize = true; // a few cheap passes, mostly dead code elimination
     bool debug_info = false; // names and lines for debuggers and validation
 };
 
@@ -58,7 +58,7 @@ class ShaderCompiler {
     ShaderCompiler(ShaderCompiler&&) noexcept;
     ShaderCompiler& operator=(ShaderCompiler&&) noexcept;
 
-    // Includes are found, in this order: in `files`; next to the file that includes; in the source's include_dirs; in
+    // Includes are searched in `files`; next to the including file; in the source's include_dirs; in
     // the compiler's. `#pragma once` works. An error has one line per message: "oak/wood.glsl:12: 'x' : undeclared
     // identifier".
     Result<Spirv> compile(const ShaderSource& source) const;

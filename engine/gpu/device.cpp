@@ -77,8 +77,8 @@ Result<Candidate> choose(const std::vector<Candidate>& candidates, const DeviceO
     }
     if (best) return *best;
     if (!matched && !options.select.empty())
-        return fail("no Vulkan device is called \"" + options.select + "\"; there is " + list_names(candidates));
-    return fail("no Vulkan device can be used: " + reasons);
+        return fail("no Vulkan device is called \"" + options.select + "\"; available: " + list_names(candidates));
+    return fail("no usable Vulkan device: " + reasons);
 }
 
 Result<std::vector<Candidate>> candidates_of(const Instance& instance) {
@@ -93,12 +93,12 @@ std::filesystem::path choose_cache_dir(const DeviceOptions& options, Log& log) {
     if (!options.cache_dir.empty()) return options.cache_dir;
     if (auto dir = cache_dir())
         return *dir;
-    else if (static std::atomic_flag said; !said.test_and_set()) // a program has several devices
-        log.warning("shaders will be compiled anew at each start: " + dir.error().message);
+    else if (static std::atomic_flag said; !said.test_and_set()) // once, though a program has several devices
+        log.warning("shaders will be recompiled at each start: " + dir.error().message);
     return {};
 }
 
-// Compute, and graphics too where there is one family of both: a window presents from it.
+// Compute, preferably a family that also has graphics: a window presents from it.
 std::uint32_t choose_queue_family(VkPhysicalDevice physical, std::uint32_t& timestamp_bits) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -159,7 +159,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options, Log
     RESTAGE_TRY(const std::vector<Candidate> candidates, candidates_of(*impl.instance));
     if (candidates.empty())
         return fail(
-            "the installed Vulkan drivers found no device; install the driver of your graphics card, or Mesa's "
+            "the installed Vulkan drivers found no device; install your graphics card's driver, or Mesa's "
             "lavapipe, which needs none (Debian: mesa-vulkan-drivers)");
     RESTAGE_TRY(const Candidate chosen, choose(candidates, options));
     self->info_ = chosen.info;
@@ -273,7 +273,7 @@ void Device::save_pipeline_cache() {
     std::size_t bytes = 0;
     if (vk_.vkGetPipelineCacheData(device_, pipeline_cache_, &bytes, nullptr) != VK_SUCCESS) return;
     std::lock_guard lock(impl_->free_mutex);
-    if (bytes == impl_->saved_cache_bytes || bytes == 0) return; // drivers only ever add to it
+    if (bytes == impl_->saved_cache_bytes || bytes == 0) return; // drivers only add to it
     std::string data(bytes, '\0');
     if (vk_.vkGetPipelineCacheData(device_, pipeline_cache_, &bytes, data.data()) != VK_SUCCESS) return;
     data.resize(bytes);
@@ -313,10 +313,10 @@ tl::unexpected<Error> Device::error(VkResult result, const std::string& doing) c
             impl_->lost = true;
             return fail(text +
                         "the graphics driver stopped (VK_ERROR_DEVICE_LOST). Work that runs too long is a common "
-                        "cause: try smaller tiles or another --device; if it stays, update the driver");
+                        "cause: try smaller tiles or another --device; if it persists, update the driver");
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
             return fail(text + "out of device memory (" + std::to_string(info_.memory_bytes >> 20) +
-                        " MiB in all); close other programs, use a smaller image or scene, or another --device");
+                        " MiB in total); close other programs, use a smaller image or scene, or another --device");
         case VK_ERROR_OUT_OF_HOST_MEMORY:
             return fail(text + "out of memory; close other programs or use a smaller image or scene");
         default:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Vulkan device: which one to take, what it can do, memory, uploads, and submitting recorded work.
-// Everything a shader reads or writes is a buffer that it knows by its 64-bit address: there are no descriptor sets.
+// The Vulkan device: selection, capabilities, memory, uploads, and submitting recorded work.
+// Everything a shader reads or writes is a buffer known by its 64-bit address: there are no descriptor sets.
 //
-// Threads: a Device may be used from any thread; what it creates (CommandList, Tlas, ...) by one thread at a time.
-// A Device outlives everything made from it. The first Device of a process is created before other threads read the
+// Threads: a Device may be used from any thread; objects it creates (CommandList, Tlas, ...) by one thread at a time.
+// A Device outlives everything created from it. The first Device of a process is created before other threads read the
 // environment (drivers are configured through it).
 #pragma once
 
@@ -39,22 +39,22 @@ struct DeviceInfo {
     std::array<std::uint8_t, VK_UUID_SIZE> uuid{}; // of device and driver: the key of the pipeline cache
     std::uint64_t memory_bytes = 0;                // of the largest device-local heap
     std::uint64_t max_buffer_bytes = 0;            // of one buffer
-    std::uint64_t max_storage_range_bytes = 0;     // only descriptors are held to it; addresses are not
+    std::uint64_t max_storage_range_bytes = 0;     // applies to descriptors only, not to addresses
     std::uint32_t max_push_constant_bytes = 0;     // at least 128
     std::uint32_t subgroup_size = 0;
-    bool ray_tracing = false; // acceleration structures and the ray-tracing pipeline, callables too
+    bool ray_tracing = false; // acceleration structures and ray-tracing pipelines, with callables
     bool timestamps = false;
-    bool keeps_nan = false; // shaders may ask for NaN, infinity and -0 to be kept: SignedZeroInfNanPreserve, 32 bit
+    bool keeps_nan = false; // shaders may request that NaN, infinity and -0 be kept: SignedZeroInfNanPreserve, 32 bit
     bool unified_memory = false;     // the host sees all device memory (CPU, integrated)
-    std::string missing;             // why it cannot be used ("... has no bufferDeviceAddress"); empty: it can
+    std::string missing;             // why it is unusable ("... has no bufferDeviceAddress"); empty: usable
     std::string missing_ray_tracing; // why ray_tracing is false; empty if true
 };
 
-// Every device of every installed driver, the unusable ones too. An empty list means: no Vulkan driver.
+// Every device of every installed driver, including unusable ones. An empty list means no Vulkan driver.
 Result<std::vector<DeviceInfo>> list_devices(Log& log);
 
-// For tests: the driver "stops" (VK_ERROR_DEVICE_LOST) at the `after`-th submission to a device that was made with
-// this, and again, `times` in all, at the `after`-th one to the device made after it. [any]
+// For tests: the driver "stops" (VK_ERROR_DEVICE_LOST) at the `after`-th submission to a device created with
+// this, and again, `times` in total, at the `after`-th submission to the device created next. [any]
 struct DeviceFault {
     DeviceFault(int after_, int times_) : after(after_), times(times_), left(after_) {}
     bool strikes();
@@ -65,12 +65,12 @@ struct DeviceFault {
 struct DeviceOptions {
     std::string select;               // index or part of the name (case ignored); empty: the best one
     bool validation = false; // validation and synchronization validation; fails if the layer is not installed
-    bool require_ray_tracing = false; // take no device without it
-    bool driver_defaults = true; // Mesa's shader cache in cache_dir, unless the user has set another
+    bool require_ray_tracing = false; // reject devices without it
+    bool driver_defaults = true; // Mesa's shader cache in cache_dir, unless the user has set one
     std::filesystem::path cache_dir; // pipeline cache and the driver's own shader cache; empty: restage::cache_dir()
-    std::vector<std::string> instance_extensions; // for a window: what it needs to present. All must be there.
+    std::vector<std::string> instance_extensions; // needed by a window to present; all must be available
     std::vector<std::string> device_extensions;
-    std::shared_ptr<DeviceFault> fault; // for tests; null = none
+    std::shared_ptr<DeviceFault> fault; // for tests; may be null
 };
 
 class Device {
@@ -87,38 +87,38 @@ class Device {
     // Size 0 is allowed: a small buffer with a valid address and size() == 0. At least 16 bytes past the end may be
     // read (Embree and vectorised loads do). `name` shows in validation messages and errors. Memory is not cleared.
     Result<Buffer> create_buffer(std::size_t bytes, BufferKind kind, const char* name);
-    // A `device` buffer with this content.
+    // A `device` buffer with the given content.
     Result<Buffer> create_buffer(std::span<const std::byte> content, const char* name);
     template <class T>
     Result<Buffer> create_buffer_of(std::span<const T> content, const char* name) {
         return create_buffer(std::as_bytes(content), name);
     }
 
-    // Copies now: memcpy where the buffer is mapped, else through a staging buffer, and waits. The caller makes sure
+    // Copies now: memcpy if the buffer is mapped, else through a staging buffer, and waits. The caller ensures
     // that no work in flight uses the range.
     Result<void> upload(Buffer& dst, std::size_t offset, std::span<const std::byte> bytes);
     Result<void> download(const Buffer& src, std::size_t offset, std::span<std::byte> bytes);
 
-    // A new list, already recording. Cheap: pools are reused.
+    // A new list, already recording. Cheap: pools are recycled.
     Result<CommandList> begin();
-    // Lists run in the order of their submission, and each sees all that earlier ones wrote.
+    // Lists run in submission order, and each sees all writes of earlier ones.
     Result<Submission> submit(CommandList& list);
     Result<void> submit_and_wait(CommandList& list);
     Result<void> wait_idle();
 
-    // With validation on: what the layers had to say (warnings and errors), oldest first; and forget it.
+    // With validation on: the layers' messages (warnings and errors), oldest first; and clears them.
     std::vector<std::string> validation_messages() const;
     void clear_validation_messages();
 
-    // Writes the pipeline cache to disk now (the destructor does it too). It does nothing if nothing is new.
+    // Writes the pipeline cache to disk now (the destructor does it too). A no-op if nothing is new.
     void save_pipeline_cache();
 
-    std::uint64_t allocated_bytes() const; // in all buffers that live now
+    std::uint64_t allocated_bytes() const; // in all existing buffers
 
-    // True once the driver has said so; everything fails from then on, and the Device must be made anew.
+    // True once the driver has reported it; everything fails from then on, and the Device must be recreated.
     bool lost() const;
 
-    // For gpu/ itself and for the window (swapchain, Dear ImGui); other code has no business with raw Vulkan.
+    // For gpu/ itself and for the window (swapchain, Dear ImGui); other code must not use raw Vulkan.
     const VolkDeviceTable& vk() const { return vk_; }
     VkInstance instance() const { return instance_; }
     VkPhysicalDevice physical_device() const { return physical_; }

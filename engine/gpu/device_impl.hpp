@@ -10,7 +10,7 @@
 
 namespace restage::gpu {
 
-// A pool with one command buffer and a fence: the unit that is reused. One pool each, so that lists of different
+// A pool with one command buffer and a fence: the unit of reuse. One pool each, so that lists of different
 // threads never share one.
 struct Submission::State {
     Device* device = nullptr;
@@ -18,7 +18,7 @@ struct Submission::State {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
     bool recording = false;
-    std::atomic<bool> pending = false; // submitted, and nobody has seen the fence signalled
+    std::atomic<bool> pending = false; // submitted, fence not yet seen signalled
     VkResult record_error = VK_SUCCESS;
 
     VkResult wait();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a physical device is and can do, and what is missing in words.
+// Properties and features of a physical device, and what is missing, in words.
 #include "gpu/instance.hpp"
 
 #include <algorithm>

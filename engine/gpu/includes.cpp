@@ -30,7 +30,7 @@ std::string_view directive(std::string_view line, std::string_view& rest) {
     return line.substr(0, end);
 }
 
-// Follows /* */ over lines, so that a directive in a comment is none. True if the line starts inside a comment.
+// Tracks /* */ across lines, so that directives in comments do not count. True if the line starts inside a comment.
 class CommentTracker {
   public:
     bool starts_inside(std::string_view line) {
@@ -52,7 +52,7 @@ class CommentTracker {
 };
 
 struct Found {
-    std::string id; // the same for the same file, however it is spelled
+    std::string id; // identical for the same file, however spelled
     std::string name;
     std::string text;
     std::filesystem::path folder; // empty: in memory
@@ -65,8 +65,8 @@ constexpr const char* plugin_rule = "a plugin's GLSL may include <restage/v1/...
 
 bool is_word(char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-// The first word of a line that a plugin's GLSL may not use, comments aside: what declares or reaches memory, and
-// built-in variables, which differ with the kernel around it.
+// The first word of a line forbidden in a plugin's GLSL, comments aside: words that declare or access memory, and
+// built-in variables, which depend on the surrounding kernel.
 std::string_view forbidden_word(std::string_view line, bool inside_comment) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         if (inside_comment) {
@@ -121,13 +121,13 @@ class Expander {
                 include(rest, folder, its_plugin);
                 result_.text += "#line " + std::to_string(line_number + 1) + " " + std::to_string(number) + "\n";
             } else if (word == "pragma" && rest == "once") {
-                result_.text += "\n"; // the wrapper around the file does it
+                result_.text += "\n"; // handled by the wrapper around the file
             } else if (plugin && word == "extension") {
                 error("a plugin's GLSL cannot enable extensions");
             } else if (const auto bad = plugin ? forbidden_word(line, comment) : std::string_view(); !bad.empty()) {
                 error("\"" + std::string(bad) +
                       "\": a plugin's GLSL has no bindings, buffers, shared memory or built-in " +
-                      "variables; all it is given are the arguments of its functions");
+                      "variables; its only inputs are the arguments of its functions");
             } else {
                 result_.text += line;
                 result_.text += '\n';
@@ -152,7 +152,7 @@ class Expander {
         const std::size_t number = number_of(*file);
         const bool once = has_once(file->text);
         if (std::find(stack_.begin(), stack_.end(), number) != stack_.end()) {
-            if (!once) error(name + " includes itself; put #pragma once into it");
+            if (!once) error(name + " includes itself; add #pragma once to it");
             return;
         }
         if (stack_.size() >= max_depth) return error("#include nested more than 64 deep");
@@ -209,14 +209,14 @@ class Expander {
     std::string why_not_for_plugin(const std::string& name, bool angled) {
         const std::string cannot = "cannot include " + (angled ? "<" + name + ">" : "\"" + name + "\"") + ": ";
         const std::string here = std::string(library) + std::filesystem::path(name).filename().string();
-        for (const auto& dir : dirs_) { // where it was before there were versions
+        for (const auto& dir : dirs_) { // its place before versioning
             std::error_code failed;
             if (std::filesystem::is_regular_file(dir / here, failed)) return cannot + "write <" + here + ">";
         }
         return cannot + (angled && name.starts_with(library) ? "there is no such file; " : "") + plugin_rule;
     }
 
-    // Null where the path leads out of the plugin's folder.
+    // Null if the path leaves the plugin's folder.
     std::optional<Found> load_plugin(const std::filesystem::path& path, const std::filesystem::path& plugin) {
         const auto within = path.lexically_normal().lexically_relative(plugin.lexically_normal());
         if (within.empty() || *within.begin() == "..") return {};

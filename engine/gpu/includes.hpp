@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Private to gpu/: expands #include and #pragma once into one text with #line directives, so that the compiler's
-// messages can be led back to the file and line somebody wrote, and so that one hash covers everything compiled.
+// messages map back to the original file and line, and so that one hash covers everything compiled.
 #pragma once
 
 #include "gpu/compiler.hpp"
@@ -14,14 +14,14 @@ namespace restage::gpu {
 
 struct ExpandedSource {
     std::string text;
-    std::vector<std::string> names; // "source string number" of #line and of messages -> file as to be shown
+    std::vector<std::string> names; // "source string number" of #line and of messages -> file name as shown
     std::vector<std::filesystem::path> files; // those on disk
-    // What is wrong with includes, or with what a plugin's file uses. The text says "#error
-    // RESTAGE_SOURCE_ERROR_<index>_", because the compiler takes words apart.
+    // Errors in includes, or in what a plugin's file uses. The text says "#error
+    // RESTAGE_SOURCE_ERROR_<index>_", because the compiler tokenizes messages.
     std::vector<std::string> errors;
 };
 
-// Never fails: what cannot be included becomes an #error in its place, which matters only where that place is compiled.
+// Never fails: a failed include becomes an #error in its place, which matters only if that place is compiled.
 ExpandedSource expand_includes(const ShaderSource& source, std::span<const std::filesystem::path> include_dirs);
 
 } // namespace restage::gpu

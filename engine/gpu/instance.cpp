@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creating a VkInstance, hearing its validation layers, and telling drivers what suits us before they start.
+// Creating a VkInstance, receiving validation messages, and configuring drivers before they start.
 #include "gpu/instance.hpp"
 
 #include <cstdlib>
@@ -17,9 +17,9 @@ void set_default(const char* name, const std::string& value) {
 #endif
 }
 
-// Compiled kernels outlive the process in a folder of ours, where they are not pushed out by other programs' shaders.
-// Read by Mesa when its drivers start; nobody else looks at it. Once a process: setenv is not safe against getenv of
-// other threads. LP_NATIVE_VECTOR_WIDTH stays llvmpipe's own choice: 128 took as long to compile as 256 and ran
+// Compiled kernels persist in a folder of our own, where other programs' shaders do not evict them.
+// Read only by Mesa, when its drivers start. Once per process: setenv is not safe against getenv on
+// other threads. LP_NATIVE_VECTOR_WIDTH is left to llvmpipe: 128 took as long to compile as 256 and ran
 // arithmetic at half the speed.
 void set_driver_defaults(const std::filesystem::path& cache_dir) {
     static std::once_flag once;
@@ -33,7 +33,7 @@ void set_driver_defaults(const std::filesystem::path& cache_dir) {
 }
 
 // volk keeps the loader's functions in globals. What vkGetInstanceProcAddr returns for them are the loader's own
-// entries, the same for every instance, so the first instance's serve all; a window's extensions need another look.
+// entries, the same for every instance, so the first instance's serve all; a window's extensions are loaded separately.
 void load_functions(VkInstance instance, bool again) {
     static std::mutex mutex;
     static bool loaded = false;
@@ -60,7 +60,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL Instance::on_message(VkDebugUtilsMessageSeverityF
                                                     VkDebugUtilsMessageTypeFlagsEXT,
                                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto& self = *static_cast<Instance*>(user);
-    // The loader reports drivers it cannot open; that is no fault of this program.
+    // The loader reports drivers it cannot open; not our fault.
     if (data->pMessageIdName && std::strcmp(data->pMessageIdName, "Loader Message") == 0) return VK_FALSE;
     {
         std::lock_guard lock(self.mutex_);
@@ -125,9 +125,9 @@ Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& option
         for (const VkLayerProperties& p : properties)
             found |= std::strcmp(p.layerName, layer) == 0;
         if (!found)
-            return fail("Vulkan validation was asked for, but " + std::string(layer) +
+            return fail("Vulkan validation was requested, but " + std::string(layer) +
                         " is not installed (Debian: vulkan-validationlayers)");
-        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME); // the layer brings it
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME); // provided by the layer
         self->debug_utils_ = true;
     }
 
@@ -147,10 +147,9 @@ Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& option
     if (result != VK_SUCCESS) {
         self->handle_ = VK_NULL_HANDLE;
         no_driver = result == VK_ERROR_INCOMPATIBLE_DRIVER;
-        return fail(no_driver
-                        ? "there is no Vulkan driver on this machine; install one for your graphics card, or Mesa's "
-                          "lavapipe, which needs no graphics card (Debian: mesa-vulkan-drivers)"
-                        : std::string("Vulkan could not be started: ") + result_name(result));
+        return fail(no_driver ? "no Vulkan driver is installed; install one for your graphics card, or Mesa's "
+                                "lavapipe, which needs no graphics card (Debian: mesa-vulkan-drivers)"
+                              : std::string("Vulkan could not be started: ") + result_name(result));
     }
     load_functions(self->handle_, !options.extensions.empty());
     if (options.validation) {

@@ -25,7 +25,7 @@ struct InstanceOptions {
 
 class Instance {
   public:
-    // With `no_driver` set to true on return there is no Vulkan driver: not an error for who only lists devices.
+    // `no_driver` true on return means no Vulkan driver: not an error for callers that only list devices.
     static Result<std::unique_ptr<Instance>> create(const InstanceOptions& options, Log& log, bool& no_driver);
     ~Instance();
     Instance(const Instance&) = delete;
@@ -49,11 +49,11 @@ class Instance {
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     bool debug_utils_ = false;
     Log* log_ = nullptr;
-    mutable std::mutex mutex_; // of messages_: layers call from any thread
+    mutable std::mutex mutex_; // guards messages_: layers call from any thread
     std::vector<std::string> messages_;
 };
 
-// What devices are required to have, as a chain for vkGetPhysicalDeviceFeatures2 and vkCreateDevice.
+// Required device features, as a chain for vkGetPhysicalDeviceFeatures2 and vkCreateDevice.
 struct FeatureChain {
     VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};

@@ -14,7 +14,7 @@ namespace restage::gpu {
 
 namespace {
 
-// Modules live as long as the creation of a pipeline.
+// Modules live only during pipeline creation.
 class Modules {
   public:
     explicit Modules(Device& device) : device_(device) {}
@@ -66,7 +66,7 @@ Result<VkPipelineLayout> create_layout(Device& device, VkShaderStageFlags stages
                                        const char* name) {
     assert(push_constant_bytes % 4 == 0);
     if (push_constant_bytes > device.info().max_push_constant_bytes)
-        return fail(std::string("pipeline ") + name + " wants " + std::to_string(push_constant_bytes) +
+        return fail(std::string("pipeline ") + name + " needs " + std::to_string(push_constant_bytes) +
                     " bytes of push constants; " + device.info().name + " has " +
                     std::to_string(device.info().max_push_constant_bytes));
     const VkPushConstantRange range{.stageFlags = stages, .offset = 0, .size = push_constant_bytes};
@@ -154,7 +154,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     Modules modules(device);
     const Specialization specialization(constants);
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
-    std::vector<std::pair<const Spirv*, std::uint32_t>> known; // a shader that several groups share is compiled once
+    std::vector<std::pair<const Spirv*, std::uint32_t>> known; // a shader shared by several groups is compiled once
     std::deque<Specialization> own; // of callables
     const auto stage_of = [&](const Spirv* shader, VkShaderStageFlagBits stage,
                               const VkSpecializationInfo* own_constants = nullptr) -> Result<std::uint32_t> {
@@ -217,7 +217,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                                                         &info, nullptr, &self.pipeline_);
     RESTAGE_CHECK(self.finish(result, name));
 
-    // The binding table: four regions, each a handle a group, in the order in which the groups were made.
+    // The binding table: four regions, each with one handle per group, in the order of the groups.
     const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rt = device.ray_tracing_properties();
     const std::uint32_t handle_bytes = rt.shaderGroupHandleSize;
     const std::uint32_t stride = align_up(handle_bytes, rt.shaderGroupHandleAlignment);
@@ -232,7 +232,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
     std::vector<std::byte> table;
     std::size_t group = 0;
     for (int r = 0; r < 4; ++r) {
-        if (counts[r] == 0) continue; // the region stays all zero
+        if (counts[r] == 0) continue; // the region stays zero
         const std::size_t start = align_up(static_cast<std::uint32_t>(table.size()), rt.shaderGroupBaseAlignment);
         table.resize(start + std::size_t(counts[r]) * stride);
         for (std::uint32_t i = 0; i < counts[r]; ++i, ++group)
@@ -240,7 +240,7 @@ Result<RayTracingPipeline> RayTracingPipeline::create(Device& device, const RayT
                         handle_bytes);
         *regions[r] = {.deviceAddress = start, .stride = stride, .size = VkDeviceSize(counts[r]) * stride};
     }
-    // Room to align the start: the base alignment is that of an address.
+    // Room to align the start: base alignment applies to addresses.
     RESTAGE_TRY(self.binding_table_,
                 device.create_buffer(table.size() + rt.shaderGroupBaseAlignment, BufferKind::device, name));
     const VkDeviceAddress address = self.binding_table_.address();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compute and ray-tracing pipelines. Their only input is push constants (which carry addresses) and specialization
+// Compute and ray-tracing pipelines. Their only inputs are push constants (which carry addresses) and specialization
 // constants. Creating or destroying one may block until running work ends (lavapipe does): do it between tiles.
 #pragma once
 
@@ -16,13 +16,13 @@
 
 namespace restage::gpu {
 
-// layout(constant_id = id) const uint|int|bool. Ids that a shader does not have are ignored. For float: std::bit_cast.
+// layout(constant_id = id) const uint|int|bool. Ids unknown to a shader are ignored. For float: std::bit_cast.
 struct SpecConstant {
     std::uint32_t id = 0;
     std::uint32_t value = 0;
 };
 
-// What both kinds are made of.
+// Common to both kinds.
 class Pipeline {
   public:
     Pipeline() = default;
@@ -34,12 +34,12 @@ class Pipeline {
     VkPipeline handle() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
     std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
-    std::size_t shader_bytes() const { return shader_bytes_; } // of SPIR-V that it was made from
+    std::size_t shader_bytes() const { return shader_bytes_; } // of the SPIR-V it was built from
 
   protected:
     // With a layout of `push_constant_bytes` for `stages`, and no pipeline yet.
     Result<void> begin(Device& device, VkShaderStageFlags stages, std::uint32_t push_constant_bytes, const char* name);
-    // What vkCreate...Pipelines gave, named, or its error.
+    // The result of vkCreate...Pipelines, named, or its error.
     Result<void> finish(VkResult result, const char* name);
 
     Device* device_ = nullptr;
@@ -51,7 +51,7 @@ class Pipeline {
 
 class ComputePipeline : public Pipeline {
   public:
-    // The workgroup size is the shader's; it may come from specialization constants (local_size_x_id).
+    // The shader sets the workgroup size, possibly by specialization constants (local_size_x_id).
     static Result<ComputePipeline> create(Device& device, const Spirv& shader, std::uint32_t push_constant_bytes,
                                           std::span<const SpecConstant> constants, const char* name);
 };
@@ -68,7 +68,7 @@ struct RayTracingShaders {
     std::span<const Spirv* const> misses;    // index = missIndex of traceRayEXT
     std::span<const HitGroup> hit_groups;    // index = sbtRecordOffset of traceRayEXT + the instance's hit_group
     std::span<const Spirv* const> callables; // index = sbtRecordIndex of executeCallableEXT
-    // Empty, or for each callable the constants it gets instead of the pipeline's.
+    // Empty, or per callable the constants that replace the pipeline's.
     std::span<const std::vector<SpecConstant>> callable_constants;
 };
 

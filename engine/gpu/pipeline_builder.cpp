@@ -17,7 +17,7 @@ namespace restage::gpu {
 
 namespace {
 
-// What a driver's code depends on, as far as we decide it.
+// Everything under our control that a driver's code depends on.
 std::uint64_t identity(const std::vector<Spirv>& shaders, const std::vector<SpecConstant>& constants,
                        const DeviceInfo& info) {
     std::uint64_t hash = hash64(info.uuid.data(), info.uuid.size());
@@ -28,8 +28,8 @@ std::uint64_t identity(const std::vector<Spirv>& shaders, const std::vector<Spec
     return hash;
 }
 
-// Which pipelines the driver's disk cache should hold: an empty file each, in a folder inside that cache, so that who
-// deletes the one deletes the other. A mark that is wrong costs the stall that this is all about, once.
+// Marks the pipelines expected in the driver's disk cache: one empty file each, inside that cache, so that
+// deleting the cache deletes the marks. A wrong mark costs one stall, the one this class avoids.
 class Marks {
   public:
     Marks() {
@@ -116,7 +116,7 @@ struct PipelineBuilder::Impl {
     const Marks marks;
     std::mutex mutex;
     std::condition_variable wake;
-    using Job = std::function<void(bool stop)>; // stop: only answer
+    using Job = std::function<void(bool stop)>; // stop: only reply
     std::deque<Job> jobs;
     bool stopping = false;
     std::vector<std::thread> threads;
@@ -137,15 +137,15 @@ struct PipelineBuilder::Impl {
         }
     }
 
-    // On a CPU: once in a device that lives as long as this function. The driver writes its cache in the background
-    // and waits for that only when the device (with its instance) goes; else the main device might look too early, and
-    // compile on its own queue what is already compiled.
+    // On a CPU: once on a device local to this function. The driver writes its cache in the background
+    // and waits for that only when the device (with its instance) goes; else the main device might look too early and
+    // recompile on its own queue.
     template <class Request>
     void warm(const Request& request, const std::vector<Spirv>& shaders) {
         auto own = Device::create({.select = std::to_string(device.info().index)}, device.log());
         if (!own) return device.log().debug("pipelines are not built ahead: " + own.error().message);
         const auto pipeline = create(**own, request, shaders);
-        if (pipeline) (void)run_nothing(**own, *pipeline); // what fails here fails, and is reported, on the main device
+        if (pipeline) (void)run_nothing(**own, *pipeline); // a failure here recurs, and is reported, on the main device
     }
 
     template <class Pipeline, class Request>
@@ -172,7 +172,7 @@ struct PipelineBuilder::Impl {
 
     template <class Pipeline, class Request>
     std::future<Result<Pipeline>> enqueue(Request request) {
-        // Shared, because std::function copies what it holds.
+        // Shared, because std::function copies its captures.
         auto promise = std::make_shared<std::promise<Result<Pipeline>>>();
         auto kept = std::make_shared<Request>(std::move(request));
         std::future<Result<Pipeline>> future = promise->get_future();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds pipelines on worker threads, from GLSL to one whose first dispatch does not stall, while other work runs.
+// Builds pipelines on worker threads while other work runs, from GLSL to one whose first dispatch does not stall.
 // A CPU driver (lavapipe) compiles at the first dispatch, on the queue where everything else waits. There a worker
 // first creates the pipeline on a Vulkan device of its own and dispatches nothing with it: the code lands in the
 // driver's disk cache, and the main device only fetches it.
@@ -23,8 +23,8 @@ struct ComputeRequest {
     std::uint32_t push_constant_bytes = 0;
     std::vector<SpecConstant> constants;
     std::string name;
-    Blame blame = {}; // of a crash while this is built
-    std::stop_token stop; // asked between steps; a step that is begun (a second or two at worst) ends first
+    Blame blame = {}; // for a crash while this is built
+    std::stop_token stop; // checked between steps; a step in progress (a second or two at worst) completes first
 };
 
 struct RayTracingRequest {
@@ -45,16 +45,16 @@ struct RayTracingRequest {
     std::stop_token stop;
 };
 
-// [any] thread. The device and the compiler outlive it. Requests are begun in the order in which they came.
+// [any] thread. The device and the compiler outlive it. Requests are started in order.
 class PipelineBuilder {
   public:
-    // Measured on lavapipe with six composed kernels that no cache knew: other work waits 9-14 ms at most with `avoid`,
-    // up to 3 s with `allow`, which in turn costs a quarter less time in all: for a command that shows nothing
+    // Measured on lavapipe with six composed kernels and cold caches: other work waits 9-14 ms at most with `avoid`,
+    // up to 3 s with `allow`, which takes a quarter less time in total: for commands that show nothing
     // meanwhile.
     enum class Stalls { avoid, allow };
     PipelineBuilder(Device& device, const ShaderCompiler& compiler, unsigned threads = 2,
                     Stalls stalls = Stalls::avoid);
-    ~PipelineBuilder(); // finishes what is begun; what is not begun ends in an error
+    ~PipelineBuilder(); // finishes started requests; the others end in an error
     PipelineBuilder(const PipelineBuilder&) = delete;
     PipelineBuilder& operator=(const PipelineBuilder&) = delete;
 

@@ -49,7 +49,7 @@ void SpirvCache::store(const std::string& key, const std::vector<std::uint32_t>&
     bytes += key;
     bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
     bytes += payload;
-    (void)write_file_atomic(file_of(key), bytes); // the next start compiles again, that is all
+    (void)write_file_atomic(file_of(key), bytes); // on failure the next start just recompiles
 }
 
 void SpirvCache::trim(std::size_t entries) const {

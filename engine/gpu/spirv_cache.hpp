@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to gpu/: compiled shaders on disk, one file a key. What is damaged counts as absent. Any thread, any process.
+// Private to gpu/: compiled shaders on disk, one file per key. Damaged files count as absent. Any thread, any process.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace restage::gpu {
 
 class SpirvCache {
   public:
-    explicit SpirvCache(std::filesystem::path folder); // empty: a cache that holds nothing
+    explicit SpirvCache(std::filesystem::path folder); // empty: the cache is disabled
     std::optional<std::vector<std::uint32_t>> load(const std::string& key) const;
-    void store(const std::string& key, const std::vector<std::uint32_t>& words) const; // failing to is no error
+    void store(const std::string& key, const std::vector<std::uint32_t>& words) const; // failure is not an error
     // Removes the longest unused entries beyond `entries`.
     void trim(std::size_t entries) const;
 

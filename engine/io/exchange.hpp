@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What SceneWriter (import) and SceneReader (export) share: what the plugin says while it runs (fates, progress, its
-// error), the border that no exception crosses, and the turning of the ABI's plain C values into the engine's and back.
+// Shared by SceneWriter (import) and SceneReader (export): a running plugin's reports (fates, progress, its
+// error), the barrier that stops exceptions, and conversion between the ABI's plain C values and the engine's.
 #pragma once
 
 #include "io/report.hpp"
@@ -15,7 +15,7 @@ namespace restage::io {
 
 class Exchange {
   public:
-    const std::string& error() const { return error_; } // "file:line:column: message"; "" = none was raised
+    const std::string& error() const { return error_; } // "file:line:column: message"; "" = none raised
     bool cancelled() const { return cancelled_; }
     // ": stopped on request", and of a plugin that does not listen that it went on: `restage check` looks for it.
     std::string how_stopped() const;
@@ -24,15 +24,15 @@ class Exchange {
 
   protected:
     explicit Exchange(Progress progress) : progress_(std::move(progress)) {}
-    Exchange(const Exchange&) = delete; // its tables point to it
+    Exchange(const Exchange&) = delete; // its tables hold its address
     Exchange& operator=(const Exchange&) = delete;
     ~Exchange() = default;
 
     void tell(int fate, const char* what, const char* note, const char* file = nullptr, std::uint32_t line = 0);
     void raise(const char* file, std::uint32_t line, std::uint32_t column, const char* message); // the first one counts
-    bool proceed(float done, const char* what); // false: somebody wants it stopped
+    bool proceed(float done, const char* what); // false: stop requested
 
-    // f(self) -> a handle or a truth. What it throws (there was no memory) becomes 0 and a line in the report.
+    // f(self) -> a handle or bool. An exception (out of memory) becomes 0 and a line in the report.
     template <class Self, class F>
     static auto guarded(void* ctx, const char* what, F&& f) noexcept {
         Self& self = *static_cast<Self*>(ctx);
@@ -41,9 +41,9 @@ class Exchange {
             return f(self);
         } catch (const std::exception& e) {
             try {
-                self.report.add(Fate::dropped, what, std::string("no memory for it (") + e.what() + ")");
+                self.report.add(Fate::dropped, what, std::string("out of memory (") + e.what() + ")");
             } catch (...) {
-                return nothing; // no memory for the report either
+                return nothing; // out of memory for the report, too
             }
         }
         return nothing;
@@ -63,7 +63,7 @@ inline glm::vec3 vec3(const float* v) { return {v[0], v[1], v[2]}; }
 void copy(const glm::dmat4& from, double to[16]);
 void copy(const glm::vec3& from, float to[3]);
 
-scene::FilterKind filter_kind(const std::string& name); // box, when there is none of that name
+scene::FilterKind filter_kind(const std::string& name); // box for unknown names
 const char* filter_name(scene::FilterKind);
 
 } // namespace restage::io

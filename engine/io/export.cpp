@@ -28,7 +28,7 @@ Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::
     std::string known;
     for (const auto& entry : registry.exporters())
         known += (known.empty() ? "" : ", ") + std::string(entry.table->format);
-    known = known.empty() ? "no exporter plugin is loaded" : "known are: " + known;
+    known = known.empty() ? "no exporter plugin is loaded" : "known: " + known;
     if (!format.empty()) {
         if (auto entry = registry.find_exporter(format)) return *std::move(entry);
         return fail("there is no exporter \"" + format + "\"; " + known);
@@ -38,7 +38,7 @@ Result<plugin::ExporterEntry> find_exporter(const std::string& path, const std::
     for (const auto& entry : registry.exporters())
         if (has_extension(*entry.table, extension)) return entry;
     return fail(path +
-                (extension.empty() ? ": has no extension that says the format; "
+                (extension.empty() ? ": has no extension to tell the format by; "
                                    : ": no exporter writes files called ." + extension + "; ") +
                 known);
 }

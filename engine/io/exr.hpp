@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenEXR files with layers and metadata: what a render leaves behind (beauty, standard error, guides, ids).
+// OpenEXR files with layers and metadata: the output of a render (beauty, standard error, guides, ids).
 // A channel "albedo.R" is channel R of layer "albedo"; the layer of plain R, G, B is called "".
 #pragma once
 
@@ -21,7 +21,7 @@ struct ExrLayer {
     std::vector<std::string> channels; // {"R","G","B"}; read in the usual order (R G B A, X Y Z), else as in the file
     ExrType type = ExrType::float32; // of all its channels; on reading, the widest of them (uint with others: float)
     std::vector<float> values; // width * height * channels, interleaved, row 0 on top; half and float32
-    std::vector<std::uint32_t> integers; // the same for uint32
+    std::vector<std::uint32_t> integers; // likewise for uint32
     bool operator==(const ExrLayer&) const = default;
 };
 

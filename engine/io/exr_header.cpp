@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The headers of an EXR file, walked through before OpenEXR allocates what they claim. OpenEXR goes by an attribute's
-// stated size only where its type has no size of its own, so the two must agree: else it would read on elsewhere.
+// The headers of an EXR file, checked before OpenEXR allocates what they claim. OpenEXR uses an attribute's
+// stated size only if its type has no fixed size, so the two must agree: else it would lose its place.
 
 #include "io/image_file_codecs.hpp"
 
@@ -22,7 +22,7 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-// The size of a value of this type, where all have the same.
+// The size of a value of this type, if fixed.
 std::optional<std::uint32_t> fixed_size(std::string_view type) {
     static constexpr std::pair<std::string_view, std::uint32_t> sizes[] = {{"box2i", 16},
                                                                            {"box2f", 16},
@@ -84,7 +84,7 @@ bool has_own_size(std::string_view type, std::string_view value) {
     if (type == "preview") return is_preview(value);
     if (type == "floatvector") return value.size() % 4 == 0;
     if (type == "idmanifest") return value.size() >= 8 && little_endian(value, 4) <= largest_manifest;
-    return true; // string, and types OpenEXR does not know: taken as long as stated
+    return true; // string, and types unknown to OpenEXR: the stated size counts
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading EXR: all layers of a render (read_exr), or the one picture that a texture wants (decode_exr).
+// Reading EXR: all layers of a render (read_exr), or the one picture needed by a texture (decode_exr).
 
 #include "base/file.hpp"
 #include "io/exr.hpp"
@@ -35,9 +35,9 @@ struct Window {
     Imath::Box2i box;
 };
 
-// How many texels a byte of a complete file can stand for: one channel of 16 bits, deflate's 1032:1, RLE's 128:2.
-// PIZ and DWA shrink a block of one colour to nothing, however wide it is; each of its 32 or 256 rows at most has 8
-// bytes in the table of offsets.
+// Maximum texels per byte of a complete file: one channel of 16 bits, deflate's 1032:1, RLE's 128:2.
+// PIZ and DWA shrink a single-colour block to nothing, however wide; each block of at most 32 or 256 rows has 8
+// bytes in the offset table.
 std::uint64_t most_texels_per_byte(Imf::Compression compression, std::int64_t width) {
     switch (compression) {
         case Imf::NO_COMPRESSION:
@@ -62,7 +62,7 @@ Result<Window> data_window(const Imf::Header& header, std::size_t file_size) {
     return Window{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), box};
 }
 
-// R G B A and X Y Z in the usual order, whatever the file's (alphabetical) one; others behind, as they come.
+// R G B A and X Y Z in the usual order, whatever the file's (alphabetical) one; others follow in file order.
 int channel_rank(const std::string& name) {
     static constexpr std::string_view usual[] = {"R", "G", "B", "A", "X", "Y", "Z"};
     const auto* found = std::find(std::begin(usual), std::end(usual), name);
@@ -88,7 +88,7 @@ Result<std::vector<ExrLayer>> list_layers(const Imf::ChannelList& channels) {
     std::vector<ExrLayer> layers;
     for (auto it = channels.begin(); it != channels.end(); ++it) {
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            return fail(fmt::format("channel '{}' is subsampled, which is not supported here", it.name()));
+            return fail(fmt::format("channel '{}' is subsampled, which is not supported", it.name()));
         const auto [layer_name, channel] = split_name(it.name());
         auto layer = std::find_if(layers.begin(), layers.end(), [&](const auto& l) { return l.name == layer_name; });
         const ExrType type = type_of(it.channel().type);
@@ -153,7 +153,7 @@ std::map<std::string, std::string> read_metadata(const Imf::Header& header) {
     return metadata;
 }
 
-// OpenEXR reports by exceptions; they end here.
+// OpenEXR throws; exceptions end here.
 template <class F>
 auto guarded(F&& f) -> decltype(f()) {
     try {
@@ -181,7 +181,7 @@ Result<std::size_t> choose_layer(const std::vector<ExrLayer>& layers) {
     return fail("EXR: none of the channels is a colour (R, G, B or Y): " + all);
 }
 
-// Which channels of the layer the picture takes, in order; -1 = zeros.
+// The layer's channels that make up the picture, in order; -1 = zeros.
 std::vector<int> choose_channels(const ExrLayer& layer) {
     const auto index = [&](const char* name) {
         const auto found = std::find(layer.channels.begin(), layer.channels.end(), name);

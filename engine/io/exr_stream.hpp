@@ -18,8 +18,8 @@ class ExrMemoryInput : public Imf::IStream {
     bool read(char c[], int n) override {
         const auto count = static_cast<std::uint64_t>(n < 0 ? 0 : n);
         if (at_ > bytes_.size() || bytes_.size() - at_ < count)
-            throw std::runtime_error("truncated: the picture goes on where the file ends (" +
-                                     std::to_string(bytes_.size()) + " bytes)");
+            throw std::runtime_error("truncated: the file ends inside the picture (" + std::to_string(bytes_.size()) +
+                                     " bytes)");
         std::memcpy(c, bytes_.data() + at_, count);
         at_ += count;
         return at_ < bytes_.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing EXR: one part, scan lines, all layers; linear sRGB primaries, which is what a file without chromaticities
-// means.
+// Writing EXR: one part, scan lines, all layers; linear sRGB primaries, as implied by a file without
+// chromaticities.
 
 #include "base/file.hpp"
 #include "io/exr.hpp"
@@ -50,7 +50,7 @@ Result<> check(const ExrImage& image) {
             return fail(fmt::format("layer '{}' has {} values instead of {}", layer.name, found, wanted));
         for (const auto& channel : layer.channels)
             if (channel.empty() || !names.insert(full_name(layer, channel)).second)
-                return fail(fmt::format("channel '{}' is there twice, or has no name", full_name(layer, channel)));
+                return fail(fmt::format("channel '{}' is duplicate or unnamed", full_name(layer, channel)));
     }
     return {};
 }

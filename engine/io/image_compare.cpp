@@ -16,7 +16,7 @@ namespace {
 
 std::size_t pixel_count(const scene::PixelData& image) { return std::size_t{image.width} * image.height; }
 
-// Channel c of pixel i; grey answers for all three.
+// Channel c of pixel i; grey serves for all three.
 float value(const scene::PixelData& image, std::size_t i, std::size_t c) {
     return image.values[i * image.channels + (image.channels < 3 ? 0 : c)];
 }
@@ -112,7 +112,7 @@ scene::PixelData difference_image(const scene::PixelData& a, const scene::PixelD
     image.values.resize(la.size() * 3);
     for (std::size_t i = 0; i < la.size(); ++i) {
         const float error = (la[i] - lb[i]) / (std::max(lb[i], 0.f) + guard) / range;
-        // Linear to the eye, not to the light; over-range goes on to yellow and cyan, so that it shows.
+        // Perceptually linear; over-range continues to yellow and cyan, to stand out.
         image.values[3 * i] = srgb_to_linear(std::clamp(error, 0.f, 1.f));
         image.values[3 * i + 1] = srgb_to_linear(std::clamp((std::abs(error) - 1) / 3, 0.f, 1.f));
         image.values[3 * i + 2] = srgb_to_linear(std::clamp(-error, 0.f, 1.f));

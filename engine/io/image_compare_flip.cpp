@@ -99,7 +99,7 @@ Plane filter(const Plane& in, Size size, const std::array<Kernel, 3>& kernels, b
     return out;
 }
 
-// What the eye can resolve: contrast sensitivity as sums of two Gaussians a channel (4.1.1, Table 1).
+// Visual acuity: contrast sensitivity as sums of two Gaussians per channel (4.1.1, Table 1).
 Plane blur_to_acuity(const Plane& ycxcz, Size size, float ppd) {
     struct Csf {
         float a1, b1, a2, b2;

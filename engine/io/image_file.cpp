@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files: choice of the decoder, linearisation, and what must hold for every picture that comes in.
+// Image files: decoder selection, linearisation, and checks on every incoming picture.
 
 #include "io/image_file.hpp"
 
@@ -22,7 +22,7 @@ constexpr std::uint64_t max_extent = 1u << 17;       // texels a side
 constexpr std::uint64_t max_texels = 1ull << 28;     // 16384 x 16384; 4 GiB as float RGBA
 constexpr std::uint64_t most_image_bytes = 5ull << 30; // max_texels as plain float RGBA, and a gigabyte of names
 constexpr const char* out_of_memory =
-    "out of memory: the picture is too large for this machine, or for the limit that was set";
+    "out of memory: the picture is too large for this machine or the configured limit";
 constexpr float largest_half = 65504.f;
 
 float decode(float encoded, scene::Encoding encoding, float gamma) {
@@ -68,7 +68,7 @@ std::vector<float> grey_alpha_to_rgba(const std::vector<float>& in) {
     return out;
 }
 
-// Shaders and sums must never see NaN or infinity.
+// Keeps NaN and infinity out of shaders and sums.
 std::string replace_non_finite(std::vector<float>& values) {
     std::size_t nan = 0, infinite = 0;
     for (float& v : values) {
@@ -95,7 +95,7 @@ float srgb_to_linear(float encoded) {
 }
 
 float linear_to_srgb(float linear) {
-    if (!(linear > 0)) return 0; // NaN as well
+    if (!(linear > 0)) return 0; // also NaN
     if (linear >= 1) return 1;
     return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
@@ -147,7 +147,7 @@ Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64
                           std::uint64_t most_texels_per_byte) {
     if (width == 0 || height == 0) return fail(fmt::format("the header says {} x {}: no pixels", width, height));
     if (width > max_extent || height > max_extent || width * height > max_texels)
-        return fail(fmt::format("the header says {} x {} pixels, more than this program holds ({} in all, {} a side)",
+        return fail(fmt::format("the header says {} x {} pixels, more than this program holds ({} in total, {} a side)",
                                 width, height, max_texels, max_extent));
     if (most_texels_per_byte > 0 && width * height > file_size * most_texels_per_byte)
         return fail(
@@ -188,7 +188,7 @@ Result<> write_image(const std::string& path, const scene::PixelData& image) {
         exr.layers.push_back({.channels = names[image.channels == 1 ? 0 : image.channels - 2], .values = image.values});
         return write_exr(path, exr);
     }
-    return fail(path + ": unknown image format '" + extension + "'; known are .exr .hdr .jpg .pfm .png");
+    return fail(path + ": unknown image format '" + extension + "'; known: .exr .hdr .jpg .pfm .png");
 }
 
 } // namespace restage::io

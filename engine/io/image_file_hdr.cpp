@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiance HDR (RGBE): reading. Both run-length codings and plain texels; EXPOSURE lines are ignored, as by pbrt.
+// Radiance HDR (RGBE): reading. Both run-length codings and plain texels; EXPOSURE lines are ignored, as in pbrt.
 // (stb_image's reader loops for ever on files that end early.) G. Ward, "Real Pixels", Graphics Gems II, 1991.
 
 #include "io/image_file_codecs.hpp"
@@ -67,7 +67,7 @@ std::optional<Resolution> parse_resolution(std::string_view line) {
 
 enum class RowStatus { good, truncated, corrupt };
 
-// A row whose components are run-length coded one after the other.
+// A row whose components are run-length coded separately.
 RowStatus read_component_row(Reader& in, std::vector<Rgbe>& row) {
     for (std::size_t component = 0; component < 4; ++component)
         for (std::size_t x = 0; x < row.size();) {
@@ -86,7 +86,7 @@ RowStatus read_component_row(Reader& in, std::vector<Rgbe>& row) {
     return RowStatus::good;
 }
 
-// Plain texels; (1,1,1,n) repeats the last one, n << 8 k times when it is the k-th in a row.
+// Plain texels; (1,1,1,n) repeats the last one, n << 8 k times if it is the k-th consecutive one.
 RowStatus read_plain_row(Reader& in, std::vector<Rgbe>& row) {
     unsigned shift = 0;
     for (std::size_t x = 0; x < row.size();) {
@@ -144,7 +144,7 @@ bool is_hdr(std::string_view bytes) { return bytes.starts_with("#?RADIANCE") || 
 Result<DecodedImage> decode_hdr(std::string_view bytes, bool header_only) {
     Reader in{bytes};
     RESTAGE_TRY(const Resolution size, read_header(in));
-    // A row takes eight bytes at least: a texel and a run of it.
+    // A row takes at least eight bytes: a texel and a run of it.
     RESTAGE_CHECK(check_image_size(size.width, size.height, bytes.size(), 1 + size.width / 8));
     DecodedImage image{.width = size.width, .height = size.height, .channels = 3};
     if (header_only) return image;

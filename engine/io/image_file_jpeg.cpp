@@ -17,9 +17,9 @@ namespace restage::io {
 
 namespace {
 
-constexpr int most_scans = 500; // of a progressive picture: a small file could otherwise ask for days of work
+constexpr int most_scans = 500; // of a progressive picture: a small file could otherwise demand days of work
 
-// libjpeg reports by calls that must not return: the only way out of them is longjmp, over frames of C.
+// libjpeg's error handlers must not return: the only way out is longjmp, over C frames.
 struct Errors {
     jpeg_error_mgr manager{}; // first: libjpeg gives us a pointer to it
     std::jmp_buf back{};
@@ -33,8 +33,8 @@ struct Errors {
     std::longjmp(errors->back, 1);
 }
 
-// Warnings (level -1) are of damaged data: the picture is shown as every viewer shows it, and the first is told. That
-// the file ends early is an error.
+// Warnings (level -1) mean damaged data: the picture is shown as in other viewers, and the first one is reported. A
+// truncated file is an error.
 void note(j_common_ptr jpeg, int level) {
     if (level >= 0) return;
     auto* errors = reinterpret_cast<Errors*>(jpeg->err);
@@ -62,11 +62,11 @@ struct Decoder {
         errors.manager.output_message = silent;
         progress.progress_monitor = count_scans;
     }
-    ~Decoder() { jpeg_destroy_decompress(&jpeg); } // also of one that was never created: it is zero
+    ~Decoder() { jpeg_destroy_decompress(&jpeg); } // safe even if never created: it is zeroed
     Decoder(const Decoder&) = delete;
     Decoder& operator=(const Decoder&) = delete;
 
-    // Each is false when libjpeg gave up. Nothing with a destructor begins in them, as longjmp asks.
+    // Each returns false if libjpeg gave up. They contain no objects with destructors, because of longjmp.
     bool read_header(std::string_view bytes) {
         if (setjmp(errors.back)) return false; // NOLINT(cert-err52-cpp): libjpeg's only way
         jpeg_create_decompress(&jpeg);
@@ -77,7 +77,7 @@ struct Decoder {
         jpeg.out_color_space = jpeg.num_components == 1 ? JCS_GRAYSCALE : jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
         return true;
     }
-    // Memory is asked for as rows come: a file that ends early gets little.
+    // Memory grows as rows arrive: a truncated file gets little.
     bool read_rows(std::vector<std::uint8_t>& to) {
         if (setjmp(errors.back)) return false; // NOLINT(cert-err52-cpp)
         jpeg_start_decompress(&jpeg);
@@ -93,14 +93,13 @@ struct Decoder {
         return true;
     }
     tl::unexpected<Error> problem(std::size_t size) const {
-        if (errors.truncated)
-            return fail(fmt::format("truncated: the picture goes on where the file ends ({} bytes)", size));
+        if (errors.truncated) return fail(fmt::format("truncated: the file ends inside the picture ({} bytes)", size));
         return fail(fmt::format("the picture is broken: JPEG: {}", errors.message));
     }
 };
 
-// Adobe's files hold the inks inverted (its technical note 5116): 255 is no ink. Without profiles the colour is what
-// light passes all inks.
+// Adobe's files hold the inks inverted (its technical note 5116): 255 is no ink. Without profiles the colour is the
+// light that passes all inks.
 std::vector<std::uint8_t> cmyk_to_rgb(const std::vector<std::uint8_t>& cmyk, bool inverted) {
     std::vector<std::uint8_t> rgb(cmyk.size() / 4 * 3);
     const auto light = [&](std::uint8_t ink) { return inverted ? ink : 255u - ink; };
@@ -118,7 +117,7 @@ Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
     Decoder decoder;
     if (!decoder.read_header(bytes)) return decoder.problem(bytes.size());
     const jpeg_decompress_struct& jpeg = decoder.jpeg;
-    // A block of 64 takes a bit at least by Huffman codes, and arithmetic ones of a plain picture no hundredth of it.
+    // A block of 64 takes at least a bit in Huffman coding, in a plain picture under 1/100 of it in arithmetic coding.
     constexpr std::uint64_t most_texels_per_byte = 8 * 64 * 64;
     RESTAGE_CHECK(check_image_size(jpeg.image_width, jpeg.image_height, bytes.size(), most_texels_per_byte));
     if (jpeg.num_components != 1 && jpeg.num_components != 3 && jpeg.num_components != 4)
@@ -130,7 +129,7 @@ Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
     std::vector<std::uint8_t> values;
     if (!decoder.read_rows(values)) return decoder.problem(bytes.size());
     if (decoder.errors.manager.num_warnings > 0)
-        image.warning = fmt::format("JPEG: {}; the picture is shown as far as it goes", decoder.errors.message);
+        image.warning = fmt::format("JPEG: {}; the picture is shown as far as decoded", decoder.errors.message);
     image.values = cmyk ? cmyk_to_rgb(values, jpeg.saw_Adobe_marker != 0) : std::move(values);
     return image;
 }
@@ -154,7 +153,7 @@ struct Encoder {
         jpeg_destroy_compress(&jpeg);
         std::free(bytes);
     }
-    // No objects with destructors in here: see give_up.
+    // No objects with destructors here: see give_up.
     bool write(std::uint32_t width, std::uint32_t height, int channels, int quality, const std::uint8_t* values) {
         if (setjmp(errors.back)) return false;
         jpeg_create_compress(&jpeg);

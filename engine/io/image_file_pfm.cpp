@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Portable float maps: "PF" (3 channels) or "Pf" (1), width height, scale (negative: little-endian), one white-space
-// character, then rows from the bottom up. The size of the scale is ignored, as by everybody.
+// character, then rows from the bottom up. The magnitude of the scale is ignored, as in all readers.
 // http://www.pauldebevec.com/Research/HDR/PFM/
 
 #include "base/file.hpp"
@@ -49,7 +49,7 @@ Result<DecodedImage> decode_pfm(std::string_view bytes, bool header_only) {
     RESTAGE_TRY(const auto width, next_number<std::uint32_t>(bytes, at, "the width"));
     RESTAGE_TRY(const auto height, next_number<std::uint32_t>(bytes, at, "the height"));
     RESTAGE_TRY(const auto scale, next_number<double>(bytes, at, "the scale"));
-    if (!(scale < 0 || scale > 0)) return fail("PFM header: the scale must not be 0: its sign tells the byte order");
+    if (!(scale < 0 || scale > 0)) return fail("PFM header: the scale must not be 0: its sign gives the byte order");
     ++at; // exactly one white-space character
     RESTAGE_CHECK(check_image_size(width, height, bytes.size(), 1));
     DecodedImage image{.width = width, .height = height, .channels = bytes[1] == 'F' ? 3u : 1u};

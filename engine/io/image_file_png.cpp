@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG through libspng. Numbers stay as the file has them: gAMA, sRGB, iCCP and cHRM chunks are not applied (the scene
-// says what an image means), 16 bits stay 16 bits, palettes and tRNS become colours and alpha.
+// PNG through libspng. Values stay as in the file: gAMA, sRGB, iCCP and cHRM chunks are not applied (the scene
+// sets the encoding), 16 bits stay 16 bits, palettes and tRNS become colours and alpha.
 
 #include "io/image_file_codecs.hpp"
 
@@ -19,12 +19,11 @@ struct FreeContext {
 constexpr std::size_t most_chunk_bytes = std::size_t{64} << 20; // of a chunk that is not pixels: a profile, a text
 
 tl::unexpected<Error> broken(int code, std::size_t size) {
-    if (code == SPNG_IO_EOF)
-        return fail(fmt::format("truncated: the picture goes on where the file ends ({} bytes)", size));
+    if (code == SPNG_IO_EOF) return fail(fmt::format("truncated: the file ends inside the picture ({} bytes)", size));
     return fail(fmt::format("the picture is broken: PNG: {}", spng_strerror(code)));
 }
 
-// What libspng is asked for, and what comes.
+// The format requested from libspng, and the resulting channels.
 struct Layout {
     int format = 0, flags = 0;
     std::uint32_t channels = 0;
@@ -59,8 +58,8 @@ Result<DecodedImage> decode_png(std::string_view bytes, bool header_only) {
     if (code == 0) code = spng_get_ihdr(context.get(), &header);
     if (header.width > 0 || code == 0) RESTAGE_CHECK(check_image_size(header.width, header.height, bytes.size()));
     if (code != 0) return broken(code, bytes.size());
-    // Deflate makes at most 1032 bytes of one (zlib's technical notes), so a complete picture of this size has at
-    // least so many bytes: this refuses no valid file, a 1-bit one of a single colour included.
+    // Deflate expands one byte to at most 1032 (zlib's technical notes), so a complete picture of this size has at
+    // least that many bytes: no valid file is refused, not even a 1-bit one of a single colour.
     constexpr std::uint32_t samples[] = {1, 0, 3, 1, 2, 0, 4};
     const std::uint64_t row = (std::uint64_t{header.width} * samples[header.color_type] * header.bit_depth + 7) / 8;
     if (row * header.height > 1032 * std::uint64_t{bytes.size()})
@@ -77,10 +76,10 @@ Result<DecodedImage> decode_png(std::string_view bytes, bool header_only) {
         std::size_t size = 0;
         if (const int e = spng_decoded_image_size(context.get(), wanted.format, &size)) return broken(e, bytes.size());
         values.resize(std::size_t{image.width} * image.height * image.channels);
-        if (size != values.size() * sizeof values[0]) return fail("the picture is broken: PNG: its size is not clear");
+        if (size != values.size() * sizeof values[0]) return fail("the picture is broken: PNG: inconsistent size");
         if (const int e = spng_decode_image(context.get(), values.data(), size, wanted.format, wanted.flags))
             return broken(e, bytes.size());
-        // What follows the pixels matters to nobody, but that the file ends before its end is said.
+        // What follows the pixels is irrelevant, but a truncated file is reported.
         if (spng_decode_chunks(context.get()) == SPNG_IO_EOF) return broken(SPNG_IO_EOF, bytes.size());
         image.values = std::move(values);
         return std::move(image);

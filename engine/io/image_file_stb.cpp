@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BMP and TGA through stb_image, which has nothing else compiled in; PNG and HDR back through stb_image_write.
-// stb fills up missing bytes with zeros in some formats; reading through callbacks shows when it ran past the end.
+// BMP and TGA through stb_image, compiled with nothing else; PNG and HDR are written through stb_image_write.
+// stb fills missing bytes with zeros in some formats; reading through callbacks shows when it ran past the end.
 
 #include "base/file.hpp"
 #include "io/image_file.hpp"
@@ -12,14 +12,14 @@
 #include <cstring>
 #include <memory>
 
-// Kept to this file (static), so that it cannot meet the copy in another library.
+// Static, so that it cannot clash with the copy in another library.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_LINEAR
-#define STBI_MAX_DIMENSIONS (1 << 30) // check_image_size says it better
+#define STBI_MAX_DIMENSIONS (1 << 30) // check_image_size gives a better message
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #if defined(__GNUC__)
@@ -39,7 +39,7 @@ namespace {
 struct Source {
     std::string_view bytes;
     std::size_t at = 0;
-    bool overrun = false; // something behind the end was asked for
+    bool overrun = false; // a read past the end was requested
 };
 
 constexpr int refill_size = sizeof(stbi__context::buffer_start);
@@ -48,10 +48,10 @@ int source_read(void* user, char* data, int size) {
     auto& source = *static_cast<Source*>(user);
     const std::size_t wanted = static_cast<std::size_t>(std::max(size, 0));
     const std::size_t count = std::min(source.bytes.size() - source.at, wanted);
-    // A refill reads ahead: coming back short means nothing, coming back empty does.
+    // A refill reads ahead: a short read is harmless, an empty one is not.
     if (count < wanted && (count == 0 || size != refill_size)) source.overrun = true;
     std::memcpy(data, source.bytes.data() + source.at, count);
-    if (size == refill_size) std::memset(data + count, 0, wanted - count); // stb does not always look at the count
+    if (size == refill_size) std::memset(data + count, 0, wanted - count); // stb does not always check the count
     source.at += count;
     return static_cast<int>(count);
 }
@@ -87,7 +87,7 @@ Result<DecodedImage> load(std::string_view bytes, Load&& loader) {
     int width = 0, height = 0, channels = 0;
     std::unique_ptr<T, FreeStb> pixels{loader(&callbacks, &source, &width, &height, &channels, 0)};
     if (source.overrun)
-        return fail(fmt::format("truncated: the picture goes on where the file ends ({} bytes)", bytes.size()));
+        return fail(fmt::format("truncated: the file ends inside the picture ({} bytes)", bytes.size()));
     if (!pixels) return fail("the picture is broken", reason());
     DecodedImage image{.width = static_cast<std::uint32_t>(width),
                        .height = static_cast<std::uint32_t>(height),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// WebP, lossy and lossless, through libwebp. Of animations there is no one picture: they are refused.
+// WebP, lossy and lossless, through libwebp. Animations are refused: they are not one picture.
 
 #include "io/image_file_codecs.hpp"
 
@@ -14,17 +14,17 @@ bool is_webp(std::string_view bytes) { return bytes.starts_with("RIFF") && bytes
 Result<DecodedImage> decode_webp(std::string_view bytes, bool header_only) {
     const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
     const auto truncated = [&] {
-        return fail(fmt::format("truncated: the picture goes on where the file ends ({} bytes)", bytes.size()));
+        return fail(fmt::format("truncated: the file ends inside the picture ({} bytes)", bytes.size()));
     };
     WebPBitstreamFeatures features{};
     const VP8StatusCode status = WebPGetFeatures(data, bytes.size(), &features);
     if (status == VP8_STATUS_NOT_ENOUGH_DATA) return truncated();
-    if (status != VP8_STATUS_OK) return fail("the picture is broken: WebP: its header cannot be understood");
+    if (status != VP8_STATUS_OK) return fail("the picture is broken: WebP: invalid header");
     if (features.has_animation) return fail("animated WebP pictures are not read; save one frame");
     const auto width = static_cast<std::uint32_t>(std::max(features.width, 0)),
                height = static_cast<std::uint32_t>(std::max(features.height, 0));
     RESTAGE_CHECK(check_image_size(width, height, bytes.size()));
-    std::uint64_t riff = 8; // bytes 4-7: how many follow them, little-endian; asked before memory is
+    std::uint64_t riff = 8; // bytes 4-7: how many follow, little-endian; checked before allocating
     for (std::size_t i = 0; i < 4; ++i)
         riff += std::uint64_t{data[4 + i]} << (8 * i);
     if (riff > bytes.size()) return truncated();
@@ -32,7 +32,7 @@ Result<DecodedImage> decode_webp(std::string_view bytes, bool header_only) {
     if (header_only) return image;
 
     WebPDecoderConfig config;
-    if (!WebPInitDecoderConfig(&config)) return fail("libwebp is of another version than this program was built for");
+    if (!WebPInitDecoderConfig(&config)) return fail("libwebp's version differs from the one built against");
     std::vector<std::uint8_t> values(std::size_t{width} * height * image.channels);
     config.output.colorspace = features.has_alpha ? MODE_RGBA : MODE_RGB;
     config.output.is_external_memory = 1;

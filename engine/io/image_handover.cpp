@@ -40,7 +40,7 @@ Result<std::uint64_t> hand_over_image(const std::string& path, const std::filesy
 Result<scene::PixelData> take_over_image(const std::filesystem::path& from, scene::Encoding encoding, float gamma) {
     RESTAGE_TRY(const std::string bytes, read_file(from));
     Header header;
-    const auto broken = [&] { return fail(from.string() + ": what was handed over is damaged"); };
+    const auto broken = [&] { return fail(from.string() + ": the decoded pixels handed over are damaged"); };
     if (bytes.size() < sizeof header) return broken();
     std::memcpy(&header, bytes.data(), sizeof header);
     const std::string_view rest = std::string_view(bytes).substr(sizeof header);

@@ -31,7 +31,7 @@ std::string known_formats(const plugin::Registry& registry) {
     std::string list;
     for (const auto& entry : registry.importers())
         list += (list.empty() ? "" : ", ") + std::string(entry.table->label);
-    return list.empty() ? "no importer plugin is loaded; `restage plugins` says why" : "known are: " + list;
+    return list.empty() ? "no importer plugin is loaded; `restage plugins` says why" : "known: " + list;
 }
 
 Result<plugin::ImporterEntry> choose(const std::string& path, const std::string& head, const plugin::Registry& registry,
@@ -42,20 +42,20 @@ Result<plugin::ImporterEntry> choose(const std::string& path, const std::string&
     }
     plugin::ImporterEntry best;
     int best_score = 0;
-    for (const auto& entry : registry.importers()) { // of equals the first of the alphabet
+    for (const auto& entry : registry.importers()) { // ties go to the first in alphabetical order
         if (const int score = probe(entry, path, head); score > best_score) {
             best = entry;
             best_score = score;
         }
     }
-    if (!best.table) return fail(path + ": the format of this file is not known; " + known_formats(registry));
+    if (!best.table) return fail(path + ": unknown file format; " + known_formats(registry));
     return best;
 }
 
 } // namespace
 
 int probe(const plugin::ImporterEntry& entry, const std::string& path, std::string_view head) {
-    const CrashNote note(entry.plugin->blame("while it looked at the beginning of " + path));
+    const CrashNote note(entry.plugin->blame("while it probed " + path));
     return entry.native->probe(path.c_str(), head.data(), head.size());
 }
 

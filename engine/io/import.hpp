@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file becomes a Scene: the importer that is surest of the file reads it. Three outcomes: nobody knows the format,
-// somebody does but the file is broken (file:line:column), or a scene with a report.
+// Reads a file into a Scene with the most confident importer. Three outcomes: the format is unknown,
+// the file is broken (file:line:column), or a scene with a report.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -15,20 +15,20 @@ namespace restage::io {
 
 struct ImportOptions {
     Progress progress;      // may be empty
-    std::string format;     // of one importer; "" = ask all of them
-    Jobs* jobs = nullptr;   // for decoding images; null = a pool of its own
+    std::string format;     // of one importer; "" = try all
+    Jobs* jobs = nullptr;   // for decoding images; null = a private pool
     bool read_images = true;
-    scene::ParamSet values; // of the importer's option table; what is not set has the table's default
+    scene::ParamSet values; // of the importer's option table; unset ones take the table's default
 };
 
 struct ImportedScene {
     scene::Scene scene;
     Report report;
     std::string importer; // its format: "pbrt"
-    bool unexposed = false; // the file says nothing of exposure, and its light has units: document/exposure.hpp meters
+    bool unexposed = false; // the file gives no exposure, and its light has units: document/exposure.hpp meters
 };
 
-// 0..100: how sure the importer is that a file that begins so is its own; what it answers is not judged.
+// 0..100: the importer's confidence that a file with this head is of its format; returned unchecked.
 int probe(const plugin::ImporterEntry&, const std::string& path, std::string_view head);
 
 Result<ImportedScene> import_scene(const std::string& path, const plugin::Registry&, const ImportOptions& = {});

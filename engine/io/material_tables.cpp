@@ -23,7 +23,7 @@ void report_tables(const scene::Scene& scene, const plugin::Registry& registry, 
                 continue;
             const std::string who = "material \"" + m.name + "\"";
             if (const auto table = reader->read(line.id, set->text); !table) {
-                report.add(io::Fate::dropped, who, table.error().message + "; a grey one stands for it");
+                report.add(io::Fate::dropped, who, table.error().message + "; shown as grey");
             } else {
                 std::string notes;
                 for (const std::string& note : (*table)->notes)

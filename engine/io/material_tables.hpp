@@ -10,7 +10,7 @@
 
 namespace restage::io {
 
-// One line of the report a table that is set. Materials that are the same in `already` were reported with it.
+// One report line per table that is set. Materials equal to those in `already` were reported before.
 void report_tables(const scene::Scene& scene, const plugin::Registry& registry, Report& report,
                    const scene::Scene* already = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an import or export did to the things in a file: kept, approximated or dropped, each with its place and reason.
+// What an import or export did to each item in a file: kept, approximated or dropped, with its place and reason.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ enum class Fate : std::uint8_t { kept, approximated, dropped };
 
 struct ReportEntry {
     Fate fate = Fate::kept;
-    std::string file;       // "" where it is not about a place in a file
+    std::string file;       // "" if not about a place in a file
     std::uint32_t line = 0; // 0 = the whole file
     std::string what, note; // 'material "oak"', 'bump map dropped'
     bool operator==(const ReportEntry&) const = default;

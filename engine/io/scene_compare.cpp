@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every thing is described by a text that two like things share; instances of one description are paired by place.
+// Every item is described by a text that equal items share; instances of one description are paired by place.
 #include "io/scene_compare.hpp"
 
 #include "base/file.hpp"
@@ -18,7 +18,7 @@ using namespace scene;
 
 namespace {
 
-std::string shown(float x) { // six digits: what a text file or another order of operations may change is beyond
+std::string shown(float x) { // six digits: beyond the effects of text formats and operation order
     return fmt::format("{:.6g}", x == 0 ? 0.f : x);
 }
 std::string shown(glm::vec3 v) { return shown(v.x) + " " + shown(v.y) + " " + shown(v.z); }
@@ -257,7 +257,7 @@ class Comparison {
         same_list("lights", describe(a_), describe(b_));
     }
 
-    void names() { // of what instances and lights do not say
+    void names() { // of items not covered by instances and lights
         const auto groups = [](const Scene& s, Describer& d) {
             std::vector<std::string> all;
             s.groups.each([&](Id<Group> id, const Group&) { all.push_back(d.group(id)); });
@@ -297,10 +297,10 @@ class Comparison {
             same("sky", x->sky + describe_a_.values(x->sky_params), y->sky + describe_b_.values(y->sky_params));
         same("environment", describe(describe_a_, *x), describe(describe_b_, *y));
         if (x->image && !close(x->light_to_world, y->light_to_world, options_.transform_tolerance))
-            differ("environment: turned otherwise");
+            differ("environment: rotated differently");
     }
 
-    // As the picture has it, however the camera says it.
+    // As seen in the picture, however the camera expresses it.
     static float fov(const Camera& c, const Scene& s) {
         const Film& film = s.film.value;
         return static_cast<float>(camera_fov(c, double(film.width) / film.height));
@@ -323,7 +323,7 @@ class Comparison {
         };
         same("camera", describe(*x, a_), describe(*y, b_));
         if (!close(x->camera_to_world, y->camera_to_world, options_.transform_tolerance))
-            differ("camera: stands elsewhere");
+            differ("camera: placed differently");
         same("medium of the camera", describe_a_.medium(a_.settings.value.camera_medium),
              describe_b_.medium(b_.settings.value.camera_medium));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Do two scenes mean the same picture? Names, ids, the order of things, where files are and how an object is split into
-// groups of one do not count unless asked for; geometry, materials as a renderer sees them, places, lights, camera and
+// Do two scenes describe the same picture? Names, ids, order, file locations and splitting of an object into
+// single-member groups do not count unless requested; geometry, materials as rendered, places, lights, camera and
 // film do.
 #pragma once
 
@@ -15,10 +15,10 @@ namespace restage::io {
 struct SceneCompareOptions {
     double transform_tolerance = 1e-9; // of the largest entry of the matrix
     std::size_t most = 20; // differences listed
-    bool names = false; // what things are called, how groups nest and which cameras wait count too
+    bool names = false; // names, group nesting and inactive cameras count too
 };
 
-// Sentences, none when the scenes are alike. The registry gives the defaults of parameters that are not set.
+// Sentences, empty if the scenes are alike. The registry supplies defaults of unset parameters.
 std::vector<std::string> structural_differences(const scene::Scene& a, const scene::Scene& b, const plugin::Registry&,
                                                 const SceneCompareOptions& = {});
 inline bool structurally_equal(const scene::Scene& a, const scene::Scene& b, const plugin::Registry& registry) {

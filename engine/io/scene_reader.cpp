@@ -109,7 +109,7 @@ struct SceneReader::Calls {
                .height = 0,
                .channels = 0,
                .pixels = nullptr};
-        if (i->data) { // also where the file exists: an exporter may have to convert it
+        if (i->data) { // even if the file exists: an exporter may have to convert it
             out.width = i->data->width;
             out.height = i->data->height;
             out.channels = i->data->channels;
@@ -272,10 +272,10 @@ struct SceneReader::Calls {
         return true;
     }
 
-    // What the caller knows of it.
+    // The part the caller knows.
     template <class T>
     static int get(void* ctx, RestageHandle handle, T* out) {
-        return guarded<SceneReader>(ctx, "a thing of the scene", [&](SceneReader& r) {
+        return guarded<SceneReader>(ctx, "an item of the scene", [&](SceneReader& r) {
             T full{};
             if (!fill(r, handle, full)) return 0;
             plugin::give(out, full);

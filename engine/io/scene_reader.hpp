@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's side of restage.scene_reader: an exporter pulls, the Scene stays as it is. Pointers it hands out live as
+// The host's side of restage.scene_reader: an exporter pulls, the Scene is unchanged. Its pointers are valid as
 // long as this reader and the scene.
 #pragma once
 
@@ -21,7 +21,7 @@ std::vector<RestageValue> give_values(const scene::ParamSet& params);
 
 class SceneReader : public Exchange {
   public:
-    // `registry`: says which materials shine.
+    // `registry`: tells which materials emit.
     SceneReader(const scene::Scene&, const plugin::Registry& registry, Progress);
 
     const RestageSceneReader1& table() const { return table_; } // its ctx is this
@@ -34,7 +34,7 @@ class SceneReader : public Exchange {
 
     const scene::Scene& scene_;
     MaterialEmissions shine_;
-    std::map<std::uint32_t, glm::vec3> means_; // of textures that shine, by Id<Texture>::value
+    std::map<std::uint32_t, glm::vec3> means_; // of emissive textures, by Id<Texture>::value
     RestageSceneReader1 table_{};
     std::deque<std::vector<RestageValue>> values_; // handed out
     std::map<const scene::Origin*, std::pair<std::vector<RestageOriginValue>, RestageOrigin>> origins_; // handed out

@@ -63,7 +63,7 @@ const RestageParam* SceneWriter::Calls::material_table(void* ctx, const char* ty
     guarded(ctx, "material_table", [&](SceneWriter& w) -> RestageHandle {
         const auto entry = w.registry_.find_material(text(type));
         if (!entry) return 0;
-        auto& given = w.tables_[entry->table->type]; // the importer may look at it until it is done
+        auto& given = w.tables_[entry->table->type]; // the importer may use it until it is done
         if (!given) given = std::make_unique<plugin::GivenTable>(entry->table->params);
         if (count) *count = given->count();
         lines = given->lines();
@@ -78,7 +78,7 @@ const RestageParam* SceneWriter::Calls::texture_table(void* ctx, const char* typ
     guarded(ctx, "texture_table", [&](SceneWriter& w) -> RestageHandle {
         const auto entry = w.registry_.find_texture(text(type));
         if (!entry) return 0;
-        auto& given = w.tables_["texture " + entry->table->type]; // the importer may look at it until it is done
+        auto& given = w.tables_["texture " + entry->table->type]; // the importer may use it until it is done
         if (!given) {
             std::vector<model::Param> params = entry->table->params;
             if (entry->table->mapped)

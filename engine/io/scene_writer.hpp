@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's side of restage.scene_writer: an importer pushes, a Scene grows. Data is copied and checked as it comes;
-// what cannot be (an index out of range, a handle that was never given) is refused with a line in the report, so that
-// the scene is sound whatever the importer does. Image files are read at the end, all cores at once.
+// The host's side of restage.scene_writer: an importer pushes, a Scene grows. Data is copied and checked on arrival;
+// invalid data (an index out of range, an unknown handle) is refused with a line in the report, so that
+// the scene is valid whatever the importer does. Image files are read at the end, on all cores.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -32,7 +32,7 @@ class SceneWriter : public Exchange {
 
     void set_options(scene::ParamSet); // that the importer finds in its table; before load
 
-    // Names what has no name, gives a scene without camera one, decodes images, validates. Call once, after load.
+    // Names unnamed items, adds a camera if there is none, decodes images, validates. Call once, after load.
     Result<> finish(Jobs&, bool read_images);
 
     scene::Scene scene;
@@ -58,11 +58,11 @@ class SceneWriter : public Exchange {
   private:
     void add_camera();
 
-    std::map<std::string, std::unique_ptr<plugin::GivenTable>> tables_; // that the importer was given, by type
+    std::map<std::string, std::unique_ptr<plugin::GivenTable>> tables_; // handed to the importer, by type
     RestageSceneWriter1 table_{};
     scene::ParamSet options_;
     std::vector<RestageValue> given_options_; // point into options_
-    std::map<std::string, unsigned> numbers_;               // by kind and name: the last number given
+    std::map<std::string, unsigned> numbers_;               // by kind and name: the last number used
     std::map<std::tuple<std::string, std::uint32_t, float>, RestageHandle> image_files_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside SceneWriter: the C functions behind its table. They are thin: each turns a C struct into the engine's, checks
+// Private to SceneWriter: the C functions behind its table. They are thin: each converts a C struct, checks
 // it and pushes it.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is done once the importer has pushed all: pixels, a camera where there is none, and the last check.
+// After the importer has pushed everything: pixels, a camera if there is none, and the final check.
 #include "io/image_file.hpp"
 #include "io/material_tables.hpp"
 #include "io/scene_writer.hpp"
@@ -36,7 +36,7 @@ void SceneWriter::read_images(Jobs& jobs, Version newer_than) {
     });
     for (Job& job : work) {
         const std::string who = "image \"" + job.image.name + "\"";
-        // The importer may have named the place that asks for it.
+        // The importer may have named the place that refers to it.
         const bool told = std::ranges::any_of(report.entries, [&](const ReportEntry& entry) {
             return entry.fate == Fate::dropped && entry.note.ends_with(": " + job.image.path);
         });
@@ -48,7 +48,7 @@ void SceneWriter::read_images(Jobs& jobs, Version newer_than) {
     }
 }
 
-// In front of everything, looking along -z as most modellers do at first.
+// In front of everything, looking along -z, the default of most modellers.
 void SceneWriter::add_camera() {
     const Bounds bounds = world_bounds(scene);
     const double radius = bounds.empty() ? 1 : std::max(bounds.radius(), 1e-6);
@@ -61,7 +61,7 @@ void SceneWriter::add_camera() {
     const Id<Camera> id = scene.cameras.next();
     scene.cameras.set(id, std::move(camera), scene.clock);
     scene.active_camera = {id, scene.clock};
-    report.add(Fate::approximated, "camera", "the file has none; one in front of everything stands in for it");
+    report.add(Fate::approximated, "camera", "the file has none; one was added in front of everything");
 }
 
 Result<> SceneWriter::finish(Jobs& jobs, bool with_images) {

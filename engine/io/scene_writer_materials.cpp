@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What things look like: images, textures, materials with their values, media.
+// Appearance: images, textures, materials with their values, media.
 #include "io/scene_writer_calls.hpp"
 #include "plugin/abi.hpp"
 
@@ -22,7 +22,7 @@ ParamSet SceneWriter::params(const RestageValue* values, std::uint32_t count, co
             continue;
         }
         if (!finite(in.v[0], in.v[1], in.v[2], in.v[3])) {
-            drop("not a finite number; the default stands for it");
+            drop("not a finite number; the default is used");
             continue;
         }
         Value value{.type = *type, .text = text(in.text)};
@@ -61,7 +61,7 @@ RestageHandle SceneWriter::Calls::image(void* ctx, const RestageImage* given) {
         } else if (in.pixels) {
             if (in.width == 0 || in.height == 0 || in.width > 65536 || in.height > 65536 ||
                 (in.channels != 1 && in.channels != 3 && in.channels != 4)) {
-                w.refuse(who, "its size or its channels cannot be");
+                w.refuse(who, "its size or number of channels is invalid");
                 return 0;
             }
             auto data = std::make_shared<PixelData>();
@@ -110,7 +110,7 @@ RestageHandle SceneWriter::Calls::medium(void* ctx, const RestageMedium* given) 
     return guarded(ctx, "medium", [&](SceneWriter& w) -> RestageHandle {
         const RestageMedium in = plugin::sized(*given);
         if (!finite3(in.sigma_a) || !finite3(in.sigma_s) || !finite(in.g)) {
-            w.refuse("medium \"" + text(in.name) + "\"", "it holds a value that is not a finite number");
+            w.refuse("medium \"" + text(in.name) + "\"", "it has a non-finite value");
             return 0;
         }
         return w.push(Medium{.name = w.unique_name("medium", text(in.name)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in the scene: meshes, groups, and the instances that place them.
+// Objects: meshes, groups, and the instances that place them.
 #include "io/scene_writer_calls.hpp"
 #include "plugin/abi.hpp"
 #include "scene/bounds.hpp"
@@ -32,11 +32,11 @@ RestageHandle SceneWriter::Calls::mesh(void* ctx, const RestageMesh* given) {
             w.refuse(who, problem);
             return 0;
         }
-        const auto optional = [&](auto& to, const float* from) { // worth less than the mesh itself
+        const auto optional = [&](auto& to, const float* from) { // optional: the mesh is kept without it
             if (!from) return;
             copy(to, from);
             if (const std::string problem = check_mesh(*data); !problem.empty()) {
-                w.report.add(Fate::approximated, who, problem + "; done without");
+                w.report.add(Fate::approximated, who, problem + "; left out");
                 to.clear();
             }
         };

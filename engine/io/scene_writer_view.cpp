@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that are no objects, and what there is one of: environment, camera, film, settings.
+// Lights without geometry, and single items: environment, camera, film, settings.
 #include "io/scene_writer_calls.hpp"
 #include "plugin/abi.hpp"
 
@@ -16,7 +16,7 @@ std::optional<Light> SceneWriter::read(const RestageLight& given) {
         return std::nullopt;
     }
     if (!affine(to_world) || !finite3(in.value) || !finite(in.cone_angle, in.cone_delta)) {
-        refuse(who, "it holds a value that is not a finite number, or its transform is not affine");
+        refuse(who, "it has a non-finite value, or its transform is not affine");
         return std::nullopt;
     }
     return Light{.name = text(in.name),
@@ -76,8 +76,7 @@ std::optional<Camera> SceneWriter::read(const RestageCamera& given) {
     }
     if (!affine(to_world) || !finite(in.fov, sw[0], sw[1], sw[2], sw[3], in.lens_radius, in.focal_distance,
                                      in.frame_aspect, in.fit_aspect)) {
-        refuse("camera \"" + text(in.name) + "\"",
-               "it holds a value that is not a finite number, or its transform is not affine");
+        refuse("camera \"" + text(in.name) + "\"", "it has a non-finite value, or its transform is not affine");
         return std::nullopt;
     }
     Camera camera{.name = text(in.name),

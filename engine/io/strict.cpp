@@ -15,7 +15,7 @@ namespace {
 
 bool is_loss(const ReportEntry& entry) { return entry.fate != io::Fate::kept; }
 
-// "" = all was kept.
+// "" = everything was kept.
 std::string losses(const std::vector<ReportEntry>& entries) {
     constexpr std::size_t most = 20;
     std::string list;
@@ -27,8 +27,8 @@ std::string losses(const std::vector<ReportEntry>& entries) {
     return std::to_string(lost) + (lost == 1 ? " thing is not kept:" : " things are not kept:") + list;
 }
 
-// What `read` lacks of its file, and `written` does not have either: of what is only shown otherwise than it is, and is
-// in the written file whole, its own report says the same.
+// What `read` lost from its file, and `written` lacks too: if something is merely rendered differently but is
+// complete in the written file, the report of its import says the same.
 std::vector<ReportEntry> not_in(const Report& read, const std::string& written, const plugin::Registry& registry) {
     std::vector<ReportEntry> lost;
     std::copy_if(read.entries.begin(), read.entries.end(), std::back_inserter(lost), is_loss);
@@ -52,7 +52,7 @@ Result<Report> write_strictly(const scene::Scene& scene, const std::string& path
     const fs::path folder =
         fs::temp_directory_path(code) / ("restage-export-" + std::to_string(std::random_device{}()));
     if (code || !fs::create_directory(folder, code))
-        return fail("no temporary folder can be made: " + folder.string() + ": " + code.message());
+        return fail("cannot create a temporary folder: " + folder.string() + ": " + code.message());
     const std::string trial = (folder / fs::path(path).filename()).string();
     const auto tried = export_scene(scene, trial, registry, options);
     std::vector<ReportEntry> lost;

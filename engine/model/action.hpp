@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Action and Panel: what plugins declare that read a scene and return edits.
+// Action and Panel: declarations of plugins that read a scene and return edits.
 #pragma once
 
 #include "model/param.hpp"
@@ -11,7 +11,7 @@ namespace restage::model {
 
 struct Action {
     std::string id; // "scatter"; unique over all plugins
-    std::string label, tooltip; // as in a menu; the label also names the step of undo
+    std::string label, tooltip; // as in a menu; the label also names the undo step
     std::vector<Param> params;
     bool needs_selection = false; // at least one selected object
 

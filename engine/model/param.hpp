@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Param: one line of a parameter table, which gives the inspector widget, undo, project file, script access, export,
-// the GLSL struct and the fuzz range of a parameter. The engine's own; plugin/ reads it from what a plugin declares.
+// the GLSL struct and the fuzz range of a parameter. The engine's own type; plugin/ converts plugin declarations to it.
 #pragma once
 
 #include <array>
@@ -14,27 +14,27 @@
 namespace restage::model {
 
 enum class ParamType : std::uint8_t {
-    number,   // v[0]                                  GLSL float
-    color,    // v[0..2], linear sRGB primaries        GLSL vec3
-    integer,  // i                                     GLSL int
-    boolean,  // i, 0 or 1                             GLSL bool
-    choice,   // text, one of the line's choices       GLSL int, the index of the choice
-    text,     // text; not seen by shaders
+    number, // v[0]                                  GLSL float
+    color, // v[0..2], linear sRGB primaries        GLSL vec3
+    integer, // i                                     GLSL int
+    boolean, // i, 0 or 1                             GLSL bool
+    choice, // text, one of the line's choices       GLSL int, the index of the choice
+    text, // text; not seen by shaders
     material, // a material of the scene; not seen by shaders
-    texture,  // a texture: a slot with no constant; not seen by BSDFs
-    table     // text, the absolute path of a file     GLSL Table
+    texture, // a texture: a slot with no constant; not seen by BSDFs
+    table // text, the absolute path of a file     GLSL Table
 };
 
 struct Param {
     std::string id; // lower_snake, unique in its table, a GLSL identifier
     std::string label;
     ParamType type = ParamType::number;
-    bool texturable = false; // a texture may stand for the constant: number, color
-    bool advanced = false;   // folded away at first
-    float min = 0, max = 1;      // number, color: of each component; also the fuzz range
-    std::array<float, 4> def{};  // number, color
+    bool texturable = false; // a texture may replace the constant: number, color
+    bool advanced = false; // initially folded
+    float min = 0, max = 1; // number, color: of each component; also the fuzz range
+    std::array<float, 4> def{}; // number, color
     int int_min = 0, int_max = 0; // integer
-    int int_def = 0;              // integer; boolean: 0 or 1; choice: its index
+    int int_def = 0; // integer; boolean: 0 or 1; choice: its index
     std::string unit; // "", "deg", "m", "1/m"
     std::vector<std::string> choices;
     std::string file; // table: the default, in the plugin's folder (absolute in a MaterialSource); "" = none
@@ -53,7 +53,7 @@ struct Param {
 
 using ParamTable = std::span<const Param>;
 
-inline const Param* find_param(ParamTable table, std::string_view id) { // null = there is none
+inline const Param* find_param(ParamTable table, std::string_view id) { // null if there is none
     for (const Param& line : table)
         if (line.id == id) return &line;
     return nullptr;

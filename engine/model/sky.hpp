@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sky: what a sky plugin declares: parameters that become a picture of all directions.
+// Sky: what a sky plugin declares: parameters that define a picture of all directions.
 #pragma once
 
 #include "model/param.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture: what a texture plugin declares. Its code is GLSL, of which render/ composes a switch over the types present.
+// Texture: what a texture plugin declares. Its code is GLSL, from which render/ composes a switch over types present.
 #pragma once
 
 #include "model/param.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that grow at their end (restage/plugin.h): how the host reads what a plugin built with another SDK gives it,
-// and writes what such a plugin asked for. For the adapters in plugin/ and io/.
+// Structs that grow at their end (restage/plugin.h): how the host reads structs of plugins built with another SDK,
+// and fills structs for them. For the adapters in plugin/ and io/.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace restage::plugin {
 
-// Bytes of a struct up to and with a member: what every revision of it has.
+// Bytes of a struct up to and including a member: the part common to every revision.
 #define RESTAGE_SIZE_UP_TO(type, member) (offsetof(type, member) + sizeof(type::member))
 
 // "" or why a table is too short to be read at all.
@@ -22,7 +22,7 @@ inline std::string too_short(std::uint32_t size, std::size_t needed, const char*
            std::to_string(needed) + " are needed: rebuild it with this SDK";
 }
 
-// What a shorter one lacks keeps its default; what a longer one has beyond is not looked at.
+// Members missing from a shorter struct keep their defaults; the excess of a longer one is ignored.
 template <class T>
 T sized(const T& given) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -32,13 +32,13 @@ T sized(const T& given) {
     return out;
 }
 
-// Element i of an array from elsewhere.
+// Element i of an array built with another SDK.
 template <class T>
 T element(const T* array, std::size_t i) {
     return sized(*reinterpret_cast<const T*>(reinterpret_cast<const char*>(array) + i * array->size));
 }
 
-// Fills what the caller knows of: no more than out->size bytes, of which `size` stays. A caller that left it 0 gets
+// Fills what the caller knows: at most out->size bytes, keeping `size`. A caller that left it 0 gets
 // nothing.
 template <class T>
 void give(T* out, T value) {

@@ -13,7 +13,7 @@ std::string text(const char* c) { return c ? c : ""; }
 
 } // namespace
 
-// The two enumerations have one order.
+// Both enumerations have the same order.
 static_assert(static_cast<int>(model::ParamType::number) == 0 && RESTAGE_FLOAT == 1 &&
               static_cast<int>(model::ParamType::table) == RESTAGE_TABLE - RESTAGE_FLOAT);
 

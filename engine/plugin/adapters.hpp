@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a plugin declares to the engine's model, one function a revision of an interface: "restage.material/2" will
-// be one more here, and nothing else in the engine will notice. What the functions judge is what reading relies on
-// (sizes, strings that are there); what the tables must fulfil besides is tables.hpp's. Errors are sentences about the
+// From plugin declarations to the engine's model, one function per interface revision: "restage.material/2" will
+// be one more here, and nothing else in the engine will change. The functions check what reading relies on
+// (sizes, required strings); all other rules for tables are in tables.hpp. Errors are sentences about the
 // table, without the plugin's name. [main]
 #pragma once
 
@@ -32,7 +32,7 @@ struct MaterialAdapter {
     const char* interface_id;
     Result<model::Material> (*read)(const void* table);
 };
-// Every revision this program knows, the newest first.
+// Every revision this program knows, newest first.
 std::span<const MaterialAdapter> material_adapters();
 
 Result<model::Material> read_material1(const void* table);
@@ -44,7 +44,7 @@ struct DeclaredTexture {
 };
 Result<DeclaredTexture> read_texture1(const RestageTexture1&);
 
-// A table of the model as plugins see it. An empty table has a pointer, too: it is there.
+// A table of the model as plugins see it. An empty table has a non-null pointer, too.
 class GivenTable {
   public:
     explicit GivenTable(model::ParamTable);
@@ -53,12 +53,12 @@ class GivenTable {
     std::uint32_t count() const { return static_cast<std::uint32_t>(lines_.size() - 1); }
 
   private:
-    std::vector<model::Param> params_; // whose strings the lines point to
+    std::vector<model::Param> params_; // owns the strings that lines_ points to
     std::vector<std::string> choices_; // joined
-    std::vector<RestageParam> lines_; // and one more, which is no line
+    std::vector<RestageParam> lines_; // plus one dummy at the end
 };
 
-// Of a material of the same plugin.
+// For a material of the same plugin.
 struct DeclaredEmission {
     std::string material_type;
     model::Emission emission;
@@ -73,6 +73,6 @@ Result<model::Sky> read_sky1(const RestageSky1&);
 
 std::vector<std::string> split_words(std::string_view text); // at '|'
 std::uint32_t abi_type(model::ParamType); // RestageType
-std::optional<model::ParamType> model_type(std::uint32_t type); // nullopt: none that this program knows
+std::optional<model::ParamType> model_type(std::uint32_t type); // nullopt: unknown to this program
 
 } // namespace restage::plugin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Denoiser: a filter that a plugin brings (restage/denoiser.h), as the engine calls it.
+// Denoiser: a filter provided by a plugin (restage/denoiser.h), as called by the engine.
 #pragma once
 
 #include "base/result.hpp"
@@ -16,7 +16,7 @@ enum class DenoiseQuality { fast, balanced, high }; // high prefilters the guide
 
 struct DenoiseJob {
     std::uint32_t width = 0, height = 0;
-    const float* color = nullptr;  // RGB, linear, 3 a pixel, row 0 on top
+    const float* color = nullptr;  // RGB, linear, 3 per pixel, row 0 on top
     const float* albedo = nullptr; // RGB in [0,1], or null
     const float* normal = nullptr; // xyz in [-1,1], world space, or null
     float* output = nullptr;       // RGB; may be `color`
@@ -27,16 +27,16 @@ struct DenoiseJob {
 
 class Denoiser {
   public:
-    static Result<Denoiser> read(const RestageDenoiser1&); // [main] the table outlives it
+    static Result<Denoiser> read(const RestageDenoiser1&); // [main] the table must outlive it
 
     std::string type;  // "oidn"
     std::string label; // "Open Image Denoise 2.5"
 
-    Result<> available() const;              // [any] the error says why it cannot be used here
-    Result<> run(const DenoiseJob& job) const; // [worker] one job at a time; what was stopped is cancelled
+    Result<> available() const;              // [any] the error says why it is unavailable here
+    Result<> run(const DenoiseJob& job) const; // [worker] one job at a time; a stopped job returns `cancelled`
 
-    // What `available` and `run` say of a plugin that does not.
-    static constexpr const char* no_reason = "it does not say why";
+    // The reason when the plugin gives none.
+    static constexpr const char* no_reason = "it gives no reason";
 
   private:
     const RestageDenoiser1* table_ = nullptr;

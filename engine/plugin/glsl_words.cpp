@@ -26,14 +26,14 @@ constexpr std::string_view words[] = {
     "accelerationStructureNV", "nonuniformEXT", "devicecoherent", "queuefamilycoherent", "workgroupcoherent",
     "subgroupcoherent", "shadercallcoherent", "pervertexEXT", "pervertexNV", "nonprivate", "demote",
     "terminateInvocation",
-    // macros of the headers around a material and of the compiler, and the one method that everything has
+    // macros of the headers around a material and of the compiler, and the built-in method length
     "address", "length", "Material", "MATERIAL_SITE", "Spectrum", "VULKAN"};
 
 bool any_of(std::string_view name, std::initializer_list<std::string_view> list) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-bool take(std::string_view& name, std::initializer_list<std::string_view> prefixes) { // the first that fits
+bool take(std::string_view& name, std::initializer_list<std::string_view> prefixes) { // the first match
     for (const std::string_view p : prefixes)
         if (name.starts_with(p)) {
             name.remove_prefix(p.size());

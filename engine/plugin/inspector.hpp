@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inspector: a plugin's part of the inspector (restage/inspector.h), and Widgets, what it is drawn with: the editor
-// implements them with its own, `restage check` with ones that answer anything a user might do. [main]
+// Inspector: a plugin's part of the inspector (restage/inspector.h), and Widgets, which draw it: the editor
+// implements them with its own, `restage check` with ones that simulate any user input. [main]
 #pragma once
 
 #include "base/result.hpp"
@@ -16,17 +16,17 @@ struct RestageInspector1;
 
 namespace restage::plugin {
 
-// The value of a parameter on its way between a plugin and the host.
+// A parameter value passed between a plugin and the host.
 struct PluginValue {
     const char* id = nullptr;
-    std::optional<model::ParamType> type; // nullopt: of no type that this program knows
+    std::optional<model::ParamType> type; // nullopt: type unknown to this program
     std::uint32_t ref = 0;                // of a texture or material; 0 = none
     int i = 0;                            // integer, boolean
     std::array<float, 4> v{};             // number, color
     const char* text = nullptr;           // choice, text, table
 };
 
-// As RestageUi1 says. Pointers are the plugin's own and may be null.
+// See RestageUi1. Pointers are the plugin's own and may be null.
 class Widgets {
   public:
     virtual void param(const char* id) = 0;
@@ -52,7 +52,7 @@ class Widgets {
 
 class Inspector {
   public:
-    static Result<Inspector> read(const RestageInspector1&); // the table outlives it
+    static Result<Inspector> read(const RestageInspector1&); // the table must outlive it
 
     std::string material_type;
 

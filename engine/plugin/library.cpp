@@ -39,7 +39,7 @@ Library& Library::operator=(Library&& other) noexcept {
 const char* Library::extension() { return ".dll"; }
 
 Result<Library> Library::open(const std::filesystem::path& path) {
-    // The library's own folder is searched for what it depends on; the current folder is not.
+    // The library's own folder is searched for dependencies; the current folder is not.
     if (HMODULE handle =
             LoadLibraryExW(path.c_str(), nullptr, LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR | LOAD_LIBRARY_SEARCH_DEFAULT_DIRS))
         return Library(handle);
@@ -88,8 +88,8 @@ bool write_all(int file, std::string_view bytes) {
 
 namespace {
 
-// dlopen maps segments without asking whether the file is long enough for them: a truncated library would end this
-// program with SIGBUS, and one for another processor is reported as "no such file". So the ELF header is read first.
+// dlopen maps segments without checking whether the file is long enough: a truncated library would kill this
+// program with SIGBUS, and one for another processor is reported as "no such file". So the ELF header is checked first.
 Result<> check_elf(const std::filesystem::path& path) {
     RESTAGE_TRY(const std::string bytes, read_file(path));
     Elf64_Ehdr header, ours;
@@ -98,13 +98,13 @@ Result<> check_elf(const std::filesystem::path& path) {
         return fail("/proc/self/exe: cannot be read");
     const auto broken = [&](const std::string& what) -> Result<> { return fail(path.string() + ": " + what); };
     if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
-        return broken("is no shared library (no ELF file)");
+        return broken("is not a shared library (not an ELF file)");
     if (bytes.size() < sizeof header) return broken("is truncated");
     std::memcpy(&header, bytes.data(), sizeof header);
     if (std::memcmp(header.e_ident, ours.e_ident, EI_VERSION) != 0 || header.e_machine != ours.e_machine)
         return broken("was built for another processor");
     if (header.e_ident[EI_CLASS] != ELFCLASS64) return {};
-    // The section headers are the end of a file that is whole.
+    // Section headers come last in a complete file.
     const std::uint64_t sections = std::uint64_t{header.e_shnum} * header.e_shentsize;
     if (header.e_shoff > bytes.size() || sections > bytes.size() - header.e_shoff) return broken("is truncated");
     for (std::size_t i = 0; i < header.e_phnum; ++i) {
@@ -118,8 +118,8 @@ Result<> check_elf(const std::filesystem::path& path) {
     return {};
 }
 
-// A path of an open file that nobody has had before: dlopen() gives the library that is open already for a name it
-// knows, and the number of a descriptor comes again. A counter is spelled in "/." and "//", which mean nothing to a
+// A never-used path to an open file: dlopen() returns the already open library for a name it
+// knows, and descriptor numbers are recycled. A counter is spelled in "/." and "//", which are no-ops in a
 // path.
 std::string new_name_of(int file) {
     static std::atomic<std::uint32_t> counter{0};
@@ -139,7 +139,7 @@ Result<Library> Library::open(const std::filesystem::path& path) {
     RESTAGE_CHECK(check_elf(path));
 #endif
     if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
-    const char* why = dlerror(); // begins with the path where it is about this file
+    const char* why = dlerror(); // begins with the path if it concerns this file
     const std::string text = why ? why : "unknown reason";
     return fail(text.starts_with(path.string()) ? text : path.string() + ": " + text);
 }
@@ -155,17 +155,17 @@ Result<Library> Library::open_copy(const std::filesystem::path& path) {
         void* handle = nullptr;
         if (const Descriptor file(::mkostemp(copy.data(), O_CLOEXEC)); file.file >= 0) {
             if (write_all(file.file, bytes)) handle = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL);
-            std::filesystem::remove(copy, code); // what is mapped stays
+            std::filesystem::remove(copy, code); // the mapping stays
         }
         if (handle) return Library(handle);
     }
 #if defined(__linux__)
-    // That folder is missing, full, not ours, or forbids execution (noexec). Memory does not.
+    // The temporary folder is missing, full, not writable, or mounted noexec. Use memory.
     if (const Descriptor memory(static_cast<int>(::syscall(SYS_memfd_create, "restage-plugin-copy", MFD_CLOEXEC)));
         memory.file >= 0 && write_all(memory.file, bytes))
         if (void* handle = dlopen(new_name_of(memory.file).c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
 #endif
-    // Itself: then it cannot be replaced while it is in use, which is all. If the library is at fault, this says how.
+    // The file itself: it merely cannot be replaced while in use. If the library is at fault, the error says how.
     return open(path);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One loaded shared library, closed with its owner. The only place that knows dlopen and LoadLibrary.
+// One loaded shared library, closed with its owner. The only user of dlopen and LoadLibrary.
 #pragma once
 
 #include "base/result.hpp"
@@ -10,9 +10,9 @@ namespace restage::plugin {
 
 class Library {
   public:
-    // All symbols are resolved at once and stay invisible to other libraries, so a plugin that does not fit fails here.
+    // Symbols are resolved immediately and stay invisible to other libraries, so a mismatched plugin fails here.
     static Result<Library> open(const std::filesystem::path&);
-    // The same of a private copy, so that the file may be replaced, or opened anew, while this one is in use.
+    // Likewise from a private copy, so that the file may be replaced, or opened again, while this one is in use.
     static Result<Library> open_copy(const std::filesystem::path&);
     static const char* extension(); // ".so", ".dll"
 
@@ -20,7 +20,7 @@ class Library {
     Library& operator=(Library&&) noexcept;
     ~Library();
 
-    void* symbol(const char* name) const; // null = not exported
+    void* symbol(const char* name) const; // null if not exported
 
   private:
     explicit Library(void* handle) : handle_(handle) {}

@@ -82,19 +82,19 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
         if (!fs::exists(folder / "CMakeLists.txt", code))
             return fail(library.string() +
                         ": the library is missing: the plugin is not built, or not all of it was copied");
-        // Sources: what restage_add_plugin() makes of them lies elsewhere.
+        // Sources: restage_add_plugin() builds elsewhere.
         return fail(
             library.string() +
             ": the library is missing: this folder holds the plugin's sources. Build it there, "
             "'cmake -B build -DCMAKE_PREFIX_PATH=<where Restage is installed> && cmake --build build', and use " +
             (folder / "build/lib/restage/plugins").string());
     }
-    // A library may be rebuilt while it is in use; what is open is then a copy of the one before. Denoisers find files
-    // beside theirs, and are opened where they are.
+    // A library may be rebuilt while in use, so a private copy is opened. Denoisers find files
+    // beside theirs, and are opened in place.
     RESTAGE_TRY(library_,
                 manifest.provides_any("restage.denoiser") ? Library::open(library) : Library::open_copy(library));
     const auto* table = static_cast<const RestagePlugin*>(library_->symbol(RESTAGE_PLUGIN_SYMBOL));
-    if (!table) return fail(library.string() + ": exports no symbol \"" RESTAGE_PLUGIN_SYMBOL "\": this is no plugin");
+    if (!table) return fail(library.string() + ": exports no symbol \"" RESTAGE_PLUGIN_SYMBOL "\": not a plugin");
     if (table->abi != RESTAGE_ABI)
         return fail(library.string() + ": was built for plugin interface " + std::to_string(table->abi) +
                     ", this program has " + std::to_string(RESTAGE_ABI) + " (its manifest says otherwise)");
@@ -123,7 +123,7 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
                                 std::span<const MaterialAdapter> adapters, Log& log) {
     const std::string who = (folder / (table_ ? manifest.library : fs::path("plugin.json"))).string();
     std::vector<model::Material> declared;
-    std::size_t native = 0; // of them, from the library; they come first
+    std::size_t native = 0; // number from the library; they come first
     const auto listed = [&](const char* id) {
         return std::find(manifest.provides.begin(), manifest.provides.end(), id) != manifest.provides.end();
     };
@@ -136,7 +136,7 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
         for (const void* table : tables) {
             auto material = adapter.read(table);
             if (!material) return fail(who + ": " + material.error().message);
-            // A type that a newer revision has described already.
+            // A type already described by a newer revision.
             if (std::ranges::any_of(declared, [&](const auto& m) { return m.type == material->type; })) {
                 if (adapter.interface_id == adapters[0].interface_id)
                     return fail(who + ": provides \"" + material->type + "\" twice");
@@ -167,7 +167,7 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
         const model::Material* its = of_ours((*reader)->material_type());
         if (!its || !has_table(*its))
             return fail(who + ": reads tables for \"" + (*reader)->material_type() +
-                        "\", which is no material of it with a parameter of that type");
+                        "\", which is not one of its materials with a parameter of that type");
         table_readers.push_back(std::move(*reader));
     }
     RESTAGE_TRY(const auto uis, tables_of(RESTAGE_INSPECTOR1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to plugin/: one opening of one plugin, from its manifest to tables that have been judged. Closing it shuts
+// Private to plugin/: one opening of one plugin, from its manifest to validated tables. Closing it shuts
 // the plugin down and unloads its library. [main]
 #pragma once
 
@@ -35,7 +35,7 @@ struct Host { // one per opening, so that its log lines carry the plugin's name
 
 class Loaded {
   public:
-    // Judges, in this order: what it needs, files there, library opens, entry symbol, entry abi and size, id and
+    // Checks, in this order: its needs, files exist, library opens, entry symbol, entry abi and size, id and
     // version as promised, init, tables. The error is the sentence that refuses the plugin.
     static Result<std::unique_ptr<Loaded>> open(const std::filesystem::path& folder, const Manifest& manifest,
                                                 const RegistryOptions& host, Log& log);
@@ -88,7 +88,7 @@ class Loaded {
     bool running_ = false; // init succeeded: shutdown is due
 };
 
-// "conductor", "pbrt", "oidn": what a table is found by.
+// "conductor", "pbrt", "oidn": the lookup key of a table.
 inline std::string_view key(const model::Material& t) { return t.type; }
 inline std::string_view key(const model::Texture& t) { return t.type; }
 inline std::string_view key(const model::Importer& t) { return t.format; }

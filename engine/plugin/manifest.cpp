@@ -26,7 +26,7 @@ constexpr std::size_t longest_manifest = 1 << 20;
 constexpr std::string_view known_keys[] = {"id",      "version", "licence",   "provides", "needs",
                                            "library", "files",   "materials", "textures", "exceptions"};
 
-// Where a key of the outermost object stands: the byte of its opening quote. `text` is an object, and JSON.
+// The offset of a key of the outermost object: the byte of its opening quote. `text` is a JSON object.
 std::size_t place_of_key(const std::string& text, const std::string& key) {
     int depth = 0;
     bool is_key = false; // the next string at depth 1
@@ -61,7 +61,7 @@ Result<std::string> text_of(const json& object, const char* key, const std::stri
     const auto it = object.find(key);
     if (it == object.end()) return fail(file + ": \"" + key + "\" is missing");
     if (!it->is_string() || it->get_ref<const std::string&>().empty())
-        return fail(file + ": \"" + key + "\" must be a text that is not empty");
+        return fail(file + ": \"" + key + "\" must be a non-empty string");
     return it->get<std::string>();
 }
 
@@ -79,7 +79,7 @@ bool is_reverse_dns(const std::string& id) { // org.example.velvet
     return dot && !start;
 }
 
-// A path that cannot leave the plugin's folder.
+// A path confined to the plugin's folder.
 Result<fs::path> inner_path(const std::string& text, const char* key, const std::string& file) {
     const fs::path path = fs::path(text).lexically_normal();
     if (path.empty() || path.is_absolute() || path.has_root_name() || *path.begin() == ".." || path == ".")
@@ -90,7 +90,7 @@ Result<fs::path> inner_path(const std::string& text, const char* key, const std:
 Result<std::vector<std::string>> list_of_texts(const json& value, const std::string& what) {
     const auto is_text = [](const json& v) { return v.is_string() && !v.get_ref<const std::string&>().empty(); };
     if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_text))
-        return fail(what + " must be a list of texts");
+        return fail(what + " must be a list of strings");
     return value.get<std::vector<std::string>>();
 }
 
@@ -105,11 +105,11 @@ Result<std::vector<std::string>> interfaces_of(const json& value, const std::str
     RESTAGE_TRY(auto list, list_of_texts(value, what));
     for (const std::string& id : list)
         if (!is_interface(id))
-            return fail(what + ": \"" + id + "\" names no interface; they look like \"restage.material/1\"");
+            return fail(what + ": \"" + id + "\" is not an interface; they look like \"restage.material/1\"");
     return list;
 }
 
-// Parts of "0.2.1", missing ones 0; nullopt = it is no version.
+// Parts of "0.2.1", missing ones 0; nullopt = not a version.
 std::optional<std::array<int, 3>> version_of(std::string_view text) {
     std::array<int, 3> out{};
     for (int& part : out) {
@@ -123,7 +123,7 @@ std::optional<std::array<int, 3>> version_of(std::string_view text) {
     return std::nullopt;
 }
 
-// The conditions of ">=0.2 <0.4": {"at least?", version}. nullopt = it is not written so.
+// The conditions of ">=0.2 <0.4": {"at least?", version}. nullopt = malformed.
 std::optional<std::vector<std::pair<bool, std::array<int, 3>>>> conditions_of(std::string_view text) {
     std::vector<std::pair<bool, std::array<int, 3>>> out;
     while (!text.empty()) {
@@ -149,7 +149,7 @@ Result<> read_needs(const json& object, const std::string& file, Manifest& out) 
         RESTAGE_TRY(out.needs_host, text_of(*needs, "host", what));
         if (!conditions_of(out.needs_host))
             return fail(what + ": \"host\": \"" + out.needs_host +
-                        "\" is no range of versions, such as \">=0.2\" or \">=0.2 <0.4\"");
+                        "\" is not a version range, such as \">=0.2\" or \">=0.2 <0.4\"");
     }
     if (const auto list = needs->find("interfaces"); list != needs->end()) {
         RESTAGE_TRY(out.needs_interfaces, interfaces_of(*list, what + ": \"interfaces\""));
@@ -157,7 +157,7 @@ Result<> read_needs(const json& object, const std::string& file, Manifest& out) 
     return {};
 }
 
-// Read by `restage check`; whether its steps know exceptions is asked there.
+// Read by `restage check`, which verifies that its steps know the exceptions.
 Result<> check_exceptions(const json& object, const std::string& file) {
     const auto list = object.find("exceptions");
     if (list == object.end()) return {};
@@ -189,7 +189,7 @@ std::vector<std::string> Manifest::kinds() const {
     for (const std::string& provided : provides) {
         std::string name = provided.substr(0, provided.rfind('/'));
         if (name.starts_with("restage.")) name.erase(0, 8);
-        // What belongs to a material is no kind of its own.
+        // Interfaces of a material are not a kind of their own.
         if (name != "emission" && name != "table" && name != "inspector" &&
             std::find(out.begin(), out.end(), name) == out.end())
             out.push_back(std::move(name));
@@ -241,7 +241,7 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
     if (!object.is_object()) return fail(file + ": the manifest must be one JSON object { ... }");
     if (object.contains("kind") || object.contains("abi"))
         return fail(file +
-                    ": \"kind\" and \"abi\" are of plugins for Restage 0.1: write, for example, \"provides\": "
+                    ": \"kind\" and \"abi\" belong to Restage 0.1: write, for example, \"provides\": "
                     "[\"restage.material/1\"], \"needs\": {\"host\": \">=0.2\"}, and rebuild the library");
     RESTAGE_CHECK(check_keys(object, text, file));
     Manifest out;
@@ -254,12 +254,12 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
     if (provides == object.end())
         return fail(file + ": \"provides\" is missing: list the interfaces, for example [\"restage.material/1\"]");
     RESTAGE_TRY(out.provides, interfaces_of(*provides, file + ": \"provides\""));
-    if (out.provides.empty()) return fail(file + ": \"provides\" is empty: the plugin brings nothing");
+    if (out.provides.empty()) return fail(file + ": \"provides\" is empty: the plugin provides nothing");
     RESTAGE_CHECK(read_needs(object, file, out));
     RESTAGE_CHECK(check_exceptions(object, file));
     out.has_materials = object.contains("materials"); // material_json.cpp reads them
     if (out.has_materials && !out.provides_any("restage.material"))
-        return fail(file + ": has \"materials\", and \"provides\" does not list restage.material/1");
+        return fail(file + ": has \"materials\", but \"provides\" does not list restage.material/1");
     const bool has_textures = object.contains("textures"); // texture_json.cpp
     if (has_textures && !out.provides_any("restage.texture"))
         return fail(file + ": has \"textures\", and \"provides\" does not list restage.texture/1");
@@ -271,7 +271,7 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
     if (const auto files = object.find("files"); files != object.end()) {
         if (!files->is_array()) return fail(file + ": \"files\" must be a list of paths");
         for (const json& entry : *files) {
-            if (!entry.is_string()) return fail(file + ": \"files\" must hold paths only");
+            if (!entry.is_string()) return fail(file + ": \"files\" must contain paths only");
             RESTAGE_TRY(fs::path path, inner_path(entry.get<std::string>(), "files", file));
             out.files.push_back(std::move(path));
         }

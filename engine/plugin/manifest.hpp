@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manifest of a plugin, plugin.json, read before its library is opened, so that what does not fit is refused with a
-// sentence. A plugin is a bundle: it says what it provides and what it needs. For example:
+// The manifest of a plugin, plugin.json, read before its library is opened, so that an unfit plugin is refused with a
+// sentence. A plugin is a bundle: it states what it provides and needs. For example:
 //   { "id": "org.example.cloth", "version": "1.2.0", "licence": "MIT",
 //     "provides": ["restage.material/1", "restage.inspector/1", "restage.importer/1"],
 //     "needs": {"host": ">=0.2", "interfaces": ["restage.log/1"]},
 //     "library": "cloth", "files": ["velvet.glsl"] }
-// "host" is ">=A.B", or ">=A.B <C.D". What is in "provides" and unknown to this program is passed over; what is in
-// "needs" and missing refuses the plugin. "library" without an extension gets that of the platform. Paths are relative
-// to the manifest's folder and stay inside it. `restage check` reads "exceptions". Keys of somebody else's begin with
-// "x-", here and in all that is nested; others are refused, because they are typing errors. Materials without native
-// code stand in the manifest, beside a library or without one:
+// "host" is ">=A.B", or ">=A.B <C.D". Unknown interfaces in "provides" are ignored; missing ones in
+// "needs" refuse the plugin. "library" without an extension gets the platform's. Paths are relative
+// to the manifest's folder and stay inside it. `restage check` reads "exceptions". Third-party keys begin with
+// "x-", at every level; other unknown keys are refused as typing errors. Materials without native
+// code are written in the manifest, with or without a library:
 //   "materials": [{ "type": "velvet", "label": "Velvet", "prefix": "velvet", "glsl": "velvet.glsl", "tooltip":
 //   "Cloth.",
 //     "flags": ["lossless"],                       stochastic lossless transmissive nonreciprocal tangent additive
@@ -38,13 +38,13 @@ struct Manifest {
     std::vector<std::string> provides; // "restage.material/1", ...
     std::string needs_host; // ">=0.2"; "" = any
     std::vector<std::string> needs_interfaces;
-    std::filesystem::path library; // file name as it is on this platform; empty: no native code
-    std::vector<std::filesystem::path> files; // that the plugin needs beside its library
+    std::filesystem::path library; // file name on this platform; empty: no native code
+    std::vector<std::filesystem::path> files; // needed besides the library
     bool has_materials = false; // described in the manifest itself
 
-    // "restage.material" in any revision.
+    // "restage.material" of any revision.
     bool provides_any(std::string_view interface_name) const;
-    // What it is in lists: "material", "importer", ... in the order of "provides", each once.
+    // For lists: "material", "importer", ... in the order of "provides", each once.
     std::vector<std::string> kinds() const;
     std::string kind() const; // "material", "importer, exporter"
 };

@@ -11,7 +11,7 @@ namespace restage::plugin {
 
 namespace {
 
-// How many letters must be inserted, dropped or replaced (Levenshtein 1966).
+// Number of letters to insert, delete or replace (Levenshtein 1966).
 std::size_t typing_errors(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -43,8 +43,8 @@ std::string unknown_key_text(const std::string& key, Keys known) {
     }
     const bool alike = typing_errors(key, nearest) <= std::max<std::size_t>(1, nearest.size() / 3);
     return "the key \"" + key + "\" is unknown; " +
-           (alike ? "is \"" + std::string(nearest) + "\" meant?" : "known are " + all) +
-           " (keys of your own begin with \"x-\")";
+           (alike ? "did you mean \"" + std::string(nearest) + "\"?" : "known keys: " + all) +
+           " (custom keys begin with \"x-\")";
 }
 
 } // namespace restage::plugin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to plugin/: the keys of a manifest and of what is nested in it. A misspelt one is not passed over but named,
-// with the key that may have been meant. Who keeps notes of their own calls them "x-...".
+// Private to plugin/: the keys of a manifest and its nested objects. A misspelt key is not ignored but reported,
+// with the key probably meant. Custom keys are named "x-...".
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,10 +13,10 @@ namespace restage::plugin {
 
 using Keys = std::span<const std::string_view>;
 
-// The first key of the object that is neither known nor begins with "x-".
+// The object's first key that is unknown and does not begin with "x-".
 std::optional<std::string> unknown_key(const nlohmann::json& object, Keys known);
 
-// 'the key "file" is unknown; is "files" meant? (...)', or what is known where nothing is alike.
+// 'the key "file" is unknown; did you mean "files"? (...)', or the known keys if none is similar.
 std::string unknown_key_text(const std::string& key, Keys known);
 
 } // namespace restage::plugin

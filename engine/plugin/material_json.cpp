@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Material tables written as JSON: the same lines as RestageMaterial1 and RestageParam, by name. Whether they make
-// sense is asked by check_material, as for tables that come from a library.
+// Material tables written as JSON: the lines of RestageMaterial1 and RestageParam, by name. check_material validates
+// them, like tables from a library.
 #include "plugin/material_source.hpp"
 #include "plugin/param_json.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// MaterialSource: what the host keeps of one material: what it declares, and the text of its GLSL as it
-// was when the plugin was loaded. Nothing of the plugin's library and nothing of its folder is looked at while a scene
-// is rendered, so that both may be replaced meanwhile, and what is on the screen goes on with what it was made of.
-// Immutable once made; any thread.
+// MaterialSource: what the host keeps of one material: its declaration, and the text of its GLSL as it
+// was when the plugin was loaded. Neither the plugin's library nor its folder is accessed while a scene
+// is rendered, so both may be replaced meanwhile, and the picture on screen continues with the old version.
+// Immutable; any thread.
 #pragma once
 
 #include "base/result.hpp"
@@ -22,22 +22,22 @@ class TableReader;
 // Text of files, by their absolute, lexically normal path.
 using FileTexts = std::map<std::filesystem::path, std::string>;
 
-// Every *.glsl file of a plugin's folder, a few folders deep. Errors: unreadable, or more than 16 MiB in sum.
+// Every *.glsl file in a plugin's folder, a few folders deep. Errors: unreadable, or more than 16 MiB in total.
 Result<std::shared_ptr<const FileTexts>> read_glsl(const std::filesystem::path& folder);
 
 class MaterialSource {
   public:
-    // `material` must have passed check_material. Files of its tables are paths in the folder; here they are absolute.
+    // `material` must have passed check_material. Its tables' files are paths in the folder; here absolute.
     MaterialSource(model::Material material, std::filesystem::path folder, std::shared_ptr<const FileTexts> glsl,
                    std::shared_ptr<TableReader> table_reader = nullptr);
     MaterialSource(const MaterialSource&) = delete;
 
-    const model::Material& material() const { return material_; } // lives as long as this
+    const model::Material& material() const { return material_; } // valid as long as this
     const std::filesystem::path& folder() const { return folder_; }
     const std::shared_ptr<const FileTexts>& glsl() const { return glsl_; }
-    // Of its table parameters; null = it has none.
+    // For its table parameters; null if it has none.
     const std::shared_ptr<TableReader>& table_reader() const { return table_reader_; }
-    // Equal numbers: equal declarations and equal GLSL.
+    // Equal numbers mean equal declarations and equal GLSL.
     std::uint64_t revision() const { return revision_; }
 
   private:
@@ -48,8 +48,8 @@ class MaterialSource {
     std::uint64_t revision_ = 0;
 };
 
-// The materials a manifest describes itself, without native code: its "materials", see manifest.hpp. `text`: of the
-// manifest, which has been parsed before. Errors name the file and the place in it:
+// The materials a manifest describes itself, without native code: its "materials", see manifest.hpp. `text`: the
+// manifest's, already parsed once. Errors name the file and the place in it:
 // 'plugin.json: "materials"[0]."params"[2]: "min" must be a number'.
 Result<std::vector<model::Material>> parse_materials(const std::string& text, const std::string& file);
 

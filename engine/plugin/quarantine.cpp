@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A note: three lines, the stamp, what was being done, the signal.
+// A note has three lines: stamp, activity, signal.
 #include "plugin/quarantine.hpp"
 
 #include "base/file.hpp"
@@ -33,7 +33,7 @@ std::optional<std::string> Quarantine::reason(const std::string& id, std::uint64
     std::istringstream note(read_file(file).value_or(""));
     std::string then, doing, signal;
     std::getline(note, then), std::getline(note, doing), std::getline(note, signal);
-    if (then != std::to_string(stamp)) { // another build: it gets another chance
+    if (then != std::to_string(stamp)) { // another build gets another chance
         fs::remove(file, code);
         return {};
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quarantine: plugins that crashed the program, remembered until they change or somebody lets them out. A note is a
-// file in a folder, written by the crash itself (base/crash_note.hpp). Our own plugins are never in it.
+// Quarantine: plugins that crashed the program, remembered until they change or are released. A note is a
+// file in a folder, written by the crash handler (base/crash_note.hpp). Our own plugins are exempt.
 #pragma once
 
 #include "base/result.hpp"
@@ -16,14 +16,14 @@ class Quarantine {
   public:
     explicit Quarantine(std::filesystem::path folder) : folder_(std::move(folder)) {} // empty: nothing is remembered
 
-    // The file a crash must write to put the plugin in; its folder is made. "" = nothing is remembered.
+    // The file a crash must write to quarantine the plugin; its folder is created. "" = nothing is remembered.
     std::string note_of(const std::string& id) const;
-    // What the file must hold: what the plugin was doing, and the stamp of its files.
+    // The file's content: what the plugin was doing, and the stamp of its files.
     static std::string note(const std::string& doing, std::uint64_t stamp);
-    // Why it is kept out: "it crashed (SIGSEGV) while it was being loaded". Nothing when it was never in, or when its
-    // files have another stamp now: then it is let out.
+    // Why it is quarantined: "it crashed (SIGSEGV) while it was being loaded". nullopt if it is not, or if its
+    // files have another stamp now: then it is released.
     std::optional<std::string> reason(const std::string& id, std::uint64_t stamp) const;
-    Result<bool> release(const std::string& id) const; // true: it was in
+    Result<bool> release(const std::string& id) const; // true if it was quarantined
 
   private:
     std::filesystem::path folder_;

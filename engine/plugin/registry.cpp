@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding plugins, and keeping the lists of what they provide. What a plugin must fulfil is asked in loaded.cpp.
+// Finding plugins, and keeping the lists of what they provide. loaded.cpp validates plugins.
 #include "plugin/registry.hpp"
 
 #include "base/file.hpp"
@@ -30,7 +30,7 @@ bool has_manifest(const fs::path& folder) {
     return fs::is_regular_file(folder / "plugin.json", code);
 }
 
-// Folders with a manifest, in order of their paths; a plugin's own folders are not searched.
+// Folders with a manifest, sorted by path; a plugin's own subfolders are not searched.
 void find_folders(const fs::path& folder, int depth, std::vector<fs::path>& out) {
     if (has_manifest(folder)) {
         out.push_back(folder);
@@ -48,7 +48,7 @@ void find_folders(const fs::path& folder, int depth, std::vector<fs::path>& out)
         find_folders(f, depth - 1, out);
 }
 
-// Time and size of everything in a plugin's folder: another number means that something was written.
+// Hash of time and size of everything in a plugin's folder: a different number means a change.
 std::uint64_t stamp_of(const fs::path& folder) {
     std::set<std::string> lines;
     std::error_code code;
@@ -150,13 +150,13 @@ void Registry::add(const fs::path& folder, bool own) {
     plugins_.push_back(std::move(plugin));
 }
 
-// Takes the plugin as its files are now, or leaves everything as it was.
+// Loads the plugin from its current files, or leaves everything unchanged.
 Result<> Registry::load(Plugin& plugin, bool judged) {
     Entry& entry = plugin.entry;
     entry.stamp = stamp_of(entry.folder);
     RESTAGE_TRY(const Manifest manifest, read_manifest(entry.folder / "plugin.json"));
     const std::string file = (entry.folder / "plugin.json").string();
-    if (!plugin.loaded) entry.manifest = manifest; // so that a refusal has a name
+    if (!plugin.loaded) entry.manifest = manifest; // so that a refused plugin has a name
     for (const auto& other : plugins_)
         if (other.get() != &plugin && other->loaded && other->entry.manifest.id == manifest.id)
             return fail(file + ": a plugin with this id is already loaded from " + other->entry.folder.string() +
@@ -187,7 +187,7 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
         for (const auto& source : loaded->textures)
             RESTAGE_CHECK(texture_judge_({&source->texture(), std::make_shared<const Entry>(entry),
                                           entry.blame("while its GLSL was being compiled"), source}));
-    if (plugin.loaded) replaced_.push_back(std::move(plugin.loaded)); // who renders with its tables has copies of them
+    if (plugin.loaded) replaced_.push_back(std::move(plugin.loaded)); // renderers have copies of its tables
     plugin.loaded = std::move(loaded);
     entry.manifest = manifest;
     entry.state = State::loaded;
@@ -196,7 +196,7 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
     return {};
 }
 
-// What a plugin provides must not be provided by another one.
+// No two plugins may provide the same thing.
 Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
     const std::string who = (plugin.entry.folder / plugin.entry.manifest.library).string();
     const auto taken = [&](std::string_view what, const Plugin& by) {
@@ -295,7 +295,7 @@ void Registry::publish() {
     close_replaced();
 }
 
-// Shutting down is for the main thread (restage/plugin.h), so what another thread still uses waits for the next time.
+// Only the main thread may shut down (restage/plugin.h), so plugins still used by another thread wait until next time.
 void Registry::close_replaced() {
     std::erase_if(replaced_, [](const std::shared_ptr<Loaded>& l) { return l.use_count() == 1; });
 }
@@ -309,11 +309,11 @@ std::vector<Reload> Registry::reload_changed() {
         if (stamp_of(entry.folder) == entry.stamp) continue;
         const auto done = load(*plugin, true);
         if (done) {
-            log_.info("plugin " + entry.name() + ": its newest version is in use");
+            log_.info("plugin " + entry.name() + ": reloaded");
         } else {
             (plugin->loaded ? entry.trouble : entry.reason) = done.error().message;
             log_.error("plugin " + entry.name() + ": " + done.error().message +
-                       (plugin->loaded ? " (the version before goes on)" : ""));
+                       (plugin->loaded ? " (the previous version stays in use)" : ""));
         }
         news.push_back({&entry, done ? "" : done.error().message});
     }

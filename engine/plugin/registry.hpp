@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registry: finds plugins, judges them, loads what fits, and finds their tables by id. What does not fit stays in the
-// list with the reason; nothing that is foreign, too new, broken or missing stops the program. Materials may be
-// replaced while they are in use (reload_changed).
+// Registry: finds plugins, validates and loads them, and finds their tables by id. Refused plugins stay
+// listed with the reason; nothing foreign, too new, broken or missing stops the program. Materials may be
+// replaced while in use (reload_changed).
 #pragma once
 
 #include "base/crash_note.hpp"
@@ -43,25 +43,25 @@ enum class State { loaded, refused };
 
 struct Entry {
     std::filesystem::path folder;
-    Manifest manifest; // empty where the manifest itself could not be read
+    Manifest manifest; // empty if the manifest could not be read
     State state = State::refused;
     std::string reason; // why it was refused: one sentence, with the file
     bool own = false; // came with the program
     bool quarantined = false; // refused because it crashed
-    std::string crash_file; // where a crash of it is noted; "" = nowhere
-    std::uint64_t stamp = 0; // of its files when they were last looked at
-    std::string trouble; // why its newest version is not in use, while the one before is; "" = it is
-    // Its name in lists: the id, or the folder when there is no id.
+    std::string crash_file; // where its crash is recorded; "" = nowhere
+    std::uint64_t stamp = 0; // of its files when last checked
+    std::string trouble; // why the previous version is still in use; "" = the newest is
+    // Its name in lists: the id, or the folder if there is no id.
     std::string name() const { return manifest.id.empty() ? folder.string() : manifest.id; }
-    // What a crash in its code is to leave behind. `doing`: "while it read a file".
+    // What a crash in its code will record. `doing`: "while it read a file".
     Blame blame(const std::string& doing) const;
 };
 
 template <class Declared>
-struct Provided { // what was declared, and who provides it
+struct Provided { // a declaration, and its provider
     const Declared* table = nullptr;
-    std::shared_ptr<const Entry> plugin; // as it was when this was listed; its files are in plugin->folder
-    std::shared_ptr<const void> library; // stays open while somebody holds this
+    std::shared_ptr<const Entry> plugin; // snapshot from when this was listed; its files are in plugin->folder
+    std::shared_ptr<const void> library; // stays open while this is held
 };
 using DenoiserEntry = Provided<Denoiser>;
 using InspectorEntry = Provided<Inspector>;
@@ -83,20 +83,20 @@ struct PanelEntry : Provided<model::Panel> {
 };
 
 struct TextureEntry {
-    const model::Texture* table = nullptr; // source's
-    std::shared_ptr<const Entry> plugin;   // as it was when this was listed
+    const model::Texture* table = nullptr; // owned by source
+    std::shared_ptr<const Entry> plugin;   // snapshot from when this was listed
     Blame blame; // for compiling its GLSL
-    std::shared_ptr<const TextureSource> source; // keeps the table alive, also after the plugin was reloaded
+    std::shared_ptr<const TextureSource> source; // keeps the table alive, even after a reload
 };
 
 struct MaterialEntry {
-    const model::Material* table = nullptr;  // source's
-    std::shared_ptr<const Entry> plugin;     // as it was when this was listed
+    const model::Material* table = nullptr;  // owned by source
+    std::shared_ptr<const Entry> plugin;     // snapshot from when this was listed
     Blame blame; // for compiling its GLSL
-    std::shared_ptr<const MaterialSource> source; // keeps the table alive, also after the plugin was reloaded
+    std::shared_ptr<const MaterialSource> source; // keeps the table alive, even after a reload
 };
 
-// All that was provided at one moment, by type or format in order of the alphabet. Never changes.
+// Everything provided at one moment, sorted by type or format. Immutable.
 struct Catalogue {
     std::vector<MaterialEntry> materials;
     std::vector<ImporterEntry> importers;
@@ -110,8 +110,8 @@ struct Catalogue {
 };
 
 struct SearchPath {
-    std::filesystem::path folder; // plugins are in it or up to three folders below
-    bool required = false;        // warn when it does not exist
+    std::filesystem::path folder; // plugins are in it, up to three levels deep
+    bool required = false;        // warn if it does not exist
     bool own = false;             // the program's own plugins
 };
 
@@ -128,10 +128,10 @@ struct RegistryOptions {
     std::span<const HostService> services = {}; // io/services.hpp has them
 };
 
-// What became of a plugin whose files changed.
+// The outcome for a plugin whose files changed.
 struct Reload {
     const Entry* plugin = nullptr;
-    std::string error; // "" = the new version is in use; else why not: the one before stays, where there was one
+    std::string error; // "" = the new version is in use; else why not: the previous one, if any, stays
 };
 
 class Loaded;
@@ -139,22 +139,22 @@ class Loaded;
 class Registry {
   public:
     explicit Registry(Log&, RegistryOptions = {});
-    ~Registry(); // shuts the plugins down and unloads them, the last loaded first
+    ~Registry(); // shuts the plugins down and unloads them, last loaded first
     Registry(const Registry&) = delete;
     Registry& operator=(const Registry&) = delete;
 
-    // The user's folder, then RESTAGE_PLUGIN_PATH, then <prefix>/lib/restage/plugins. Of one id the first wins.
+    // The user's folder, then RESTAGE_PLUGIN_PATH, then <prefix>/lib/restage/plugins. For equal ids the first wins.
     // `prefix`: where Restage is installed; empty = the folder above the program's.
     static std::vector<SearchPath> default_paths(std::filesystem::path prefix = {});
-    // The user's folder for notes about crashes; empty where the user has none.
+    // The user's folder for crash notes; empty if the user has none.
     static std::filesystem::path default_quarantine();
     void scan(std::span<const SearchPath>); // [main] may be called again: adds what is new
 
-    // [main] Reloads the plugins whose files have changed since: manifest, library or GLSL. A version that does
-    // not fit, or that `judge` refuses, is not taken, and the one before goes on; values of parameters live in the
-    // scene and stay. Cheap when nothing has changed (a few stat() a plugin). Denoisers need a new start.
+    // [main] Reloads plugins whose files have changed: manifest, library or GLSL. A version that does
+    // not fit, or that `judge` refuses, is rejected, and the previous one stays; parameter values live in the
+    // scene and stay. Cheap if nothing has changed (a few stat() per plugin). Denoisers need a restart.
     std::vector<Reload> reload_changed();
-    Result<> reload(const Entry& plugin); // this one, changed or not
+    Result<> reload(const Entry& plugin); // changed or not
     // Asked before a material or texture is taken by reload_changed: does its GLSL compile? See
     // render/material_composer.hpp and texture_composer.hpp.
     using Judge = std::function<Result<>(const MaterialEntry&)>;
@@ -168,13 +168,13 @@ class Registry {
 
     const Quarantine& quarantine() const { return quarantine_; }
 
-    // [main] Everything that was found, in the order of finding; pointers stay valid, what they point to changes.
+    // [main] Everything found, in order of discovery; pointers stay valid, entries change.
     std::vector<const Entry*> entries() const;
 
-    // [any] The newest catalogue. scan() and the reloads publish another one, whole, in one step; who holds this one,
-    // or an entry of it, goes on with the plugins as they were, and their libraries stay open that long.
+    // [any] The newest catalogue. scan() and reloads publish a new one atomically; holders of this one,
+    // or of an entry, continue with the plugins as they were, and their libraries stay open that long.
     std::shared_ptr<const Catalogue> catalogue() const;
-    // [any] Of the newest catalogue. nullopt = no plugin provides it.
+    // [any] From the newest catalogue. nullopt = no plugin provides it.
     std::optional<MaterialEntry> find_material(std::string_view type) const;
     std::optional<TextureEntry> find_texture(std::string_view type) const;
     std::optional<ImporterEntry> find_importer(std::string_view format) const;
@@ -194,7 +194,7 @@ class Registry {
     void add(const std::filesystem::path& folder, bool own);
     Result<> load(Plugin&, bool judged);
     Result<> unique(const Plugin&, const Loaded&) const;
-    void publish(); // a catalogue of what is loaded now
+    void publish(); // a catalogue of all loaded plugins
     void close_replaced();
 
     Log& log_;
@@ -204,8 +204,8 @@ class Registry {
     TextureJudge texture_judge_;
     std::vector<std::unique_ptr<Plugin>> plugins_;
     std::atomic<std::uint64_t> version_{0};
-    std::vector<std::shared_ptr<Loaded>> replaced_; // closed on the main thread, when nobody uses them any more
-    mutable std::mutex catalogue_mutex_; // of the pointer; nobody waits for more than its copy
+    std::vector<std::shared_ptr<Loaded>> replaced_; // closed on the main thread, once unused
+    mutable std::mutex catalogue_mutex_; // guards the pointer; held only to copy it
     std::shared_ptr<const Catalogue> catalogue_;
 };
 

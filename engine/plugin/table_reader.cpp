@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's side of restage.table/1: the file is open only while it is read, and nothing a reader does can leave the
-// words half made.
+// The host's side of restage.table/1: the file is open only while being read, and no reader can leave the
+// words incomplete.
 #include "plugin/table_reader.hpp"
 
 #include "base/file.hpp"
@@ -43,7 +43,7 @@ Reading& of(void* ctx) { return *static_cast<Reading*>(ctx); }
 int bytes(void* ctx, std::uint64_t offset, std::uint64_t count, void* out) {
     Reading& r = of(ctx);
     if (offset > r.length || count > r.length - offset) {
-        r.refuse(0, "its " + std::to_string(r.length) + " bytes end before what should be in it");
+        r.refuse(0, "its " + std::to_string(r.length) + " bytes end before the expected data");
         return 0;
     }
     if (offset != r.at && std::fseek(r.file.get(), static_cast<long>(offset), SEEK_SET) != 0) {
@@ -52,7 +52,7 @@ int bytes(void* ctx, std::uint64_t offset, std::uint64_t count, void* out) {
     }
     const bool all = std::fread(out, 1, count, r.file.get()) == count;
     r.at = offset + count;
-    if (!all) r.refuse(0, "it cannot be read, or was changed meanwhile");
+    if (!all) r.refuse(0, "it cannot be read, or changed meanwhile");
     return all;
 }
 
@@ -77,10 +77,10 @@ void note(void* ctx, const char* line) {
 }
 
 void error(void* ctx, std::uint32_t line, const char* sentence) {
-    of(ctx).refuse(line, sentence && *sentence ? sentence : "it is refused");
+    of(ctx).refuse(line, sentence && *sentence ? sentence : "it was refused");
 }
 
-// Changes when the file does; 0 = it is not there.
+// Changes when the file does; 0 = missing.
 std::uint64_t stamp_of(const std::string& path) {
     std::error_code code;
     const auto size = fs::file_size(path, code);
@@ -95,9 +95,8 @@ Result<std::shared_ptr<TableReader>> TableReader::open(const RestageTable1& tabl
     if (table.size < RESTAGE_SIZE_UP_TO(RestageTable1, read))
         return fail("its table " RESTAGE_TABLE1 " has " + std::to_string(table.size) + " bytes, " +
                     std::to_string(RESTAGE_SIZE_UP_TO(RestageTable1, read)) + " are needed: rebuild it with this SDK");
-    if (!table.type || !is_type_name(table.type))
-        return fail("a reader of tables that does not say for which material it is");
-    const std::string who = std::string("the reader of tables of \"") + table.type + "\"";
+    if (!table.type || !is_type_name(table.type)) return fail("a table reader that names no material");
+    const std::string who = std::string("the table reader of \"") + table.type + "\"";
     if (!table.extensions || !*table.extensions) return fail(who + " names no extensions");
     if (!table.read) return fail(who + " lacks read");
     return std::make_shared<TableReader>(table, std::move(plugin_id), log);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TableReader: files of a material's table parameters, read through its plugin. What was read is remembered by
-// parameter, path, time and size of the file, so that all who ask share the words. [any] thread; one file at a time.
+// TableReader: files of a material's table parameters, read through its plugin. Results are cached by
+// parameter, path, time and size of the file, so that all callers share the words. [any] thread; one file at a time.
 #pragma once
 
 #include "base/crash_note.hpp"
@@ -22,12 +22,12 @@ namespace restage::plugin {
 
 struct Table { // immutable once shared
     std::vector<std::uint32_t> words;
-    std::vector<std::string> notes; // what its reader said of it
+    std::vector<std::string> notes; // remarks of its reader
 };
 
 class TableReader {
   public:
-    // The table outlives it, until close(). Errors: a table that lacks something.
+    // The table must be valid until close(). Errors: an incomplete table.
     static Result<std::shared_ptr<TableReader>> open(const RestageTable1& table, std::string plugin_id, Log& log);
     TableReader(const RestageTable1& table, std::string plugin_id, Log& log);
 
@@ -36,12 +36,12 @@ class TableReader {
 
     // The file's words. An empty path is an empty table. Errors: '<path>: it is cut short: ...'.
     Result<std::shared_ptr<const Table>> read(const std::string& param, const std::string& path);
-    // What `read` found wrong with it the last time, without looking at the file or waiting; "" = nothing, as far as
-    // is known.
+    // The last error of `read`, without accessing the file or waiting; "" = none
+    // known.
     std::string problem(const std::string& param, const std::string& path) const;
 
-    void set_blame(Blame blame); // of a crash while it reads
-    void close(); // before the plugin is unloaded: what is not remembered cannot be read any more
+    void set_blame(Blame blame); // for a crash while it reads
+    void close(); // before the plugin is unloaded: afterwards only cached files can be read
 
   private:
     struct Seen {
@@ -55,10 +55,10 @@ class TableReader {
     std::vector<std::string> extensions_;
     Log& log_;
     mutable std::mutex mutex_;
-    const RestageTable1* table_; // null: closed
+    const RestageTable1* table_; // null when closed
     Blame blame_;
     std::map<std::pair<std::string, std::string>, Seen> seen_; // by parameter and path
-    // The last few, so that who checks a scene and who renders it do not both read.
+    // The last few, so that checking and rendering a scene do not both read.
     std::array<std::shared_ptr<const Table>, 4> recent_;
     std::size_t next_recent_ = 0;
 };

@@ -20,7 +20,7 @@ using model::ParamType;
 std::string quote(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::string check_range(const model::Param& p) {
-    if (!std::isfinite(p.min) || !std::isfinite(p.max) || !(p.min <= p.max)) return "its range is not a range";
+    if (!std::isfinite(p.min) || !std::isfinite(p.max) || !(p.min <= p.max)) return "its range is invalid";
     for (std::size_t i = 0; i < std::size_t(p.components()); ++i)
         if (!(p.def[i] >= p.min && p.def[i] <= p.max)) return "its default is out of its range";
     return "";
@@ -34,7 +34,7 @@ std::string check_param(const model::Param& p) {
         case ParamType::color:
             return check_range(p);
         case ParamType::integer:
-            if (p.int_min > p.int_max) return "its range is not a range";
+            if (p.int_min > p.int_max) return "its range is invalid";
             return p.int_def >= p.int_min && p.int_def <= p.int_max ? "" : "its default is out of its range";
         case ParamType::boolean:
             return p.int_def == 0 || p.int_def == 1 ? "" : "its default is neither 0 nor 1";
@@ -42,7 +42,7 @@ std::string check_param(const model::Param& p) {
             if (p.choices.empty()) return "it has no choices";
             if (std::set(p.choices.begin(), p.choices.end()).size() != p.choices.size() ||
                 std::count(p.choices.begin(), p.choices.end(), ""))
-                return "a choice is empty or there twice";
+                return "a choice is empty or duplicate";
             return p.int_def >= 0 && std::size_t(p.int_def) < p.choices.size()
                        ? ""
                        : "its default is not the index of a choice";
@@ -93,7 +93,7 @@ std::string check_emission(const model::Emission& e, const model::Material& m) {
     if (e.radiance.empty()) return who + "it names no parameter as its radiance";
     const auto lacks = [&](const char* role, const std::string& id, ParamType type, const char* kind) {
         return !id.empty() && !has_param(m, id, type)
-                   ? who + "its " + role + " " + quote(id) + " is no parameter of type " + kind + " of that material"
+                   ? who + "its " + role + " " + quote(id) + " is not a parameter of type " + kind + " of that material"
                    : std::string();
     };
     std::string problem = lacks("radiance", e.radiance, ParamType::color, "COLOR");
@@ -130,11 +130,11 @@ std::string check_params(model::ParamTable params) {
         const model::Param& p = params[i];
         if (is_glsl_word(p.id))
             return "parameter " + std::to_string(i) + ": " + quote(p.id) +
-                   " is a word of GLSL (a keyword, a type, or taken by the shaders around it): call it otherwise";
+                   " is a reserved word of GLSL (a keyword, a type, or used by the surrounding shaders): rename it";
         if (!is_glsl_identifier(p.id))
             return "parameter " + std::to_string(i) + ": " + quote(p.id) +
-                   " is no GLSL identifier: letters, digits and single underscores, no digit first, not gl_...";
-        if (!ids.insert(p.id).second) return "parameter " + quote(p.id) + " is there twice";
+                   " is not a GLSL identifier: letters, digits and single underscores, no digit first, not gl_...";
+        if (!ids.insert(p.id).second) return "parameter " + quote(p.id) + " is duplicate";
         if (const std::string problem = check_param(p); !problem.empty())
             return "parameter " + quote(p.id) + ": " + problem;
     }
@@ -147,12 +147,12 @@ std::string check_material(const model::Material& m, const fs::path& folder) {
     if (m.label.empty()) return who + " has no label";
     if (m.prefix.empty() ? m.has_code() : !is_glsl_identifier(m.prefix) || m.prefix.back() == '_')
         return who + ": its prefix " + (m.prefix.empty() ? "NULL" : quote(m.prefix)) +
-               " is no GLSL identifier, or ends with an underscore";
+               " is not a GLSL identifier, or ends with an underscore";
     if (is_taken_prefix(m.prefix))
-        return who + ": its prefix " + quote(m.prefix) + " is taken: the functions around a material begin with it";
+        return who + ": its prefix " + quote(m.prefix) + " is reserved: the functions around a material begin with it";
     if (const std::string problem = check_params(m.params); !problem.empty()) return who + ": " + problem;
     for (const std::string_view taken : {"bump", "normalmap"})
-        if (m.find(taken)) return who + ": parameter " + quote(taken) + " belongs to the host: every material has it";
+        if (m.find(taken)) return who + ": parameter " + quote(taken) + " is reserved: every material has it";
     for (const model::Param& p : m.params)
         if (const std::string problem = check_default_table(p, folder); !problem.empty()) return who + ": " + problem;
     if (m.emission)
@@ -170,7 +170,7 @@ std::string check_texture(const model::Texture& t, const fs::path& folder) {
     const std::string who = "texture " + quote(t.type);
     if (t.label.empty()) return who + " has no label";
     if (!is_glsl_identifier(t.prefix) || t.prefix.back() == '_')
-        return who + ": its prefix " + quote(t.prefix) + " is no GLSL identifier, or ends with an underscore";
+        return who + ": its prefix " + quote(t.prefix) + " is not a GLSL identifier, or ends with an underscore";
     if (is_taken_prefix(t.prefix))
         return who + ": its prefix " + quote(t.prefix) + " is taken: functions around it begin with it";
     if (const std::string problem = check_params(t.params); !problem.empty()) return who + ": " + problem;

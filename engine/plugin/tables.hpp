@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plugin's tables must fulfil before anything else looks at them: ids that are GLSL identifiers, defaults in
-// range, files that are there. Each check returns "" or the sentence that refuses the plugin.
+// Validation of a plugin's tables before anything else uses them: ids are GLSL identifiers, defaults are in
+// range, files exist. Each check returns "" or the reason for refusal.
 #pragma once
 
 #include "model/action.hpp"
@@ -15,11 +15,11 @@
 
 namespace restage::plugin {
 
-bool is_glsl_identifier(std::string_view); // and no reserved word
-bool is_taken_prefix(std::string_view);    // by the functions that call a material's
+bool is_glsl_identifier(std::string_view); // and not a reserved word
+bool is_taken_prefix(std::string_view);    // used by the functions that call a material's
 bool is_type_name(std::string_view);       // lower_snake, as scene files write it
 std::string check_params(model::ParamTable);
-std::string check_material(const model::Material&, const std::filesystem::path& folder); // its emission, too
+std::string check_material(const model::Material&, const std::filesystem::path& folder); // including its emission
 std::string check_texture(const model::Texture&, const std::filesystem::path& folder);
 std::string check_importer(const model::Importer&);
 std::string check_exporter(const model::Exporter&);

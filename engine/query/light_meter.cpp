@@ -21,13 +21,13 @@ namespace {
 
 using glm::dvec3;
 constexpr double pi = std::numbers::pi;
-constexpr int columns = 32;   // points over the width of the picture
-constexpr int directions = 24; // at each of them
-constexpr int lamp_points = 8; // on shining surfaces, for each of them
-constexpr int bounces = 7;    // as many as a path has by default
+constexpr int columns = 32;   // points across the picture
+constexpr int directions = 24; // per point
+constexpr int lamp_points = 8; // on emissive surfaces, per point
+constexpr int bounces = 7;    // a path's default
 
 double luminance(const dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-// The lattice of Kronecker's by the plastic number (Roberts 2018): point i, moved by `shift`.
+// Kronecker lattice of the plastic number (Roberts 2018): point i, offset by `shift`.
 glm::dvec2 lattice(int i, double shift) {
     return glm::fract(glm::dvec2(0.5 + shift) + double(i) * glm::dvec2(0.7548776662466927, 0.5698402909980532));
 }
@@ -39,7 +39,7 @@ struct Hit {
 
 struct Shining { // a triangle
     dvec3 a, ab, ac;
-    double radiance, sum; // luminance; of the power up to here
+    double radiance, sum; // luminance; cumulative power
     bool two_sided;
 };
 
@@ -89,7 +89,7 @@ class Meter {
         double mean = 0, logs = 0;
         for (const double v : values)
             mean += v / double(values.size());
-        for (const double v : values) // a deep shadow says nothing of the light
+        for (const double v : values) // deep shadows are uninformative
             logs += std::log(std::max(v, 1e-3 * mean));
         reading.white = std::exp(logs / double(values.size()));
         reading.lit = double(values.size()) / points;
@@ -193,7 +193,7 @@ class Meter {
         return it == emission_.end() ? 0 : luminance(dvec3(it->second.radiance));
     }
 
-    // Of lamps without a surface.
+    // Lamps without a surface.
     double from_lamps(const Hit& at) const {
         double sum = 0;
         scene_.lights.each([&](scene::Id<scene::Light>, const scene::Light& l) {
@@ -236,10 +236,10 @@ class Meter {
 
     double irradiance(const Hit& at, int number) const {
         const double shift = glm::fract(double(number) * 0.6180339887498949);
-        double reflected = 0, kept = 0, sky = 0; // kept: of the light, at each bounce
+        double reflected = 0, kept = 0, sky = 0; // kept: of the light, per bounce
         const dvec3 other = std::abs(at.normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         const dvec3 s = glm::normalize(glm::cross(at.normal, other)), t = glm::cross(at.normal, s);
-        for (int i = 0; i < directions; ++i) { // by the cosine: each stands for pi / directions
+        for (int i = 0; i < directions; ++i) { // cosine-distributed: each weighs pi / directions
             const glm::dvec2 u = lattice(i, shift);
             const double r = std::sqrt(u.x), phi = 2 * pi * u.y;
             const dvec3 d =

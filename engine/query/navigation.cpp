@@ -19,7 +19,7 @@ constexpr double pi = std::numbers::pi;
 glm::dvec3 axis(const scene::Camera& camera, int i) { return glm::normalize(glm::dvec3(camera.camera_to_world[i])); }
 glm::dvec3 position(const scene::Camera& camera) { return glm::dvec3(camera.camera_to_world[3]); }
 
-// The turn asked for, kept 1 degree away from looking along `up`.
+// The requested rotation, kept 1 degree away from looking along `up`.
 glm::dmat4 turn(const scene::Camera& camera, const glm::dvec3& up, glm::dvec2 angles) {
     const glm::dvec3 right = axis(camera, 0), forward = axis(camera, 2);
     const double limit = glm::radians(89.0);
@@ -31,7 +31,7 @@ glm::dmat4 turn(const scene::Camera& camera, const glm::dvec3& up, glm::dvec2 an
     return glm::rotate(glm::dmat4(1), angles.x, up) * tilt;
 }
 
-// In the matrix, which a view that has left the scene's camera has of its own, and not in the screen window.
+// In the matrix, which a view detached from the scene's camera owns, and not in the screen window.
 void scale_film(scene::Camera& camera, double by) {
     camera.camera_to_world[0] *= by;
     camera.camera_to_world[1] *= by;
@@ -67,14 +67,14 @@ void pan(scene::Camera& camera, glm::dvec2 delta, double distance, double aspect
     const glm::dvec4 window = film_window(camera, aspect);
     if (camera.projection == scene::Projection::orthographic)
         distance = glm::length(glm::dvec3(camera.camera_to_world[1]));
-    const double per_height = (window.w - window.z) * distance; // world units the height of the film spans there
+    const double per_height = (window.w - window.z) * distance; // world units spanned by the film's height there
     translate_local(camera, {-delta.x * per_height, delta.y * per_height, 0});
 }
 
 void dolly(scene::Camera& camera, const glm::dvec3& towards, double part) {
     glm::dvec3 way = (towards - position(camera)) * part;
     if (camera.projection ==
-        scene::Projection::orthographic) { // nearer is no larger: the film shrinks around the point
+        scene::Projection::orthographic) { // distance does not affect size: shrink the film around the point
         scale_film(camera, 1 - part);
         way -= axis(camera, 2) * glm::dot(way, axis(camera, 2));
     }
@@ -91,7 +91,7 @@ void frame(scene::Camera& camera, const scene::Bounds& bounds, double aspect) {
         const double unit = glm::length(glm::dvec3(camera.camera_to_world[1]));
         scale_film(camera, radius / (half * unit));
         distance = 2 * radius;
-    } else if (is_spherical(camera)) { // sees all around: from the middle
+    } else if (is_spherical(camera)) { // sees all directions: go to the centre
         distance = 0;
     }
     camera.camera_to_world[3] = glm::dvec4(bounds.center() - axis(camera, 2) * distance, 1);

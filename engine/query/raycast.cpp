@@ -26,7 +26,7 @@ bool hits_box(const glm::dvec3& lower, const glm::dvec3& upper, const glm::dvec3
     return near <= far;
 }
 
-// Moeller and Trumbore 1997, both sides.
+// Moeller and Trumbore 1997, double-sided.
 double hit_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& o,
                     const glm::dvec3& d) {
     const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(d, ac);
@@ -50,7 +50,7 @@ std::vector<RayHit> raycast_all(const scene::Scene& scene, const glm::dvec3& ori
         if (instance.hidden || (skip && skip(id))) return;
         const scene::Mesh* mesh = scene.meshes.find(instance.mesh);
         if (!mesh || !mesh->data || mesh->data->triangles.empty()) return;
-        // In object space; t stays the world's, as the direction is not normalised.
+        // In object space; t stays in world units, as the direction is not normalised.
         const glm::dmat4 to_object = glm::affineInverse(instance.object_to_world);
         const glm::dvec3 o(to_object * glm::dvec4(origin, 1)), d(to_object * glm::dvec4(direction, 0));
         const scene::MeshData& data = *mesh->data;
@@ -58,7 +58,7 @@ std::vector<RayHit> raycast_all(const scene::Scene& scene, const glm::dvec3& ori
         const glm::dvec3 slack(1e-6 * glm::length(upper - lower));
         if (!hits_box(lower - slack, upper + slack, o, d)) return;
         double nearest = std::numeric_limits<double>::infinity();
-        if (const auto quadric = scene::quadric_of(*mesh)) { // its triangles only stand for it
+        if (const auto quadric = scene::quadric_of(*mesh)) { // its triangles only approximate it
             double t[2];
             const int n = scene::meet(*quadric, o, d, t);
             for (int i = n; i-- > 0;)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Raycast: what a ray meets, straight from the scene and in double precision; for picking, dropping and sticking
-// things, not for pictures. Without an acceleration structure over triangles: boxes of instances first, then their
+// Raycast: ray intersection directly with the scene, in double precision; for picking, dropping and snapping
+// objects, not for pictures. Without an acceleration structure over triangles: instance boxes first, then their
 // triangles, a few ms for a million of them.
 #pragma once
 
@@ -18,8 +18,8 @@ struct RayHit {
     glm::dvec3 normal{0}; // geometric, unit, world space, towards the ray's origin
 };
 
-// Every instance the ray meets with t > 0, nearest first, each at its first hit. Hidden ones are left out, and those
-// that `skip` names.
+// Every instance the ray meets with t > 0, nearest first, each at its first hit. Skips hidden ones and those
+// selected by `skip`.
 std::vector<RayHit> raycast_all(const scene::Scene&, const glm::dvec3& origin, const glm::dvec3& direction,
                                 const std::function<bool(scene::Id<scene::Instance>)>& skip = {});
 

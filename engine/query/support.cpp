@@ -17,7 +17,7 @@ using scene::Bounds;
 using InstanceId = scene::Id<scene::Instance>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int cells = 96; // a side of the raster under the body
+constexpr int cells = 96; // per side of the raster under the body
 
 // Coordinates with z up. Footprints are in x and y.
 struct Frame {
@@ -35,15 +35,15 @@ Bounds bounds_of(const scene::Scene& s, const Frame& frame, const scene::Instanc
     return mesh && mesh->data ? scene::world_bounds(*mesh->data, frame.of(instance)) : Bounds{};
 }
 
-// Cells over a rectangle, seen from above. A triangle covers the cells whose middle it holds; its corners count for the
-// cells they lie in as well, so that what is thinner than a cell is not missed.
+// Cells over a rectangle, seen from above. A triangle covers the cells whose centre it contains; its corners also cover
+// their cells, so that parts thinner than a cell are not missed.
 class Raster {
   public:
     Raster(const glm::dvec2& lower, const glm::dvec2& upper) : lower_(lower) {
         step_ = glm::max((upper - lower) / double(cells), glm::dvec2(1e-12));
     }
 
-    // visit(cell, height) for every cell of the mesh: of its triangles, or of the quadric that they stand for.
+    // visit(cell, height) for every cell of the mesh: of its triangles, or of the quadric they approximate.
     template <class F>
     void each(const scene::Mesh& mesh, const glm::dmat4& m, F&& visit) const {
         const auto quadric = scene::quadric_of(mesh);
@@ -54,7 +54,7 @@ class Raster {
     }
 
   private:
-    // Along a vertical line through the middle of each cell.
+    // Along a vertical line through the centre of each cell.
     template <class F>
     void exact(const scene::Quadric& quadric, const glm::dmat4& m, F&& visit) const {
         const glm::dmat4 back = glm::inverse(m);
@@ -90,7 +90,7 @@ class Raster {
         const auto last = glm::clamp(glm::floor((hi - lower_) / step_ - 0.5), -1.0, double(cells - 1));
         const glm::dvec2 a(p[1] - p[0]), b(p[2] - p[0]);
         const double area = a.x * b.y - a.y * b.x;
-        if (area == 0) return; // seen from its edge: its corners have counted
+        if (area == 0) return; // edge-on: its corners are already covered
         for (int y = int(first.y); y <= int(last.y); ++y)
             for (int x = int(first.x); x <= int(last.x); ++x) {
                 const glm::dvec2 c = lower_ + (glm::dvec2(x, y) + 0.5) * step_ - glm::dvec2(p[0]);
@@ -128,7 +128,7 @@ std::optional<double> fall_distance(const scene::Scene& s, std::span<const Insta
                     under[std::size_t(cell)] = std::min(under[std::size_t(cell)], z);
                     top[std::size_t(cell)] = std::max(top[std::size_t(cell)], z);
                 });
-    // Surfaces a little above the underside are ones it is sunk into; those at its top stand on it.
+    // It is sunk into surfaces a little above its underside; those at its top stand on it.
     const double sunk = 0.1 * (all.upper.z - all.lower.z);
     std::vector<double> reach(under.size());
     for (std::size_t i = 0; i < reach.size(); ++i)
@@ -139,7 +139,7 @@ std::optional<double> fall_distance(const scene::Scene& s, std::span<const Insta
         if (instance.hidden || body.contains(id)) return;
         const Bounds box = bounds_of(s, frame, instance);
         if (!overlap(box, all) || box.lower.z > all.upper.z) return;
-        if (all.lower.z - box.upper.z > least) return; // something nearer is known
+        if (all.lower.z - box.upper.z > least) return; // something nearer was found
         raster.each(s.meshes[instance.mesh], frame.of(instance), [&](int cell, double z) {
             const auto i = std::size_t(cell);
             if (under[i] < infinity && z <= reach[i]) least = std::min(least, under[i] - z);

@@ -16,8 +16,8 @@ namespace {
 using scene::Bounds;
 using InstanceId = scene::Id<scene::Instance>;
 
-constexpr double largest = 2.5;       // times the size of what is chosen
-constexpr double voxel_share = 0.006; // of that size: a side of a voxel
+constexpr double largest = 2.5;       // times the size of the selection
+constexpr double voxel_share = 0.006; // voxel side, relative to that size
 
 std::uint64_t key(const glm::i64vec3& v) {
     constexpr std::uint64_t mask = (1u << 21) - 1;
@@ -77,7 +77,7 @@ std::vector<InstanceId> touching(const scene::Scene& s, std::span<const Instance
         if (std::none_of(others.begin(), others.end(),
                          [&](const Thing& thing) { return near(thing.box, from.box, 2 * side); }))
             continue;
-        Voxels own, around; // its voxels; and those next to them, so that one look tells
+        Voxels own, around; // its voxels, and those with their neighbours, for a single lookup
         sample(mesh_of(from.id), s.instances[from.id].object_to_world, side, [&](const glm::i64vec3& v) {
             if (own.insert(key(v)).second)
                 for (int i = 0; i < 27; ++i)

@@ -35,12 +35,12 @@ inline std::vector<shared::AliasEntry> make_alias_table(std::span<const double> 
             small.push_back(l);
         }
     }
-    for (const auto* rest : {&small, &large}) // 1 up to rounding; but what weighs nothing is never drawn
+    for (const auto* rest : {&small, &large}) // 1 up to rounding; but zero weights are never drawn
         for (auto i : *rest) {
             table[i].q = weights[i] > 0 ? 1.f : 0.f;
             table[i].alias = i;
         }
-    if (!small.empty()) { // an index of weight 0 left over by rounding points at one that has some
+    if (!small.empty()) { // an index of weight 0 left over by rounding aliases a non-zero one
         std::uint32_t best = 0;
         for (std::uint32_t i = 0; i < n; ++i)
             if (weights[i] > weights[best]) best = i;

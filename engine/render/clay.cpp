@@ -14,7 +14,7 @@ namespace {
 
 constexpr glm::vec3 ground(0.045f, 0.047f, 0.05f), clay(0.62f, 0.58f, 0.53f), lamp(1.f, 0.93f, 0.78f);
 
-// Through the middle of the lens and of the pixel, as camera_ray() in lib/camera.glsl.
+// Through the centre of the lens and of the pixel, like camera_ray() in lib/camera.glsl.
 void aim(const shared::CameraData& camera, std::uint32_t kind, glm::vec2 film, shared::RayHit& ray) {
     glm::vec3 from(0), towards(glm::mix(camera.screen_min, camera.screen_max, film), 1);
     if (kind == CAMERA_ORTHOGRAPHIC) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of first hits alone: what stands where, as if of clay and lit from the camera. It needs Embree and no
-// shader, so it is there before anything is compiled; with the guides that picking and outlines go by.
+// A picture of first hits only: the geometry as clay, lit from the camera. It needs Embree but no
+// shader, so it is available before anything is compiled; includes the guides used by picking and outlines.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -9,7 +9,7 @@
 
 namespace restage::render {
 
-// Of the whole film as the scene's camera sees it, `size` pixels large. Colours are in [0,1], whatever the exposure.
+// Covers the whole film of the scene's camera, `size` pixels large. Colours are in [0,1], whatever the exposure.
 FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& jobs, glm::uvec2 size);
 
 } // namespace restage::render

@@ -17,9 +17,9 @@ Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry& registry, 
             if (name == entry.table->type || name == entry.plugin->manifest.id) return entry;
             continue;
         }
-        const CrashNote note(entry.plugin->blame("while it was asked whether it can be used"));
+        const CrashNote note(entry.plugin->blame("while its availability was checked"));
         if (const auto usable = entry.table->available(); !usable)
-            why = entry.table->type + " cannot be used: " + usable.error().message;
+            why = entry.table->type + " is unavailable: " + usable.error().message;
         else if (!best || (entry.plugin->own && !best->plugin->own))
             best = &entry;
     }

@@ -11,14 +11,14 @@
 
 namespace restage::render {
 
-// The denoiser of this type ("oidn") or of the plugin of this id. "": the one that came with the program, if it can be
-// used here, else the first that can. An error lists what there is, or says why none can be used.
+// The denoiser of this type ("oidn") or of the plugin of this id. "": the one shipped with the program, if
+// available, else the first available one. An error lists the known ones, or says why none is available.
 Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry&, const std::string& name);
 // For the file: "oidn high".
 std::string denoiser_label(const plugin::DenoiserEntry&, plugin::DenoiseQuality);
 
-// Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: the error is a
-// cancelled one.
+// Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: the error is then
+// of kind `cancelled`.
 Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& denoiser,
                                        plugin::DenoiseQuality quality, unsigned threads = 0,
                                        std::function<bool(double done)> keep_going = {});

@@ -44,10 +44,10 @@ void init_context(Context& c) { rtcInitRayQueryContext(&c); }
 #endif
 
 struct QueryContext {
-    Context embree; // first: Embree knows this part
-    bool borders;   // asks for borders of media, not for surfaces
-    bool shadow;    // asks for what stops light
-    glm::vec3 origin, direction; // of the ray in world space: Embree moves it into that of instances
+    Context embree; // first: the part known to Embree
+    bool borders;   // query hits borders of media, not surfaces
+    bool shadow;    // query hits whatever blocks light
+    glm::vec3 origin, direction; // of the ray in world space: Embree transforms it to instance space
     std::vector<EmbreeScene::Undecided>* undecided; // null: decide by what is known
 };
 
@@ -58,7 +58,7 @@ bool put_aside(const GpuScene& scene, const QueryContext& query, const EmbreeSce
     return true;
 }
 
-// What would hit_filter say of this hit of a ray in world space?
+// The verdict of hit_filter on this hit of a world-space ray.
 bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance,
                    const GpuScene::QuadricHit& hit) {
     const auto flags = scene.instances()[instance].flags;
@@ -70,20 +70,20 @@ bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned in
            (scene.resolve_material(instance, 0, hit.uv) == MATERIAL_NOTHING) == query.borders;
 }
 
-// Where the ray meets the quadric of the instance that Embree is in.
+// Intersects the quadric of Embree's current instance.
 std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, unsigned instance, glm::vec2 range) {
     const auto& scene = **static_cast<const GpuScene* const*>(user);
     const auto& query = *static_cast<const QueryContext*>(context);
     GpuScene::QuadricHit hits[2];
     const int n = scene.meet_quadric(instance, query.origin, query.direction, range, hits);
-    for (int i = 0; i < n; ++i) // the far one where the near one lets rays pass
+    for (int i = 0; i < n; ++i) // the far one if the near one lets rays pass
         if (!put_aside(scene, query, {hits[i].t, instance, 0, hits[i].uv, hits[i].leaves}) &&
             passes_filter(scene, query, instance, hits[i]))
             return hits[i];
     return std::nullopt;
 }
 
-// One ray at a time: nobody here traces packets.
+// One ray at a time: packets are not used.
 void box_intersect(const RTCIntersectFunctionNArguments* args) {
     if (args->valid[0] != -1) return;
     auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
@@ -105,8 +105,8 @@ void box_occluded(const RTCOccludedFunctionNArguments* args) {
 }
 void box_bounds(const RTCBoundsFunctionArguments* args) { *args->bounds_o = {-1, -1, -1, 0, 1, 1, 1, 0}; }
 
-// Cut-outs, lamps that are no surface, and mixes with a share of none: called for candidate hits of meshes that some
-// instance uses so.
+// Cut-outs, lamps without a surface, and mixes with a null component: called for candidate hits of meshes that some
+// instance uses that way.
 void hit_filter(const RTCFilterFunctionNArguments* args) {
     const auto* scene = *static_cast<const GpuScene* const*>(args->geometryUserPtr);
     const auto& query = *reinterpret_cast<const QueryContext*>(args->context);
@@ -135,13 +135,13 @@ void hit_filter(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-// Embree's FLT_LARGE is 1.844e18: what it asserts of coordinates, in object space too.
-constexpr float largest_coordinate = 5e17f; // of a point before three products are added up
+// Embree asserts that coordinates, in object space too, are below its FLT_LARGE, 1.844e18.
+constexpr float largest_coordinate = 5e17f; // of a point before three products are summed
 
-// What else it asserts: numbers, and an interval that begins at 0 or later. Whatever kernels computed from a scene of
-// absurd sizes is a miss instead.
+// It also asserts: no NaN, and an interval that starts at 0 or later. Whatever kernels computed from a scene of
+// absurd sizes counts as a miss instead.
 bool can_be_asked(const glm::vec3& origin, const glm::vec3& direction, float near, float far, float reach) {
-    // Sums of what is not negative, which NaN spoils, too; without a branch, as this is asked of every ray.
+    // Sums of non-negative values, which NaN also spoils; branch-free, as this runs for every ray.
     const float far_out = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z);
     const float steep = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
     return (near >= 0) & (near <= far) & (far_out <= reach) & (steep <= 1e3f);
@@ -177,7 +177,7 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
     for (auto id : changes.meshes) {
         const GpuMesh* g = scene.mesh(id);
         if (!g) {
-            meshes_.erase(id.value); // instances of it hold a reference until they are detached below
+            meshes_.erase(id.value); // its instances hold a reference until they are detached below
             continue;
         }
         if (g->quadric) {
@@ -219,7 +219,7 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
     return {};
 }
 
-// The geometry of all quadrics: a box, which instances place around each.
+// The geometry of all quadrics: one box, placed around each by its instance.
 Result<void> EmbreeScene::make_box() {
     box_ = std::make_unique<Mesh>();
     box_->owner = this;
@@ -244,7 +244,7 @@ Result<void> EmbreeScene::make_box() {
 void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChanges& changes,
                          bool (GpuScene::*is_wanted)(std::uint32_t) const) {
     bool changed = false;
-    for (std::size_t i = scene.instances().size(); i < top.attached.size(); ++i) // of a scene that was forgotten
+    for (std::size_t i = scene.instances().size(); i < top.attached.size(); ++i) // of a forgotten scene
         if (top.attached[i]) {
             rtcDetachGeometry(top.scene, unsigned(i));
             changed = true;
@@ -315,7 +315,7 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
     const glm::vec3& direction = stretch.direction;
     glm::vec3 depth(0); // optical
     float t = stretch.t_start;
-    std::uint32_t step = 4; // in units of the last place: past the border just met
+    std::uint32_t step = 4; // [ulp] past the border just met
     alignas(16) shared::RayHit ray{};
     ray.origin = stretch.origin;
     ray.direction = direction;
@@ -336,7 +336,7 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
 
 void EmbreeScene::occluded(shared::ShadowRay& shadow, std::vector<Undecided>* undecided) const {
     if (!can_be_asked(shadow.origin, shadow.direction, shadow.tnear, shadow.tfar, reach_)) {
-        shadow.tfar = -INFINITY; // no light comes along what is no ray
+        shadow.tfar = -INFINITY; // an invalid ray carries no light
         return;
     }
     QueryContext context;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree's view of a GpuScene: a scene per mesh over the buffers that kernels read, and one over the instances.
+// Embree's view of a GpuScene: a scene per mesh on the buffers that kernels read, and one of the instances.
 #pragma once
 
 #include "render/gpu_scene.hpp"
@@ -15,16 +15,16 @@ namespace restage::render {
 
 class EmbreeScene {
   public:
-    // `copies`: meshes are copied, for devices whose memory the CPU reads slowly.
+    // `copies`: copies meshes, for devices whose memory is slow to read from the CPU.
     static Result<std::unique_ptr<EmbreeScene>> create(unsigned threads, bool copies = false);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
 
-    // Follows the GpuScene; builds only what `changes` names.
+    // Updates to the GpuScene; builds only what `changes` lists.
     Result<void> update(const GpuScene& scene, const SceneChanges& changes);
 
     // In place, on the kernels' memory: `ray` is a shared::RayHit, `shadow` a shared::ShadowRay. Thread-safe between
-    // updates. intersect leaves inst == NONE on a miss; occluded sets tfar to -inf when something is in the way.
+    // updates. intersect leaves inst == NONE on a miss; occluded sets tfar to -inf if blocked.
     // Hits that no native code can decide (GpuScene::undecided) are passed and added to `undecided`, in no order;
     // without that, textures' averages decide them.
     struct Undecided {
@@ -36,8 +36,8 @@ class EmbreeScene {
     void intersect(shared::RayHit& ray, std::vector<Undecided>* undecided = nullptr) const;
     void occluded(shared::ShadowRay& shadow, std::vector<Undecided>* undecided = nullptr) const;
 
-    // What is left of light on its way along a ray from t_start to t_end, and the medium there: Beer-Lambert between
-    // the borders of media that the ray passes, nearest first; what a border says behind it holds (pbrt 4ed, 11.4).
+    // Transmittance along a ray from t_start to t_end, and the medium there: Beer-Lambert between
+    // the borders of media that the ray passes, nearest first; each one sets the medium behind it (pbrt 4ed, 11.4).
     struct Passed {
         glm::vec3 transmittance;
         std::uint32_t medium;
@@ -52,7 +52,7 @@ class EmbreeScene {
     struct Mesh;
     struct Instances { // a scene over instances of the meshes
         RTCSceneTy* scene = nullptr;
-        std::vector<std::uint32_t> attached; // by instance: its mesh, 0 = not attached
+        std::vector<std::uint32_t> attached; // mesh by instance, 0 = not attached
     };
     EmbreeScene() = default;
     void update(Instances&, const GpuScene&, const SceneChanges&, bool (GpuScene::*wanted)(std::uint32_t) const);
@@ -60,11 +60,11 @@ class EmbreeScene {
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
     bool copies_ = false;
-    float reach_ = 0; // coordinates of rays, at most: so that the smallest object's space can hold them [scene units]
-    Instances surfaces_, borders_; // what light meets; borders of media, which it passes
+    float reach_ = 0; // limit of ray coordinates, so that they fit the smallest object's space [scene units]
+    Instances surfaces_, borders_; // what light hits; borders of media, which it passes
     Result<void> make_box();
-    std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value; but for quadrics
-    std::unique_ptr<Mesh> box_; // of all quadrics; null until there is one
+    std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value; without quadrics
+    std::unique_ptr<Mesh> box_; // for all quadrics; null until needed
 };
 
 } // namespace restage::render

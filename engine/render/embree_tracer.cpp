@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `embree` tracer: a wavefront. Kernels generate, shade (one a material type, over a queue of its hits) and
+// The `embree` tracer: a wavefront. Kernels generate, shade (one per material type, over a queue of its hits) and
 // accumulate; between two bounces one CPU pass lets Embree answer the shadow rays of the last vertex and find the next
 // hits, in natural path order and in place, and queues each hit for its type's kernel.
 #include "render/embree_scene.hpp"
@@ -20,11 +20,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: stays near the caches, amortises a submit
+constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: cache-friendly, amortises a submit
 constexpr std::uint32_t group_size = 64;      // of the kernels
-constexpr std::size_t chunk = 2048;           // paths a job
+constexpr std::size_t chunk = 2048;           // paths per job
 constexpr std::size_t most_asked = 1 << 18;   // undecided hits in a submit
-constexpr std::size_t ahead = 3; // paths that are fetched before their turn: kernels left them in another cache
+constexpr std::size_t ahead = 3; // paths prefetched: kernels left them in another cache
 constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
 
 static_assert(sizeof(shared::WavePush) == 128);
@@ -37,7 +37,7 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> start() {
         RESTAGE_TRY(embree_, EmbreeScene::create(c_.jobs.threads()));
-        const auto host = gpu::BufferKind::readback; // both sides read and write it
+        const auto host = gpu::BufferKind::readback; // both sides read and write
         RESTAGE_TRY(rays_, c_.device.create_buffer(wave_paths * sizeof(shared::RayHit), host, "rays"));
         RESTAGE_TRY(shadows_, c_.device.create_buffer(wave_paths * sizeof(shared::ShadowRay), host, "shadow rays"));
         RESTAGE_TRY(paths_, c_.device.create_buffer(wave_paths * sizeof(shared::PathState), host, "paths"));
@@ -46,7 +46,7 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), host, "counters"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
         std::memset(counters_.mapped(), 0, counters_.size());
-        std::memset(rays_.mapped(), 0, rays_.size()); // what kernels do not write stays so
+        std::memset(rays_.mapped(), 0, rays_.size()); // for fields kernels never write
         std::memset(shadows_.mapped(), 0, shadows_.size());
         for (auto& ray : rays_.span<shared::RayHit>())
             ray.mask = ~0u;
@@ -68,7 +68,7 @@ class EmbreeTracer final : public Tracer {
         const auto start = Clock::now();
         RESTAGE_TRY(bool going, kernels_.begin(request.keep_going));
         const std::uint32_t pixels = film.width() * film.height();
-        // A wave holds all pixels some samples each, or part of the pixels one sample each.
+        // A wave covers all pixels with several samples each, or some pixels with one sample each.
         const std::uint32_t samples = std::clamp(wave_paths / std::max(pixels, 1u), 1u, request.samples);
         for (std::uint32_t s = 0; going && s < request.samples; s += samples)
             for (std::uint32_t p = 0; going && p < pixels; p += wave_paths) {
@@ -100,7 +100,7 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
-    // False: keep_going said to stop, and the film has nothing of this wave.
+    // False: keep_going requested a stop, and the film has nothing of this wave.
     Result<bool> wave(const GpuScene& scene, shared::FrameData& f, const std::function<bool()>& keep_going) {
         f.scene = scene.address();
         f.rays = rays_.address();
@@ -181,7 +181,7 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
-    // A path's last vertex only emits, or guides the denoiser.
+    // A path's last vertex contributes only emission or denoiser guides.
     static bool ends_unlit(const GpuScene& scene, const shared::PathState& path, std::uint32_t instance) {
         const std::uint32_t depth = path.flags & PATH_DEPTH_MASK;
         return depth > 0 && depth >= scene.data().max_depth && !(path.flags & PATH_GUIDED) &&
@@ -209,7 +209,7 @@ class EmbreeTracer final : public Tracer {
         paths_.span<shared::PathState>()[path].radiance += c;
     }
 
-    // Adds what the shadow rays of these paths found lit. Returns how many rays there were.
+    // Adds the unoccluded shadow-ray contributions of these paths. Returns the number of rays.
     std::uint32_t trace_shadows(const GpuScene& scene, std::span<const std::uint32_t> active, Undecided* undecided) {
         auto shadows = shadows_.span<shared::ShadowRay>();
         auto paths = paths_.span<shared::PathState>();
@@ -249,11 +249,11 @@ class EmbreeTracer final : public Tracer {
         if (ray.inst == NONE) return scene.features().environment ? type_escape : type_none;
         if (last_vertex && ends_unlit(scene, path, ray.inst)) return type_none;
         ray.geom = material ? *material : scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
-        if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter let it stand: cannot be
+        if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter accepted it: unreachable
         return std::uint8_t(scene.materials()[ray.geom].type);
     }
 
-    // Next hits of these paths: types_ says who shades each, `count` has how many of each type.
+    // Next hits of these paths: types_ holds each one's type, `count` the number per type.
     std::uint32_t trace_closest(const GpuScene& scene, std::span<const std::uint32_t> active, bool last_vertex,
                                 std::array<std::uint32_t, 256>& count, Undecided* undecided) {
         auto rays = rays_.span<shared::RayHit>();
@@ -394,7 +394,7 @@ class EmbreeTracer final : public Tracer {
         const auto start = Clock::now();
         auto queue = queue_.span<std::uint32_t>();
         const std::size_t n = active_.size(), chunks = counts_.size();
-        // Where each chunk's paths of each type begin in the queue, and its live ones in the next active list.
+        // Start of each chunk's paths of each type in the queue, and of its live ones in the next active list.
         type_count_.fill(0);
         for (auto& c : counts_)
             for (std::size_t t = 0; t < type_none; ++t)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film: sums, sums of squares and counts a pixel, and guide images. Every image knows its own error.
+// Film: sums, sums of squares and counts per pixel, and guide images. Every image knows its own error.
 #pragma once
 
 #include "gpu/device.hpp"
@@ -19,8 +19,8 @@ class Film {
     std::uint64_t pixels() const { return pixels_.address(); }
     std::uint64_t guides() const { return guides_.address(); }
     FilmImage read() const;
-    std::uint32_t least_samples() const; // of any pixel
-    // Root mean square over pixels of (standard error of luminance / (luminance + 0.01)), what --error stops at.
+    std::uint32_t least_samples() const; // minimum over all pixels
+    // Root mean square over pixels of (standard error of luminance / (luminance + 0.01)), the measure of --error.
     double relative_error() const;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FilmImage, what a film holds, and the one list of its layers: reading the film, merging, files, the viewport, the
-// command line and Python go by it. A new layer is a member and a row here, a field of GuidePixel and GuideSample
+// FilmImage, a film's contents, and the only list of its layers: reading the film, merging, files, the viewport, the
+// command line and Python use it. A new layer is a member and a row here, a field of GuidePixel and GuideSample
 // (shared/path_data.h), its sum (shaders/path/film.glsl) and what the path step puts into it (shaders/path/step.glsl).
 #pragma once
 
@@ -17,16 +17,16 @@ namespace restage::render {
 // Normalised; row 0 on top. Layers have width * height values.
 struct FilmImage {
     std::uint32_t width = 0, height = 0;
-    std::uint32_t samples = 0;           // the least a pixel has
+    std::uint32_t samples = 0;           // minimum over pixels
     std::vector<glm::vec3> color;        // linear sRGB radiance, exposure not applied
-    std::vector<glm::vec3> std_error; // of the mean, a channel; samples taken as independent, so an upper bound for
-                                      // stratified ones. 0 with less than 2 samples
+    std::vector<glm::vec3> std_error; // of the mean, per channel; assumes independent samples, so an upper bound for
+                                      // stratified ones. 0 with fewer than 2 samples
     std::vector<float> luminance_variance; // of the mean
-    // Of the first hit that is no mirror or smooth glass, for the denoiser.
-    std::vector<glm::vec3> albedo; // [0,1], times what the mirrors and glasses let through
+    // Of the first hit that is not a mirror or smooth glass, for the denoiser.
+    std::vector<glm::vec3> albedo; // [0,1], times the throughput of the mirrors and glasses
     std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)
-    std::vector<float> depth; // mean distance of the first hit; 0 = nothing
-    std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = nothing
+    std::vector<float> depth; // mean distance of the first hit; 0 = none
+    std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = none
 
     static FilmImage blank(std::uint32_t width, std::uint32_t height); // all zeros
     std::size_t pixels() const { return std::size_t{width} * height; }
@@ -43,10 +43,10 @@ template <class V>
 struct FilmLayer {
     std::vector<V> FilmImage::* values;
     const char* name; // of its array in Python
-    const char* in_file; // the .exr layer its channels belong to; layers of one name are one there
+    const char* in_file; // the .exr layer of its channels; layers with the same name are merged there
     std::array<const char*, 3> channels; // as many as V has
     LayerSource source;
-    V (*guide)(const shared::GuidePixel&); // the value, or for a mean the sum; null for what comes of samples
+    V (*guide)(const shared::GuidePixel&); // the value, or for a mean the sum; null for layers from samples
     LayerLook look;
     const char* label; // in menus
     const char* doc; // for Python
@@ -72,7 +72,7 @@ inline constexpr std::tuple film_layers{
                          .guide = nullptr,
                          .look = LayerLook::hidden,
                          .label = "",
-                         .doc = "float32 (H, W, 3): standard error of `color`; 0 with less than two samples."},
+                         .doc = "float32 (H, W, 3): standard error of `color`; 0 with fewer than two samples."},
     FilmLayer<float>{.values = &FilmImage::luminance_variance,
                      .name = "",
                      .in_file = "stderr",
@@ -90,7 +90,7 @@ inline constexpr std::tuple film_layers{
                          .guide = [](const shared::GuidePixel& g) { return g.albedo; },
                          .look = LayerLook::reflectance,
                          .label = "Albedo",
-                         .doc = "float32 (H, W, 3): reflectance, 0 to 1, of the first surface that is no mirror or "
+                         .doc = "float32 (H, W, 3): reflectance, 0 to 1, of the first surface that is not a mirror or "
                                 "smooth glass."},
     FilmLayer<glm::vec3>{.values = &FilmImage::normal,
                          .name = "normal",
@@ -109,7 +109,7 @@ inline constexpr std::tuple film_layers{
                      .guide = [](const shared::GuidePixel& g) { return g.depth; },
                      .look = LayerLook::distance,
                      .label = "Distance",
-                     .doc = "float32 (H, W): mean distance of the first hit [scene units]; 0 = nothing."},
+                     .doc = "float32 (H, W): mean distance of the first hit [scene units]; 0 = none."},
     FilmLayer<std::uint32_t>{.values = &FilmImage::instance_id,
                              .name = "object_id",
                              .in_file = "id",
@@ -118,7 +118,7 @@ inline constexpr std::tuple film_layers{
                              .guide = [](const shared::GuidePixel& g) { return g.instance_id; },
                              .look = LayerLook::number,
                              .label = "Objects",
-                             .doc = "uint32 (H, W): Object.id that the first sample hit; 0 = nothing."},
+                             .doc = "uint32 (H, W): Object.id that the first sample hit; 0 = none."},
     FilmLayer<std::uint32_t>{.values = &FilmImage::material_id,
                              .name = "material_id",
                              .in_file = "id",
@@ -127,7 +127,7 @@ inline constexpr std::tuple film_layers{
                              .guide = [](const shared::GuidePixel& g) { return g.material_id; },
                              .look = LayerLook::number,
                              .label = "Materials",
-                             .doc = "uint32 (H, W): Material.id there; 0 = nothing."},
+                             .doc = "uint32 (H, W): Material.id there; 0 = none."},
 };
 
 // f(const FilmLayer<V>&) for each.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GpuArray<T>: a host vector and its buffer on the device. Change the vector, flush(): only what differs is uploaded.
+// GpuArray<T>: a host vector and its buffer on the device. Change the vector, flush(): only differences are uploaded.
 #pragma once
 
 #include "gpu/device.hpp"
@@ -39,7 +39,7 @@ class GpuArray {
     // Uploads what changed. No work that reads it may be running.
     Result<void> flush(gpu::Device& device) {
         if (!buffer_ || buffer_.size() < host_.size() * sizeof(T)) {
-            // half as much again, so that inserting things one by one does not reallocate each time
+            // 1.5 times, so that inserting items one by one does not reallocate each time
             const std::size_t capacity = std::max<std::size_t>(host_.size() + host_.size() / 2, 4);
             RESTAGE_TRY(buffer_, device.create_buffer(capacity * sizeof(T), gpu::BufferKind::host, name_));
             touch(0, host_.size());
@@ -53,7 +53,7 @@ class GpuArray {
         first_ = last_ = 0;
         return {};
     }
-    std::size_t uploaded_bytes() const { return uploaded_bytes_; } // in all, ever: tests hold edits to it
+    std::size_t uploaded_bytes() const { return uploaded_bytes_; } // in total: tests check edits against it
 
   private:
     static bool same(const T* a, const T* b, std::size_t n) { return n == 0 || std::memcmp(a, b, n * sizeof(T)) == 0; }

@@ -54,7 +54,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
                         scene.environment.version != seen_.environment || scene.meshes.version() != seen_.meshes;
     if (meshes) RESTAGE_CHECK(sync_meshes(scene, changes));
     if (textures) RESTAGE_CHECK(sync_textures(scene, changes));
-    // An instance may bring in a type. Where it does not, only what was changed is looked at.
+    // An instance may add a type. Otherwise only changes are processed.
     const bool all = meshes || materials || !same_materials_in_use(scene);
     if (instances && !all)
         std::ranges::fill(emission_changed_, char(0));
@@ -69,7 +69,7 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     RESTAGE_CHECK(sync_root(scene, changes));
     changes.shaders |= plugins;
     changes.film = first_ || scene.film.version != seen_.film;
-    // A name, a group, a further camera: nothing of them is on the device, and nothing shows.
+    // A name, a group, an inactive camera: not on the device, and invisible.
     changes.image = changes.image || changes.film || changes.shaders || !changes.meshes.empty() ||
                     !changes.instances.empty() || uploaded_bytes() != uploaded_before;
     seen_ = {.meshes = scene.meshes.version(),
@@ -117,7 +117,7 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
             mesh_data_[i].reset();
             continue;
         }
-        if (mesh_data_[i] == mesh->data && meshes_.contains(i)) continue; // a rename is no new geometry
+        if (mesh_data_[i] == mesh->data && meshes_.contains(i)) continue; // e.g. a rename
         const scene::MeshData& data = *mesh->data;
         GpuMesh g;
         g.version = scene.meshes.version(id);
@@ -178,12 +178,12 @@ Result<void> GpuScene::upload_image(const scene::Image& image, Pixels& out, Scen
             largest = std::max(largest, std::abs(v));
         else
             ++bad;
-    if (bad > 0) { // a filter would spread them over their neighbours, and clamps of materials hide them
+    if (bad > 0) { // filtering would spread them to neighbours, and clamps in materials would hide them
         auto mended = std::make_shared<scene::PixelData>(*image.data);
         for (float& v : mended->values)
             if (!std::isfinite(v)) v = 0;
         out.clean = mended;
-        changes.warnings.push_back(fmt::format("image \"{}\": {} of {} values are not finite numbers; taken as 0",
+        changes.warnings.push_back(fmt::format("image \"{}\": {} of {} values are not finite numbers; replaced by 0",
                                                image.name, bad, image.data->values.size()));
     }
     const scene::PixelData& pixels = *out.clean;
@@ -259,7 +259,7 @@ glm::vec4 GpuScene::uv_at(const shared::InstanceData& instance, const scene::Mes
     return {first, instance.uvs2 ? mix(mesh.uvs2) : first};
 }
 
-// hit_alpha of shaders/lib/texture.glsl.
+// See hit_alpha in shaders/lib/texture.glsl.
 float GpuScene::alpha_at(const shared::InstanceData& instance, const scene::MeshData& mesh, std::uint32_t prim,
                          glm::vec2 bary) const {
     float alpha = instance.alpha;

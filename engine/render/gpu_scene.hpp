@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GpuScene: the scene as tracers see it, derived from a scene::Scene by comparing version counters. Moving one of many
+// GpuScene: the scene for tracers, derived from a scene::Scene by comparing version counters. Moving one of many
 // instances rewrites one record. World space is relative to origin(), the camera's position when the scene was opened.
 // One thread at a time; no work that reads it may be running during sync().
 #pragma once
@@ -23,31 +23,31 @@
 
 namespace restage::render {
 
-// A mesh in memory that Embree, kernels and the builder of acceleration structures share.
+// A mesh in memory shared by Embree, kernels and acceleration structure builds.
 struct GpuMesh {
     gpu::Buffer buffer; // positions, normals, uvs, indices, tangents, uvs2, each 16-byte aligned
-    std::uint64_t positions = 0, normals = 0, uvs = 0, indices = 0, tangents = 0, uvs2 = 0; // addresses; 0 = has none
+    std::uint64_t positions = 0, normals = 0, uvs = 0, indices = 0, tangents = 0, uvs2 = 0; // addresses; 0 = none
     std::size_t positions_offset = 0, indices_offset = 0;           // in the buffer, for Embree
     std::uint32_t vertex_count = 0, triangle_count = 0;
-    std::optional<scene::Quadric> quadric; // then there are no triangles: `positions` is a QuadricData
+    std::optional<scene::Quadric> quadric; // if set, there are no triangles: `positions` is a QuadricData
     scene::Version version = 0;
 };
 
-// What a sync found to have changed; tracers update themselves by it.
+// Changes found by a sync; tracers update themselves from it.
 struct SceneChanges {
-    bool image = false;    // anything that changes the picture: the film starts again
+    bool image = false;    // anything that changes the picture: the film restarts
     bool shaders = false;  // material types or features: pipelines
     std::vector<scene::Id<scene::Mesh>> meshes;         // new or replaced
-    std::vector<scene::Id<scene::Instance>> instances;  // moved, added, removed, shown, hidden; or of a replaced mesh
+    std::vector<scene::Id<scene::Instance>> instances;  // moved, added, removed, shown, hidden; mesh replaced
     bool film = false;     // size or crop
-    std::vector<std::string> warnings; // of what had to be mended: texels that are no numbers, tables that are none
+    std::vector<std::string> warnings; // about replaced values: non-finite texels, unreadable tables
 };
 
 class GpuScene {
   public:
     GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup);
 
-    // Result: what changed. After an error the GpuScene must not be traced.
+    // Returns the changes. After an error the GpuScene must not be traced.
     Result<SceneChanges> sync(const scene::Scene& scene);
 
     std::uint64_t address() const { return scene_data_.address(); } // of shared::SceneData
@@ -55,7 +55,7 @@ class GpuScene {
     const glm::dvec3& origin() const { return origin_; }
     const SceneFeatures& features() const { return features_; }
 
-    // By index into types(), as in shared::MaterialData::type. Types never change place while the scene lives.
+    // By index into types(), as in shared::MaterialData::type. Indices are stable for the scene's lifetime.
     const std::vector<MaterialType>& types() const { return types_; }
     // Those that the scene's textures have, or had; index + 1 is the kind of an operation.
     const TextureTypes& texture_types() const { return texture_types_; }
@@ -63,9 +63,9 @@ class GpuScene {
     const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
     const scene::MeshData* mesh_data(scene::Id<scene::Mesh> id) const { return mesh_data_[id.value].get(); }
-    // Is this instance something rays can hit?
+    // Can rays hit this instance?
     bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
-    // Does it stop shadow rays? So does what rays can hit, but for lamps without a surface.
+    // Does it block shadow rays? True for whatever rays can hit, except lamps without a surface.
     bool opaque(std::uint32_t instance) const {
         return traced(instance) && !(instances()[instance].flags & INSTANCE_PASSES);
     }
@@ -73,23 +73,23 @@ class GpuScene {
     bool border(std::uint32_t instance) const { return border_[instance] != 0; }
     scene::Id<scene::Mesh> mesh_of(std::uint32_t instance) const { return mesh_of_[instance]; }
     bool is_quadric(std::uint32_t instance) const { return instances()[instance].flags & INSTANCE_QUADRIC; }
-    // Where its geometry stands: that of the mesh, or for a quadric the box [-1, 1]^3, around it with some room.
+    // The transform of its geometry: of the mesh, or for a quadric of the box [-1, 1]^3 that encloses it with a margin.
     glm::mat4x3 placement(std::uint32_t instance) const;
 
-    // Where a ray meets a quadric, in double precision, with the matrices that shaders have: hits within (t_min, t_max)
-    // and their (u, v), nearest first. Returns how many.
+    // Ray-quadric intersection in double precision, with the shaders' matrices: hits within (t_min, t_max)
+    // and their (u, v), nearest first. Returns their number.
     struct QuadricHit {
         float t = 0;
         glm::vec2 uv{0};
-        std::uint32_t leaves = 0; // 1: on its way out; for choices of alpha the two are surfaces of their own
+        std::uint32_t leaves = 0; // 1: leaving; alpha choices treat entry and exit as different surfaces
     };
     int meet_quadric(std::uint32_t instance, const glm::vec3& origin, const glm::vec3& direction, glm::vec2 range,
                      QuadricHit (&hits)[2]) const;
 
-    // What the CPU resolves at a hit (thread-safe).
+    // Resolved on the CPU at a hit (thread-safe).
     bool alpha_passes(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary, const float* org,
                       const float* dir) const;
-    // The material of a hit, through mixes; MATERIAL_NOTHING where there is no surface.
+    // The material of a hit, through mixes; MATERIAL_NOTHING if there is no surface.
     std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary) const;
     // Does some texture that decides about its hits (alpha, mixes) have no native code? Of such the two above know an
     // average only; wave_decide.comp knows better.
@@ -98,7 +98,7 @@ class GpuScene {
     // Does it stop a ray here, given its alpha and its material? `choice`: the primitive; of quadrics, see QuadricHit.
     bool stops(std::uint32_t instance, std::uint32_t choice, const shared::HitDecided&, const glm::vec3& origin,
                const glm::vec3& direction) const;
-    // The medium that a ray enters as it passes a border.
+    // The medium that a ray enters at a border.
     std::uint32_t medium_behind(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary,
                                 const glm::vec3& direction) const;
     const glm::vec3& absorption(std::uint32_t medium) const { return media_[medium].sigma_a; }
@@ -111,12 +111,12 @@ class GpuScene {
         gpu::Buffer buffer;
         scene::Version version = 0;
         std::shared_ptr<const scene::PixelData> data; // of the scene
-        std::shared_ptr<const scene::PixelData> clean; // the same, or a copy with black where it is not finite
+        std::shared_ptr<const scene::PixelData> clean; // the same, or a copy with non-finite values set to 0
     };
     Result<void> sync_meshes(const scene::Scene&, SceneChanges&);
     Result<void> sync_textures(const scene::Scene&, SceneChanges&);
     Result<void> sync_materials(const scene::Scene&, SceneChanges&);
-    bool same_materials_in_use(const scene::Scene&) const; // although instances were changed
+    bool same_materials_in_use(const scene::Scene&) const; // although instances changed
     Result<void> sync_instances(const scene::Scene&, SceneChanges&, bool all);
     Result<void> sync_lights(const scene::Scene&, SceneChanges&, bool all);
     void find_undecided();
@@ -124,13 +124,13 @@ class GpuScene {
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
     bool refresh_types();
-    // What an instance shines by: its own emission, else its material's.
+    // An instance's effective emission: its own, else its material's.
     std::optional<scene::MaterialEmission> emission_of(const scene::Scene&, const scene::Instance&) const;
     double mean_emission(std::uint32_t instance, std::uint32_t triangle, int points) const; // luminance
     float alpha_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
     std::optional<Emitter> emitter_of(const scene::Scene&, scene::Id<scene::Instance>) const;
     shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
-    // Both sets, as shaders/lib/scene.glsl, hit_uv.
+    // Both sets, like hit_uv in shaders/lib/scene.glsl.
     glm::vec4 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
 
     gpu::Device* device_;
@@ -147,24 +147,24 @@ class GpuScene {
     TextureTypes texture_types_;
     TexturePrograms textures_;
     TableStore tables_;
-    std::map<std::uint32_t, std::string> said_; // what was said of a material, by its id, while it is so
+    std::map<std::uint32_t, std::string> said_; // current warnings by material id
     std::vector<MaterialType> types_;
     std::vector<float> mix_amount_; // constants by MaterialData index
     std::vector<std::uint32_t> mix_texture_;
     std::vector<std::optional<scene::MaterialEmission>> emission_; // by MaterialData index
-    std::vector<char> emission_changed_; // the same, since the last sync
-    std::vector<char> has_gaps_; // by MaterialData index: a mix with a share of no surface
+    std::vector<char> emission_changed_; // likewise, since the last sync
+    std::vector<char> has_gaps_; // by MaterialData index: a mix with a null component
     // By Id<Instance>::value:
-    std::vector<char> traced_, border_, flat_; // flat: no ray can be turned into its object space
-    std::vector<char> quadric_; // one that rays may hit
+    std::vector<char> traced_, border_, flat_; // flat: rays cannot be transformed to its object space
+    std::vector<char> quadric_; // that rays may hit
     std::vector<char> undecided_; // empty: none is
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
-    std::vector<std::uint32_t> used_material_; // of what is not hidden; 0 = none
+    std::vector<std::uint32_t> used_material_; // of visible instances; 0 = none
     struct Box {
         glm::dvec3 lower{1e300}, upper{-1e300};
     };
     static Box world_box(const scene::Scene&, const scene::Instance&);
-    std::vector<Box> boxes_; // world space, of what rays can hit; else empty
+    std::vector<Box> boxes_; // world space; empty if rays cannot hit it
     EnvironmentMap environment_;
 
     GpuArray<shared::InstanceData> instances_{"instances"};
@@ -181,10 +181,10 @@ class GpuScene {
     GpuArray<float> filter_{"pixel filter"};
     GpuArray<shared::SceneData> scene_data_{"scene"};
     LightTable light_table_;
-    double radius_ = 1; // of what is visible
-    std::uint32_t quadrics_ = 0; // how many rays may hit
-    bool lights_touched_ = false; // by the last sync_instances: something that shines, or did
-    bool reads_files_ = false; // some material in use does: they may have changed
+    double radius_ = 1; // of the visible objects
+    std::uint32_t quadrics_ = 0; // number that rays may hit
+    bool lights_touched_ = false; // by the last sync_instances: something that emits, or did
+    bool reads_files_ = false; // some material in use does; the files may have changed
     glm::vec2 filter_weight_{1};
     std::uint32_t filter_entries_ = 0;
     bool light_alpha_ = false, glow_ = false; // of SceneFeatures

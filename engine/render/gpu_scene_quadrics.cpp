@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GpuScene's spheres, disks and cylinders, as the CPU meets them; shaders do it by lib/quadric.glsl.
+// CPU intersection of GpuScene's spheres, disks and cylinders; shaders use lib/quadric.glsl.
 #include "render/gpu_scene.hpp"
 
 #include "scene/quadric_hit.hpp"
@@ -36,7 +36,7 @@ glm::mat4x3 GpuScene::placement(std::uint32_t id) const {
     const Quadric& q = *mesh(mesh_of_[id])->quadric;
     const glm::dmat3 m(in.object_to_world[0], in.object_to_world[1], in.object_to_world[2]);
     const glm::dvec3 centre(0, 0, (q.z_min + q.z_max) / 2), at(in.object_to_world[3]);
-    // What is added is more than the rounding of where it stands, so that no ray passes the box that meets the quadric.
+    // The margin exceeds the rounding of its position, so that every ray that meets the quadric meets the box.
     const glm::dmat3 back = glm::transpose(glm::dmat3(in.normal_to_world));
     glm::dvec3 away(0);
     for (int i = 0; i < 3; ++i)

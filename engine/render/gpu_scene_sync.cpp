@@ -29,7 +29,7 @@ std::uint32_t GpuScene::type_index(const std::string& type) {
     return std::uint32_t(types_.size() - 1);
 }
 
-// Plugins may have been loaded anew, or have come; see MaterialLookup.
+// Plugins may have been reloaded or added; see MaterialLookup.
 bool GpuScene::refresh_types() {
     bool changed = false;
     for (MaterialType& t : types_) {
@@ -43,7 +43,7 @@ bool GpuScene::refresh_types() {
     return changed;
 }
 
-// Material records: 0 is the placeholder, then one per Id<Material>. Only types that a visible instance uses are noted.
+// Material records: 0 is the placeholder, then one per Id<Material>. Only types used by visible instances count.
 Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes) {
     std::vector<char> used(scene.materials.size() + 1);
     const auto use = [&](auto&& self, Id<scene::Material> id, int depth) -> void {
@@ -65,10 +65,10 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         t.textured.clear();
         t.bump = t.used = false;
     }
-    const std::uint32_t fallback = type_index("diffuse"); // what a missing plugin's materials look like
+    const std::uint32_t fallback = type_index("diffuse"); // replaces materials whose plugin is missing
     if (!types_[fallback].plugin.table)
         return fail(
-            "no plugin for the material type \"diffuse\": Restage's own plugins were not found; look at "
+            "no plugin for the material type \"diffuse\": Restage's own plugins were not found; see "
             "`restage plugins`");
     types_[fallback].used = true;
     std::vector<shared::MaterialData> records(scene.materials.size() + 1);
@@ -108,7 +108,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
                 const auto* v = m.params.find(param);
                 const auto* m2 = v ? scene.materials.find(v->material) : nullptr;
                 if (m2 && types_[type_index(m2->type)].plugin.emits())
-                    said[id.value] = "its share \"" + m2->name + "\" does not shine within a mix";
+                    said[id.value] = "its component \"" + m2->name + "\" does not emit within a mix";
                 if (m2 && types_[type_index(m2->type)].null_surface()) return MATERIAL_NOTHING;
                 return m2 ? v->material.value : 0u;
             };
@@ -116,7 +116,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
             record.mix_second = child("second");
             mix_amount_[id.value] = m.params.number("amount", 0.5f);
             mix_texture_[id.value] = m.params.texture("amount").value;
-            // words: amount, texture - for the tracer that resolves mixes in its shaders
+            // words: amount, texture - for the tracer that resolves mixes in shaders
             record.params = std::uint32_t(words.size());
             words.push_back(std::bit_cast<std::uint32_t>(mix_amount_[id.value]));
             words.push_back(mix_texture_[id.value]);
@@ -128,9 +128,9 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         }
         reads_files_ |= type.plugin.source && type.plugin.source->table_reader();
         const auto tables = tables_.find(type.plugin, m.params);
-        if (!tables) { // its file is missing or broken: grey, until it is mended
+        if (!tables) { // its file is missing or broken: grey, until fixed
             pack(record, {}, fallback);
-            said[id.value] = tables.error().message + "; a grey one stands for it";
+            said[id.value] = tables.error().message + "; shown as grey";
             return;
         }
         pack(record, m.params, index, *tables);
@@ -146,7 +146,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         }
     });
     tables_.sweep();
-    for (const auto& [id, text] : said) // once, and anew when it was mended in between
+    for (const auto& [id, text] : said) // once, and again if it was fixed in between
         if (const auto before = said_.find(id); before == said_.end() || before->second != text)
             changes.warnings.push_back("material \"" + scene.materials[{id}].name + "\": " + text);
     said_ = std::move(said);
@@ -156,7 +156,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         emission_changed_[i] = emission_[i] != emission[i];
     emission_ = std::move(emission);
     has_gaps_.assign(records.size(), 0);
-    for (int depth = 0; depth < 8; ++depth) // as deep as mixes are resolved
+    for (int depth = 0; depth < 8; ++depth) // the depth to which mixes are resolved
         for (std::size_t i = 0; i < records.size(); ++i)
             if (records[i].flags & MATERIAL_MIX)
                 for (const auto child : {records[i].mix_first, records[i].mix_second})
@@ -177,8 +177,8 @@ std::optional<scene::MaterialEmission> GpuScene::emission_of(const Scene& scene,
     return scene.materials.find(in.material) ? emission_[in.material.value] : std::nullopt;
 }
 
-// At points that are spread over the triangle: a lattice of Kronecker's by the plastic number (Roberts 2018). What
-// alpha takes away does not shine.
+// At points spread over the triangle: the Kronecker lattice of the plastic number (Roberts 2018). Parts
+// removed by alpha do not emit.
 double GpuScene::mean_emission(std::uint32_t id, std::uint32_t triangle, int points) const {
     const auto& instance = instances_[id];
     const auto& mesh = *mesh_data_[mesh_of_[id].value];
@@ -242,9 +242,9 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
 
 namespace {
 
-// Rays are turned into object space: without an inverse, or with one that leaves the floats (Embree takes coordinates
-// below 1.8e18), there is no ray. 1e9: an object a billionth of its mesh's size. 1e-6: of skewed axes less is not told
-// from 0 in floats.
+// Rays are transformed to object space: without an inverse, or with one out of float range (Embree takes coordinates
+// below 1.8e18), there is no ray. 1e9: an object a billionth of its mesh's size. 1e-6: for skewed axes floats cannot
+// tell less from 0.
 bool traceable(const glm::dmat4& object_to_world) {
     const glm::dmat3 linear(object_to_world);
     const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
@@ -269,7 +269,7 @@ bool GpuScene::same_materials_in_use(const Scene& scene) const {
     return same;
 }
 
-// all: also those whose mesh or material was changed, not they themselves.
+// all: including those of which only the mesh or material changed.
 Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes, bool all) {
     const std::uint32_t n = scene.instances.size() + 1;
     const std::uint32_t old = std::uint32_t(traced_.size());
@@ -291,7 +291,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         const std::uint32_t i = id.value;
         const auto* in = scene.instances.find(id);
         const auto* material = in ? scene.materials.find(in->material) : nullptr;
-        // `interface`: rays pass; what it may be is a border of media, or a lamp (pbrt-v3's; pbrt-v4 has none)
+        // `interface`: rays pass; it may be a border of media, or a lamp (pbrt-v3's; pbrt-v4 has none)
         const std::uint32_t m = material ? in->material.value : 0;
         const bool nothing = types_[materials_[m].type].null_surface(), gaps = has_gaps_[m] != 0;
         if (in && (i >= old || scene.instances.version(id) > seen_.instances)) {
@@ -315,16 +315,16 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         if (!moved_in_or_out && scene.instances.version(id) <= seen_.instances &&
             instances_[i].material == (nothing ? 0 : m) && !emission_changed_[m] &&
             gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
-            return; // the usual case, cheaply
+            return; // the common case
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         if (traced && nothing) record.flags |= INSTANCE_PASSES;
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
         lights_touched_ |= ((record.flags | instances_[i].flags) & (INSTANCE_EMITS | INSTANCE_PASSES)) != 0;
         boxes_[i] = traced ? world_box(scene, *in) : Box{};
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
-        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; another zero is uploaded, no harm
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; uploading another zero is harmless
         if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
-            return; // another name
+            return; // just renamed
         instances_.set(i, record);
         traced_[i] = traced;
         border_[i] = border;
@@ -340,7 +340,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
     return instances_.flush(*device_);
 }
 
-// What cannot be hit (alpha 0) may shine all the same.
+// Even what cannot be hit (alpha 0) may emit.
 std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instance> id) const {
     const auto* in = scene.instances.find(id);
     const auto& instance = instances_[id.value];
@@ -374,7 +374,7 @@ GpuScene::Box GpuScene::world_box(const Scene& scene, const scene::Instance& ins
     return box;
 }
 
-// all: also those that were not changed themselves.
+// all: including those not changed themselves.
 Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bool all) {
     const auto& env = scene.environment.value;
     if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
@@ -383,14 +383,14 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
             make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : scene::Mapping::equirect);
         if (environment_.mended > 0)
             changes.warnings.push_back(
-                fmt::format("environment \"{}\": {} values of its image are negative or not finite; taken as 0",
+                fmt::format("environment \"{}\": {} values of its image are negative or not finite; replaced by 0",
                             env->name, environment_.mended));
         env_texels_.assign(environment_.texels);
         env_alias_.assign(environment_.alias);
         RESTAGE_CHECK(env_texels_.flush(*device_));
         RESTAGE_CHECK(env_alias_.flush(*device_));
     }
-    // Radius of the scene: of what is visible, about its centre.
+    // Radius of the scene: of the visible objects, about their centre.
     glm::dvec3 lower(1e300), upper(-1e300);
     for (const Box& box : boxes_) {
         lower = glm::min(lower, box.lower);
@@ -399,7 +399,7 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
     const double radius = std::exchange(radius_, 1);
     radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
 
-    // Nothing that shines was changed, and what the sky and distant lights reach is as large as it was.
+    // No emitter changed, and the extent lit by the sky and distant lights is the same.
     if (!all && !lights_touched_ && (radius == radius_ || (!env && scene.lights.live() == 0))) return {};
 
     light_alpha_ = glow_ = false;
@@ -465,7 +465,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     d.light_count = std::uint32_t(lights_.size());
     d.environment.light = light_table_.environment;
     if (const auto& env = scene.environment.value) {
-        glm::dmat3 rotation(env->light_to_world); // directions know no size: a scale drops out
+        glm::dmat3 rotation(env->light_to_world); // directions are scale-free: a scale cancels
         rotation /= std::max(std::cbrt(std::abs(glm::determinant(rotation))), 1e-300);
         d.environment.world_from_env = glm::mat3(rotation);
         d.environment.env_from_world = glm::mat3(glm::inverse(rotation));

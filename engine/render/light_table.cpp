@@ -33,7 +33,7 @@ glm::dvec3 outward_normal(const scene::Instance& instance, const scene::MeshData
 
 namespace {
 
-// What shaders/lib/light.glsl (light_offset) needs to end shadow rays before a triangle of a light: `offset`, the part
+// Inputs of light_offset (shaders/lib/light.glsl), which ends shadow rays before a light's triangle: `offset`, the part
 // that does not depend on the ray, and `condition`. Error analysis as in shaders/lib/ray_offset.glsl.
 struct Rounding {
     double offset, condition;
@@ -53,7 +53,7 @@ Rounding light_rounding(const glm::dmat4& object_to_render, const scene::MeshDat
     const glm::dvec3 move = glm::abs(glm::dvec3(object_to_render[3])),
                      corner = glm::abs(v0) + glm::abs(v1) + glm::abs(v2);
     const glm::dvec3 edges = glm::abs(b) + glm::abs(c);
-    // A long thin triangle knows its own normal badly.
+    // A long thin triangle's normal is ill-conditioned.
     const double thin =
         glm::length(b) * glm::length(c) / glm::length(glm::cross(b, c)) * (glm::length(b) + glm::length(c));
     const glm::dvec3 point = glm::abs(glm::dvec3(object_to_render * glm::dvec4(v0, 1))) + edges;
@@ -63,8 +63,8 @@ Rounding light_rounding(const glm::dmat4& object_to_render, const scene::MeshDat
 }
 
 LightData quadric_light(const scene::Quadric& q, const glm::dmat4& place, const Emitter& emits) {
-    // Bounds as of triangles, but along whatever normal, and with the quadric's own: the point that was sampled, and
-    // what solving for it loses, are each some ulps of its size.
+    // Bounds like those of triangles, but along any normal, and with the quadric's own: the sampled point, and
+    // the error of solving for it, are each a few ulps of its size.
     constexpr double eps = 0x1p-24;
     const glm::dmat3 m(place);
     glm::dmat3 scale(0), inverse(0);
@@ -87,7 +87,7 @@ LightData quadric_light(const scene::Quadric& q, const glm::dmat4& place, const 
     return light;
 }
 
-// Of an affine image: areas grow by |det m| |m^-T n|. Over a lattice: it only chooses among lights.
+// Under an affine map areas grow by |det m| |m^-T n|. Over a lattice: it only chooses among lights.
 double world_area(const scene::Quadric& q, const glm::dmat3& m) {
     const glm::dmat3 normals = glm::transpose(glm::inverse(m));
     double sum = 0, weights = 0;

@@ -44,7 +44,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
             continue;
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
-        if (line.texturable && type.is_textured(i)) { // else it carries no texture code
+        if (line.texturable && type.is_textured(i)) { // otherwise omit texture code
             const std::string id = fmt::format("w.at[at + {}]", at + n);
             const bool color = line.type == model::ParamType::color;
             fetch += fmt::format("    if ({0} != 0u) m.{1} = {2}(scene, {0}, where{3});\n", id, line.id,
@@ -67,7 +67,7 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
     const std::string texture_code = compose_textures(textures, source);
     source.text = fmt::format(
         R"(#version 460
-// revision {revision:016x} of the plugin's table and files: what is made of this text is made anew when they change
+// revision {revision:016x} of the plugin's table and files: shaders made from this text are rebuilt when they change
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 {rt}#define RESTAGE_GLSL 1
@@ -96,8 +96,8 @@ Spectrum material_albedo(Material m, vec3 wo) {{ return {p}_albedo({m}, wo); }}
                                                 "struct Material {{ {}_Params params; Site site; }};\n",
                                                 prefix)
                                   : fmt::format("#define Material {}_Params\n", prefix)),
-        fmt::arg("result", site ? "Material x;\n    x.params = m; // the site is the caller's to fill in\n    return x;"
-                                : "return m;"),
+        fmt::arg("result",
+                 site ? "Material x;\n    x.params = m; // the caller fills in the site\n    return x;" : "return m;"),
         fmt::arg("m", site ? "m.params, m.site" : "m"),
         fmt::arg("spectral", mode == ColorMode::spectral ? "#define RESTAGE_SPECTRAL 1\n" : ""),
         fmt::arg("tables", tables ? "#include \"lib/table.glsl\"\n" : ""),

@@ -13,7 +13,7 @@
 
 namespace restage::render {
 
-// What the whole scene does not use; see the constants of shaders/lib/scene.glsl.
+// Features the scene uses; see the constants in shaders/lib/scene.glsl.
 struct SceneFeatures {
     bool environment = false;
     bool lens = false;
@@ -22,29 +22,29 @@ struct SceneFeatures {
     bool borders = false; // of media, at surfaces that rays pass
     bool emission_textures = false;
     bool light_alpha = false; // some lamp has alpha below 1
-    bool glow = false;        // some lamp is no surface
+    bool glow = false;        // some lamp has no surface
     bool quadrics = false;    // spheres, disks, cylinders
     std::uint32_t camera = 0; // CAMERA_*
     bool operator==(const SceneFeatures&) const = default;
 };
 
-// What a Spectrum is in the composed shader: see shaders/restage/v1/spectrum.glsl. Nothing renders spectrally yet.
+// What a Spectrum is in the composed shader: see shaders/restage/v1/spectrum.glsl. There is no spectral rendering yet.
 enum class ColorMode { rgb, spectral };
 
-// `main_file`: "wave_shade.glsl" or what another tracer wraps around path_step.
+// `main_file`: "wave_shade.glsl" or another tracer's wrapper around path_step.
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage,
                                    ColorMode = ColorMode::rgb, std::span<const TextureType> textures = {});
 // Does its shader look textures up? Then it is composed with the types of the scene.
 bool evaluates_textures(const SceneFeatures&, const MaterialType&);
 
-// What runs in place of a material that is still being compiled: `type` (diffuse) with its defaults, in the material's
+// The stand-in for a material that is still compiling: `type` (diffuse) with its defaults, in the material's
 // own colour; see MaterialData::params.
 gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage);
 
-// Does a material's GLSL compile in what renders it? No device is needed. For Registry::set_judge. [main]
+// Does a material's GLSL compile within the kernel that renders it? Needs no device. For Registry::set_judge. [main]
 plugin::Registry::Judge material_judge(std::filesystem::path shader_dir);
 
-// For a material's shader: what this type uses; or for a kernel without material.
+// For a material's shader: the features this type uses; or for a kernel without material.
 std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures&, bool guides, Strategy,
                                               const MaterialType* = nullptr);
 

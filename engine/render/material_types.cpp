@@ -42,7 +42,7 @@ void pack_value(const model::Param& line, const scene::ParamSet& params, std::ve
     const scene::Value value = set ? *set : scene::default_value(line);
     switch (line.type) {
         case model::ParamType::color:
-            for (int k = 0; k < 3; ++k) // a number where a colour is asked for is a grey
+            for (int k = 0; k < 3; ++k) // a number used as a colour is grey
                 words.push_back(
                     std::bit_cast<std::uint32_t>(value.type == model::ParamType::color ? value.v[k] : value.scalar()));
             break;
@@ -82,7 +82,7 @@ std::string word_layout(const model::Material* table) {
     std::string layout;
     for (const model::Param& line : table ? model::ParamTable(table->params) : model::ParamTable())
         layout += " " + std::to_string(value_words(line)) + "+" + std::to_string(line_words(line) - value_words(line)) +
-                  (line.type == model::ParamType::table ? "t" : ""); // no number is taken for an address
+                  (line.type == model::ParamType::table ? "t" : ""); // keeps numbers from being read as addresses
     return layout;
 }
 
@@ -92,7 +92,7 @@ std::array<std::uint32_t, 3> stand_in_color(const model::Material& table, const 
         if (line.type != model::ParamType::color || line.max != 1) continue;
         if (table.emission && table.emission->radiance == line.id) continue;
         const scene::Value* set = params.find(line.id);
-        color = set && !set->texture ? *set : scene::default_value(line); // beside a texture the number says nothing
+        color = set && !set->texture ? *set : scene::default_value(line); // with a texture the number is unused
         break;
     }
     std::array<std::uint32_t, 3> words{};

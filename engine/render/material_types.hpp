@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The material types a scene uses, and how a material's values lie in the parameter words that shaders read.
+// The material types a scene uses, and the layout of a material's values in the parameter words that shaders read.
 // render/material_composer.cpp writes the GLSL that reads what pack_material writes: both follow for_each_word.
 #pragma once
 
@@ -22,14 +22,14 @@ namespace restage::render {
 struct MaterialPlugin {
     const model::Material* table = nullptr;
     std::filesystem::path folder; // where its GLSL is
-    // Holds the table and the text of the GLSL; nullptr: the table outlives the renderer, and the folder is read.
+    // Owns the table and the text of the GLSL; nullptr: the table outlives the renderer, and the folder is read.
     std::shared_ptr<const plugin::MaterialSource> source = nullptr;
-    Blame blame = {}; // of a crash while it is compiled
+    Blame blame = {}; // for a crash while it is compiled
     bool emits() const { return table && table->emission; }
     std::uint64_t revision() const { return source ? source->revision() : 0; }
 };
-// Finds the plugin of a material type; nullopt = there is none. Asked at each Renderer::sync: an answer of another
-// revision than before is composed anew. [any]
+// Finds the plugin of a material type; nullopt if there is none. Called at each Renderer::sync: a new
+// revision is recomposed. [any]
 struct MaterialLookup {
     using Find = std::function<std::optional<MaterialPlugin>(const std::string& type)>;
     Find find;
@@ -44,20 +44,20 @@ struct MaterialLookup {
     MaterialLookup(Find finds, TextureLookup finds_textures)
         : find(std::move(finds)), textures(std::move(finds_textures)) {}
 };
-MaterialLookup material_lookup(const plugin::Registry& registry); // `registry` outlives what uses it
+MaterialLookup material_lookup(const plugin::Registry& registry); // `registry` must outlive its users
 
 struct MaterialType {
     std::string type;
     MaterialPlugin plugin;
-    std::vector<bool> textured; // by table line, up to the last in which some material of the scene has a texture
-    bool used = false;          // by a visible instance; types are never taken away
+    std::vector<bool> textured; // by table line, up to the last one textured by any material of the scene
+    bool used = false;          // by a visible instance; types are never removed
     bool bump = false;          // some material of the type has a bump or normal map
     bool is_textured(std::size_t line) const { return line < textured.size() && textured[line]; }
     bool mix() const { return plugin.table && plugin.table->mix; }
     bool null_surface() const { return plugin.table && plugin.table->null_surface; }
 };
 
-// Words of one table line: its components, then the texture when it may have one. Lines shaders never see have none.
+// Words of one table line: its components, then the texture if it may have one. Lines unseen by shaders have none.
 std::uint32_t value_words(const model::Param&);
 inline std::uint32_t line_words(const model::Param& p) {
     const auto n = value_words(p);
@@ -69,22 +69,22 @@ struct DeviceTable {
     std::uint64_t address = 0;
     std::uint32_t size = 0; // words
 };
-// The file a model::ParamType::table line names: what is set, else its default; "" = none.
+// The file of a model::ParamType::table line: the set one, else its default; "" = none.
 std::string table_path(const model::Param& line, const scene::ParamSet&);
 
-// The words of one material: values of the table's lines in order, defaults where nothing is set. `tables`: of its
-// model::ParamType::table lines, in order; those that are missing are empty.
+// The words of one material: values of the table's lines in order, defaults if unset. `tables`: of its
+// model::ParamType::table lines, in order; missing ones are empty.
 std::vector<std::uint32_t> pack_material(const model::Material&, const scene::ParamSet&,
                                          std::span<const DeviceTable> tables = {});
 
 // Appends the words of one line's value, its texture aside; `table`: of a model::ParamType::table line.
 void pack_value(const model::Param&, const scene::ParamSet&, std::vector<std::uint32_t>&, DeviceTable table = {});
 
-// How those words lie, as a text: shaders composed for one table read what was packed for another of the same layout.
+// The layout of those words, as text: shaders composed for one table can read words packed for another of equal layout.
 std::string word_layout(const model::Material*);
 
-// What the material looks like while its shader is being compiled: its first colour that is a reflectance, or grey.
-// Lies in the three words before its own, for compose_stand_in.
+// The material's colour while its shader is compiling: its first reflectance colour, or grey.
+// Stored in the three words before its own, for compose_stand_in.
 std::array<std::uint32_t, 3> stand_in_color(const model::Material&, const scene::ParamSet&);
 
 } // namespace restage::render

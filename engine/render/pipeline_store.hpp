@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PipelineStore: pipelines by what they are made of. Who wants one gets its entry at once; it is built on a worker,
-// kept for the next who wants the same, and cancelled when nobody wants it any more. One thread at a time.
+// PipelineStore: pipelines keyed by their inputs. A request returns an entry immediately; it is built on a worker,
+// shared with later requests for the same, and cancelled when no longer wanted. One thread at a time.
 #pragma once
 
 #include "gpu/pipeline_builder.hpp"
@@ -17,7 +17,7 @@
 
 namespace restage::render {
 
-// What a pipeline is made of, as a number. Files that a shader includes are not part of it.
+// Hash of a pipeline's inputs. Files that a shader includes are not part of it.
 std::uint64_t request_key(const gpu::ComputeRequest&);
 std::uint64_t request_key(const gpu::RayTracingRequest&);
 
@@ -28,11 +28,11 @@ class PipelineStore {
         std::conditional_t<std::is_same_v<Pipeline, gpu::ComputePipeline>, gpu::ComputeRequest, gpu::RayTracingRequest>;
     using Clock = std::chrono::steady_clock;
     struct Entry {
-        std::string what; // for people: "diffuse"
+        std::string what; // for display: "diffuse"
         std::shared_ptr<const Pipeline> pipeline; // nullptr: building, or failed
         std::string error;                        // why it failed
         bool building() const { return future.valid() && !cancelled(); }
-        bool cancelled() const { return stop.stop_requested(); } // want it again, or never
+        bool cancelled() const { return stop.stop_requested(); } // must be requested again
 
       private:
         friend class PipelineStore;
@@ -48,7 +48,7 @@ class PipelineStore {
 
     using EntryPtr = std::shared_ptr<Entry>;
 
-    // The entry of what `request` describes; its building begins when nobody asked before.
+    // The entry for `request`; the first request starts building it.
     EntryPtr want(const std::string& what, Request request) {
         EntryPtr& entry = entries_[request_key(request)];
         if (!entry) {
@@ -61,13 +61,13 @@ class PipelineStore {
         keep(entry);
         return entry;
     }
-    void keep(const EntryPtr& entry) { // it is still wanted
+    void keep(const EntryPtr& entry) { // marks it as still wanted
         entry->wanted = true;
         poll(entry);
     }
-    void poll(const EntryPtr& entry) { take(*entry, std::chrono::seconds(0)); } // looks whether it is built
+    void poll(const EntryPtr& entry) { take(*entry, std::chrono::seconds(0)); } // checks whether it is built
 
-    // Until it is built. False: keep_going said to stop.
+    // Waits until it is built. False: keep_going requested a stop.
     Result<bool> wait(const EntryPtr& entry, const std::function<bool()>& keep_going) {
         entry->wanted = true;
         while (!take(*entry, std::chrono::milliseconds(10)))
@@ -76,7 +76,7 @@ class PipelineStore {
         return true;
     }
 
-    // Builds that nobody wanted since the last call are cancelled; errors and, of many, idle pipelines are forgotten.
+    // Cancels builds not wanted since the last call; forgets errors and, if there are many, idle pipelines.
     void settle() {
         const bool many = entries_.size() > 64;
         std::erase_if(entries_, [&](auto& e) {
@@ -115,7 +115,7 @@ class PipelineStore {
     }
 
     std::unordered_map<std::uint64_t, EntryPtr> entries_;
-    gpu::PipelineBuilder builder_; // goes first: it ends what is begun
+    gpu::PipelineBuilder builder_; // destroyed first: it finishes started builds
 };
 
 } // namespace restage::render

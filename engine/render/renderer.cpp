@@ -26,9 +26,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
     }
     if (!std::filesystem::exists(self->options_.shader_dir / "path/step.glsl"))
         return fail(self->options_.shader_dir.string() +
-                    ": Restage's shaders are not there; the installation is incomplete");
+                    ": Restage's shaders are missing; the installation is incomplete");
     if (self->options_.cache_dir.empty())
-        if (auto cache = cache_dir()) self->options_.cache_dir = std::move(*cache); // without: the device says so
+        if (auto cache = cache_dir()) self->options_.cache_dir = std::move(*cache); // if missing: the device reports it
 
     if (!options.tracer.empty() && !find_tracer(options.tracer))
         return fail(
@@ -68,9 +68,8 @@ Result<void> Renderer::revive(const scene::Scene& scene) {
         return fail(
             "the graphics driver stopped again at once (VK_ERROR_DEVICE_LOST): this scene may be too much for it. Try "
             "a "
-            "smaller picture, another --device or --tracer embree; if it stays, update the driver");
-    log_->warning(
-        "the graphics driver stopped (VK_ERROR_DEVICE_LOST); it is started again, and the picture begins anew");
+            "smaller picture, another --device or --tracer embree; if it persists, update the driver");
+    log_->warning("the graphics driver stopped (VK_ERROR_DEVICE_LOST); it is restarted, and so is the picture");
     forget_clay();
     film_.reset();
     tracer_.reset();
@@ -106,7 +105,7 @@ void Renderer::forget_scene() {
     samples_ = 0;
 }
 
-// What scenes made in code may hold although no edit or importer lets it in; the rest is checked where it is derived.
+// Checks for scenes built in code, which bypass edits and importers; the rest is checked during derivation.
 static Result<void> check_view(const scene::Scene& scene) {
     const auto refuse = [](const auto& thing) -> Result<void> {
         for (const auto& p : scene::value_problems(thing))
@@ -131,7 +130,7 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
         const glm::uvec4 window = scene::crop_window(f);
         const glm::uvec2 lower(window.x, window.z), upper(window.y, window.w);
         if (upper.x <= lower.x || upper.y <= lower.y)
-            return fail(fmt::format("the film's crop window [{} {} {} {}] holds no pixel", f.crop.x, f.crop.y, f.crop.z,
+            return fail(fmt::format("the film's crop window [{} {} {} {}] has no pixels", f.crop.x, f.crop.y, f.crop.z,
                                     f.crop.w));
         crop_origin_ = lower;
         if (!film_ || film_->width() != upper.x - lower.x || film_->height() != upper.y - lower.y) {
@@ -157,7 +156,7 @@ Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_g
         return !stopped;
     };
     RESTAGE_CHECK(tracer_->trace(*gpu_scene_, *film_, request));
-    // Stopped within a pass, some pixels have more samples than others: what all of them have is what counts.
+    // If stopped within a pass, some pixels have more samples than others: count what all of them have.
     samples_ = stopped ? film_->least_samples() : samples_ + samples;
     if (samples_ > 0) revived_ = false;
     return {};

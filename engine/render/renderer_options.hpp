@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a Renderer is opened. Without Vulkan: for those who only pass it on.
+// Options for opening a Renderer. Free of Vulkan, for code that only passes them on.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct DeviceFault;
 
 namespace restage::render {
 
-// How light is sampled; the last two are there for tests of the first.
+// How light is sampled; the last two exist to test the first.
 enum class Strategy : std::uint32_t { mis = 0, light_only = 1, bsdf_only = 2 };
 
 struct RendererOptions {
@@ -23,8 +23,8 @@ struct RendererOptions {
     unsigned threads = 0;          // for Embree; 0 = all
     std::uint32_t seed = 0;
     Strategy strategy = Strategy::mis;
-    // False: trace() waits until what it needs is compiled. True (for an editor): it does not; meanwhile a material
-    // looks as it did before it changed, or, being new, like a diffuse one of its colour. See Renderer::compiling().
+    // False: trace() waits for compilation. True (for an editor): it does not; meanwhile a material
+    // looks as before its change or, if new, like a diffuse one of its colour. See Renderer::compiling().
     bool stand_ins = false;
     std::filesystem::path shader_dir; // empty = <program>/../share/restage/shaders
     std::filesystem::path cache_dir; // empty = base's cache_dir()

@@ -15,14 +15,14 @@ class TableStore {
   public:
     explicit TableStore(gpu::Device& device) : device_(&device) {}
 
-    // Of the model::ParamType::table lines of a material, in their order. Reads and uploads what is new or has changed.
+    // For the model::ParamType::table lines of a material, in order. Reads and uploads new or changed ones.
     Result<std::vector<DeviceTable>> find(const MaterialPlugin&, const scene::ParamSet&);
-    // Between these two everything that stays is asked for with find; the rest is dropped.
+    // Tables not requested with find between these two calls are dropped.
     void begin();
     void sweep();
 
     std::size_t bytes() const; // of device memory
-    std::size_t uploaded_bytes() const { return uploaded_bytes_; } // ever
+    std::size_t uploaded_bytes() const { return uploaded_bytes_; } // in total
 
   private:
     struct Held {

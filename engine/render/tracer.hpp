@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracer: who finds the hits. Two of them, over one path step; both fill the same film with the same picture.
+// Tracer: finds the hits. There are two, sharing one path step; both fill the same film with the same picture.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -29,10 +29,10 @@ struct TracerContext {
 };
 
 struct TraceRequest {
-    std::uint32_t first_sample = 0, samples = 1; // a pixel
+    std::uint32_t first_sample = 0, samples = 1; // per pixel
     std::uint32_t seed = 0;
     std::uint32_t crop_x = 0, crop_y = 0; // of the film's first pixel within the camera's
-    // Asked between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.
+    // Called between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.
     std::function<bool()> keep_going;
 };
 
@@ -40,30 +40,30 @@ struct TraceStats {
     std::uint64_t rays = 0, shadow_rays = 0, paths = 0;
     double seconds = 0, seconds_shading = 0, seconds_tracing = 0; // wall
     std::map<std::string, std::uint64_t> not_finite;              // samples dropped, by material type
-    std::uint64_t dropped = 0; // samples the film did not take: not finite, or too large to square. Lights or the sky
+    std::uint64_t dropped = 0; // samples rejected by the film: non-finite, or too large to square. Lights or the sky
     std::size_t shader_bytes = 0; // SPIR-V of all kernels in use
 };
 
-// What workers compile meanwhile.
+// What workers are compiling.
 struct CompileProgress {
     std::string what; // a material type, or a part of the tracer
-    std::size_t left = 0; // things to compile, `what` among them
-    double seconds = 0; // since `what` was asked for
+    std::size_t left = 0; // number of things to compile, including `what`
+    double seconds = 0; // since `what` was requested
 };
 
 class Tracer {
   public:
     virtual ~Tracer() = default;
     virtual const char* name() const = 0;
-    virtual const EmbreeScene* embree() const { return nullptr; } // what it finds hits with, if that
-    // Brings acceleration structures up to date, and notes which shaders the scene now wants.
+    virtual const EmbreeScene* embree() const { return nullptr; } // if it finds hits with Embree
+    // Updates acceleration structures, and records which shaders the scene now needs.
     virtual Result<void> update(const GpuScene& scene, const SceneChanges& changes) = 0;
-    // Uses from now on what has been compiled in the meantime. True: it looks different, the film must start again.
-    // What the last trace() did not need is no longer compiled: an edit that is undone cancels what it asked for.
+    // Switches to newly compiled shaders. True: the picture differs, the film must restart.
+    // Cancels compilation of what the last trace() did not need: undoing an edit cancels its requests.
     virtual bool adopt() = 0;
-    // nullopt: the film holds nothing but what was asked for.
+    // nullopt: the film has no stand-ins.
     virtual std::optional<CompileProgress> compiling() const = 0;
-    virtual void film_emptied() = 0; // what it showed is no longer seen
+    virtual void film_emptied() = 0; // forgets which stand-ins were seen
     // Adds samples to the film; waits. Shaders are compiled when a path first needs them.
     virtual Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) = 0;
     const TraceStats& stats() const { return stats_; }

@@ -16,7 +16,7 @@ constexpr TracerKind kinds[] = {
      .suits = [](const gpu::DeviceInfo&) { return 1; }},
     {.name = "vulkan",
      .label = "Vulkan",
-     .says = "on the graphics card, where it can",
+     .says = "on the graphics card, if supported",
      .make = make_vulkan_tracer,
      .suits = [](const gpu::DeviceInfo& d) { return d.ray_tracing && d.type != gpu::DeviceType::cpu ? 2 : 0; },
      .needs_ray_tracing = true},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tracers there are: what the renderer chooses from, and what the command line, the editor and Python offer. A new
-// one is its file and its row in tracers.cpp.
+// The available tracers: the renderer chooses from them, and the command line, the editor and Python offer them. A new
+// one needs its file and a row in tracers.cpp.
 #pragma once
 
 #include "render/tracer.hpp"
@@ -17,12 +17,12 @@ struct TracerKind {
     const char* label;     // in menus
     const char* says;      // "on the processor"
     Result<std::unique_ptr<Tracer>> (*make)(const TracerContext&);
-    int (*suits)(const gpu::DeviceInfo&); // the highest is taken where nobody chooses
+    int (*suits)(const gpu::DeviceInfo&); // the default is the highest
     bool needs_ray_tracing = false;       // of the device
 };
 std::span<const TracerKind> tracer_kinds();
 std::vector<std::string> tracer_names();
-const TracerKind* find_tracer(std::string_view name); // null: there is none
+const TracerKind* find_tracer(std::string_view name); // null if there is none
 const TracerKind& best_tracer(const gpu::DeviceInfo&);
 
 } // namespace restage::render

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `vulkan` tracer: one ray-tracing pipeline. Raygen loops over a path, a callable a material type does the path
-// step, a Blas a mesh and one Tlas over the instances find the hits. The pipeline is built on a worker. A frame goes to
+// The `vulkan` tracer: one ray-tracing pipeline. Raygen loops over a path, a callable per material type does the path
+// step, a Blas per mesh and one Tlas over the instances find the hits. The pipeline is built on a worker. Frames go to
 // the device in rectangles whose size follows from measured time, so that no submission holds the device for long.
 #include "base/file.hpp"
 #include "gpu/accel.hpp"
@@ -21,13 +21,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double submit_seconds = 0.02; // aimed at; the window stays alive
+constexpr double submit_seconds = 0.02; // target; keeps the window responsive
 constexpr std::uint32_t least_side = 8; // of a rectangle, in pixels: coherent rays
 
-constexpr std::uint32_t group_opaque = 0, group_cut_out = 1, group_quadrics = 2; // then the same two of quadrics
+constexpr std::uint32_t group_opaque = 0, group_cut_out = 1, group_quadrics = 2; // then the same two for quadrics
 constexpr unsigned mask_surfaces = 1, mask_borders = 2, mask_shadows = 4; // of shaders/trace_common.glsl
 
-// Callables of a pipeline for so many types: room for more that come to the scene while it still renders.
+// Number of callables for so many types: with room for more that are added while rendering continues.
 std::size_t callable_slots(std::size_t types) { return (types / 32 + 1) * 32; }
 
 struct Rectangle {
@@ -41,7 +41,7 @@ class VulkanTracer final : public Tracer {
 
     Result<void> start() {
         if (!c_.device.info().ray_tracing)
-            return fail("the vulkan tracer needs a device that traces rays: " + c_.device.info().missing_ray_tracing);
+            return fail("the vulkan tracer needs a device with ray tracing: " + c_.device.info().missing_ray_tracing);
         RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), gpu::BufferKind::readback,
                                                        "counters"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
@@ -57,7 +57,7 @@ class VulkanTracer final : public Tracer {
         if (grown) {
             RESTAGE_TRY(tlas_, gpu::Tlas::create(c_.device, n + n / 2, "instances"));
         }
-        // fewer: a larger scene was forgotten, and with it the meshes that the acceleration structure points at
+        // fewer: a larger scene was forgotten, and with it the meshes referenced by the acceleration structure
         const bool resized = n != std::exchange(instances_, n);
         if (!grown && !resized && changes.instances.empty() && changes.meshes.empty()) return {};
         tlas_.resize(n);
@@ -79,7 +79,7 @@ class VulkanTracer final : public Tracer {
             arrive();
             return std::exchange(shown_, false);
         }
-        if (shown_) c_.log.error(wanted_->error); // it stays as it looks now, until something changes
+        if (shown_) c_.log.error(wanted_->error); // the current look stays until something changes
         if (shown_) wanted_ = nullptr;
         return false;
     }
@@ -143,7 +143,7 @@ class VulkanTracer final : public Tracer {
         return {};
     }
 
-    // The geometry of all quadrics: a box, which instances place around each.
+    // The geometry of all quadrics: one box, placed around each by its instance.
     Result<void> build_box() {
         const VkAabbPositionsKHR unit{-1, -1, -1, 1, 1, 1};
         RESTAGE_TRY(gpu::Buffer buffer, c_.device.create_buffer(sizeof unit, gpu::BufferKind::host, "box of quadrics"));
@@ -156,7 +156,7 @@ class VulkanTracer final : public Tracer {
 
     gpu::TlasInstance tlas_instance(const GpuScene& scene, std::uint32_t i) const {
         gpu::TlasInstance out;
-        if (!scene.traced(i) && !scene.border(i)) return out; // nothing is there
+        if (!scene.traced(i) && !scene.border(i)) return out; // empty
         const shared::InstanceData& data = scene.instances()[i];
         const glm::mat4x3 placement = scene.placement(i);
         for (int row = 0; row < 3; ++row)
@@ -173,7 +173,7 @@ class VulkanTracer final : public Tracer {
         return out;
     }
 
-    // One callable a material type, at the type's index. `plain`: a stand-in for all of them.
+    // One callable per material type, at the type's index. `plain`: a stand-in for all of them.
     Result<gpu::RayTracingRequest> request(const GpuScene& scene, bool plain) const {
         gpu::RayTracingRequest r{.misses = {1},
                                  .hit_groups = {{2, gpu::RayTracingRequest::none}, {2, 3}},
@@ -197,12 +197,12 @@ class VulkanTracer final : public Tracer {
             r.shaders.push_back(std::move(source));
         }
         const auto& types = scene.types();
-        const std::size_t placeholder = scene.materials()[0].type; // the first type of all
+        const std::size_t placeholder = scene.materials()[0].type; // the first type
         const auto shader = [&](gpu::ShaderSource source) {
             r.shaders.push_back(std::move(source));
             return r.shaders.size() - 1;
         };
-        std::size_t stand_in = 0; // the index of its shader; 0: there is none yet
+        std::size_t stand_in = 0; // index of its shader; 0: none yet
         const auto add_stand_in = [&] {
             if (!stand_in)
                 stand_in =
@@ -220,7 +220,7 @@ class VulkanTracer final : public Tracer {
                 r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));
             } else if (plain || c_.stand_ins) {
                 add_stand_in();
-            } else { // never called (mixes are resolved before, interfaces are passed), but keeps its index
+            } else { // never called (mixes are resolved earlier, interfaces are passed), but keeps its index
                 r.callables.push_back(r.callables.at(placeholder));
                 r.callable_constants.push_back(r.callable_constants.at(placeholder));
             }
@@ -248,10 +248,10 @@ class VulkanTracer final : public Tracer {
         wanted_ = nullptr;
     }
 
-    // A pipeline for the scene; perhaps one with stand-ins. False: keep_going said to stop.
+    // A pipeline for the scene, possibly with stand-ins. False: keep_going requested a stop.
     Result<bool> prepare(const GpuScene& scene, const std::function<bool()>& keep_going) {
         if (!wanted_) return true;
-        if (wanted_->cancelled()) RESTAGE_CHECK(select(scene)); // it was not wanted long enough
+        if (wanted_->cancelled()) RESTAGE_CHECK(select(scene)); // it was unwanted for too long
         if (!wanted_) return true;
         if (!c_.stand_ins) {
             RESTAGE_TRY(const bool built, store_.wait(wanted_, keep_going));
@@ -263,7 +263,7 @@ class VulkanTracer final : public Tracer {
         const bool fits =
             pipeline_ && wanted_types_.size() <= callable_slots(pipeline_types_.size()) &&
             std::equal(pipeline_types_.begin(), pipeline_types_.begin() + std::ptrdiff_t(n), wanted_types_.begin());
-        if (!fits) { // the first pipeline, or one of another scene
+        if (!fits) { // the first pipeline, or one for another scene
             RESTAGE_TRY(auto made, request(scene, true));
             const auto plain = store_.want("stand-in", std::move(made));
             RESTAGE_TRY(const bool built, store_.wait(plain, keep_going));
@@ -301,7 +301,7 @@ class VulkanTracer final : public Tracer {
         auto counts = counters_.span<std::uint32_t>();
         stats_.rays += std::exchange(counts[COUNTER_RAYS], 0);
         stats_.shadow_rays += std::exchange(counts[COUNTER_SHADOW_RAYS], 0);
-        // Half way to what would have taken the time aimed at; up to four times as much.
+        // Half way to what would have taken the target time; at most four times as much.
         const double wanted = std::min(paths / seconds * submit_seconds, 4.0 * paths_now_);
         paths_now_ = std::uint32_t(std::clamp(0.5 * (paths_now_ + wanted), 64.0, double(1 << 24)));
         return {};
@@ -328,13 +328,13 @@ class VulkanTracer final : public Tracer {
     PipelineStore<gpu::RayTracingPipeline> store_;
     std::shared_ptr<const gpu::RayTracingPipeline> pipeline_;
     std::vector<std::string> pipeline_types_; // of its callables
-    PipelineStore<gpu::RayTracingPipeline>::EntryPtr wanted_; // nullptr: pipeline_ is what it should be
+    PipelineStore<gpu::RayTracingPipeline>::EntryPtr wanted_; // nullptr: pipeline_ is up to date
     std::vector<std::string> wanted_types_;
-    bool shown_ = false; // the film saw something else than what is wanted
+    bool shown_ = false; // the film contains something other than the wanted pipeline's result
     gpu::Buffer counters_, frame_;
     gpu::CommandList list_;
     std::uint32_t instances_ = 0; // in tlas_
-    std::uint32_t paths_now_ = 1024; // a submission
+    std::uint32_t paths_now_ = 1024; // per submission
 };
 
 } // namespace

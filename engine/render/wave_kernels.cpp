@@ -17,7 +17,7 @@ Result<void> WaveKernels::select(const GpuScene& scene) {
     slots_.resize(types_.size());
     before.resize(types_.size());
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        // Another scene, or a plugin that was loaded anew with another table
+        // Another scene, or a plugin reloaded with a different table
         if (slots_[i].what != types_[i].type ||
             word_layout(before[i].plugin.table) != word_layout(types_[i].plugin.table))
             slots_[i] = {.what = types_[i].type};
@@ -101,10 +101,10 @@ Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::f
     for (std::size_t t = 0; t < hits.size(); ++t) {
         if (!hits[t] || slot_of(t)->settled) continue;
         Slot& slot = *slot_of(t);
-        RESTAGE_CHECK(ask(slot)); // all that is missing, before waiting for the first of it
+        RESTAGE_CHECK(ask(slot)); // request all that is missing, before waiting for the first
         if (!c_.stand_ins || slot.shown) continue;
         if (slot.wanted->pipeline)
-            arrive(slot); // built before: nothing else was shown
+            arrive(slot); // already built: no stand-in was shown
         else if (t != escape)
             slot.shown = true;
     }
@@ -128,7 +128,7 @@ const gpu::ComputePipeline& WaveKernels::shade(std::size_t type) const {
 }
 
 bool WaveKernels::adopt() {
-    for (const Slot& slot : slots_) // while its stand-in is seen it is wanted, though the last sample missed it
+    for (const Slot& slot : slots_) // still wanted while its stand-in is visible, even if the last sample missed it
         if (slot.shown && slot.wanted && !slot.wanted->cancelled()) store_.keep(slot.wanted);
     store_.settle();
     bool different = false;
@@ -140,7 +140,7 @@ bool WaveKernels::adopt() {
             different |= slot.shown;
             arrive(slot);
         } else {
-            if (slot.shown && !slot.wanted->cancelled()) { // it stays as it looks now, until something changes
+            if (slot.shown && !slot.wanted->cancelled()) { // the current look stays until something changes
                 c_.log.error(slot.wanted->error);
                 slot.settled = true;
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernels of the wavefront, each built on a worker when a path first needs it: a material type that no path meets
-// costs nothing. Until a kernel is built, the wave waits, or (TracerContext::stand_ins) runs the one before it, or a
+// costs nothing. Until a kernel is built, the wave waits, or (TracerContext::stand_ins) runs the previous one, or a
 // stand-in.
 #pragma once
 
@@ -13,22 +13,22 @@ namespace restage::render {
 
 class WaveKernels {
   public:
-    static constexpr std::uint8_t escape = 254; // counts as a type: paths that left the scene
+    static constexpr std::uint8_t escape = 254; // a pseudo type: paths that left the scene
 
     explicit WaveKernels(const TracerContext& c) : c_(c), store_(c) {}
 
-    // Types and features are those of `scene` from now on. Begins what every wave needs.
+    // Switches to the types and features of `scene`. Starts building what every wave needs.
     Result<void> select(const GpuScene& scene);
-    // Waits for what every wave needs. False: keep_going said to stop.
+    // Waits for what every wave needs. False: keep_going requested a stop.
     Result<bool> begin(const std::function<bool()>& keep_going);
-    // Makes kernels ready for hits of these types (index: type; value: hits). False: keep_going said to stop.
+    // Makes kernels ready for hits of these types (index: type; value: hits). False: keep_going requested a stop.
     Result<bool> need(std::span<const std::uint32_t> hits, const std::function<bool()>& keep_going);
 
     const gpu::ComputePipeline& generate() const { return *generate_.now; }
     const gpu::ComputePipeline& accumulate() const { return *accumulate_.now; }
     const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); `escape` too
 
-    // Of wave_decide.comp, for hits that no native code can decide. False: keep_going said to stop.
+    // Of wave_decide.comp, for hits that no native code can decide. False: keep_going requested a stop.
     Result<bool> need_decide(const std::function<bool()>& keep_going);
     const gpu::ComputePipeline& decide() const { return *decide_.now; } // after need_decide()
 
@@ -41,10 +41,10 @@ class WaveKernels {
     using Store = PipelineStore<gpu::ComputePipeline>;
     struct Slot {
         std::string what; // a type, or a file
-        std::shared_ptr<const gpu::ComputePipeline> now; // what runs; nullptr: a stand-in
-        Store::EntryPtr wanted; // what should; nullptr: not asked for yet, or arrived
+        std::shared_ptr<const gpu::ComputePipeline> now; // runs now; nullptr: a stand-in
+        Store::EntryPtr wanted; // should run; nullptr: not requested yet, or arrived
         bool settled = false; // `now` is what should run
-        bool shown = false; // something else was seen in the film
+        bool shown = false; // the film contains a stand-in's result
     };
     Result<gpu::ComputeRequest> request(const Slot& slot) const;
     Result<void> ask(Slot& slot);

@@ -31,6 +31,6 @@ void compute_bounds(MeshData&); // fills lower and upper from the positions
 // The box of the transformed box: encloses the mesh, not always tightly.
 Bounds world_bounds(const MeshData&, const glm::dmat4& object_to_world);
 Bounds world_bounds(const Scene&, Id<Instance>); // empty for a mesh without data
-Bounds world_bounds(const Scene&);               // of all instances that are not hidden
+Bounds world_bounds(const Scene&);               // of all visible instances
 
 } // namespace restage::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour temperature: the colour of a black body, as lamps are labelled with, and back.
+// Colour temperature: the colour of a black body, as printed on lamps, and back.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +13,7 @@ inline constexpr double least_kelvin = 1667, most_kelvin = 25000;
 glm::dvec3 blackbody_color(double kelvin);
 
 // Correlated colour temperature of a linear sRGB colour: McCamy, "Correlated color temperature as an explicit function
-// of chromaticity coordinates", 1992. 0 where it means nothing (black, or far from any black body).
+// of chromaticity coordinates", 1992. 0 if undefined (black, or far from any black body).
 double color_temperature(const glm::dvec3& rgb);
 
 } // namespace restage::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits: undo is data. An edit is one or more changes, each with the whole thing before and after (heavy data is
+// Edits: undo is data. An edit is one or more changes, each with the complete item before and after (heavy data is
 // shared, so this is small). Insert has no before, remove no after. apply() is the only writer of a Scene.
 #pragma once
 
@@ -23,15 +23,14 @@ struct ChangeOne {
 
 template <class... T, class... U>
 std::variant<Change<T>..., ChangeOne<U>...> any_change(const std::tuple<Kind<T>...>&, const std::tuple<Single<U>...>&);
-using AnyChange =
-    decltype(any_change(kinds, singles)); // a Change<T> for each kind, a ChangeOne<T> for each single thing
+using AnyChange = decltype(any_change(kinds, singles)); // a Change<T> per kind, a ChangeOne<T> per single item
 
 struct Edit {
-    std::string label; // "Move chair": what the history shows
+    std::string label; // "Move chair": shown in the history
     std::vector<AnyChange> changes;
 };
 
-void apply(Scene&, const Edit&); // before must be what the scene holds (asserted)
+void apply(Scene&, const Edit&); // before must equal the scene's state (asserted)
 Edit inverse(const Edit&);
 
 } // namespace restage::scene

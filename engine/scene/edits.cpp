@@ -31,7 +31,7 @@ std::string label_for(const Scene& scene, const char* verb, std::span<const Id<I
     return std::string(verb) + " " + std::to_string(ids.size()) + " objects";
 }
 
-// The same change to each of several instances, as one edit.
+// The same change to several instances, as one edit.
 template <class F>
 Result<Edit> modify_each(const Scene& scene, std::span<const Id<Instance>> ids, std::string label, F&& f) {
     Edit edit{std::move(label), {}};
@@ -58,7 +58,7 @@ std::string next_name(std::string name, std::set<std::string>& taken, TriedNumbe
         number = std::stoul(name.substr(digits));
         name.resize(digits - 1);
     }
-    // Who copies "oak 1" to "oak 20000" would else ask 20000 times for each.
+    // Otherwise copying "oak 1" to "oak 20000" would take 20000 lookups each.
     auto* known = tried ? &(*tried)[name] : nullptr;
     const unsigned long first = number;
     const bool inside = known && first >= known->first && first <= known->second;
@@ -109,7 +109,7 @@ Result<Edit> remove_instances(const Scene& scene, std::span<const Id<Instance>> 
         edit.changes.push_back(Change<Instance>{id, *before, std::nullopt});
         if (before->group && --members[before->group.value] == 0) emptied.push_back(before->group);
     }
-    for (std::size_t i = 0; i < emptied.size(); ++i) { // grows: a parent may be emptied by its last child
+    for (std::size_t i = 0; i < emptied.size(); ++i) { // grows: a parent may lose its last child
         const Group* group = scene.groups.find(emptied[i]);
         if (!group) continue;
         edit.changes.push_back(Change<Group>{emptied[i], *group, std::nullopt});
@@ -135,15 +135,15 @@ Edit remove_unused(const Scene& scene) {
         visit_references((scene.*single.one).value, [&](auto target) { mark(mark, target); });
     });
 
-    Edit edit{"Remove what is not used", {}};
+    Edit edit{"Remove unused items", {}};
     each_table(scene, [&]<class T>(const Table<T>& table) {
-        // What stands in the scene is used by itself; the rest lives by what refers to it.
+        // Instances, environment and settings are roots; the rest is alive if referenced.
         if constexpr (!std::is_same_v<T, Instance> && !std::is_same_v<T, Light> && !std::is_same_v<T, Camera>) {
             std::vector<AnyChange> unused;
             table.each([&](Id<T> id, const T& item) {
                 if (!marked.contains({kind_name<T>, id.value})) unused.push_back(Change<T>{id, item, std::nullopt});
             });
-            // What refers goes before what it refers to.
+            // Referrers are removed before their targets.
             edit.changes.insert(edit.changes.begin(), unused.begin(), unused.end());
         }
     });
@@ -158,7 +158,7 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
         if (!scene.instances.find(id)) return missing(id);
         selected.insert(id.value);
     }
-    // A group is copied when all that is in it, at any depth, is selected.
+    // A group is copied if everything in it, at any depth, is selected.
     std::unordered_set<std::uint32_t> touched, kept;
     const auto each_ancestor = [&](Id<Group> group, auto&& f) {
         for (std::size_t depth = 0; scene.groups.find(group) && depth <= scene.groups.size(); ++depth) {
@@ -203,7 +203,7 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
 }
 
 Result<Edit> set_transform(const Scene& scene, Id<Instance> id, const glm::dmat4& object_to_world) {
-    if (!usable(object_to_world)) return fail("the transform is not an invertible affine one");
+    if (!usable(object_to_world)) return fail("the transform is not invertible and affine");
     return modify_each(scene, std::span(&id, 1), label_for(scene, "Move", std::span(&id, 1)),
                        [&](Instance& i) { i.object_to_world = object_to_world; });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builders of edits: each looks at a scene and returns what would change, as data. They never write the scene; what
-// cannot be done (an id that is not there, a material still in use) is an error with a sentence.
+// Builders of edits: each reads a scene and returns the changes as data. They never write the scene; impossible
+// requests (an unknown id, a material still in use) return an error message.
 #pragma once
 
 #include "base/result.hpp"
@@ -16,7 +16,7 @@
 
 namespace restage::scene {
 
-// The id the item will have is table<T>(scene).next().
+// The item's id will be table<T>(scene).next().
 template <class T>
 Edit insert(const Scene& scene, T item, std::string label) {
     Edit edit{std::move(label), {}};
@@ -24,7 +24,7 @@ Edit insert(const Scene& scene, T item, std::string label) {
     return edit;
 }
 
-// f(T&) changes a copy of what `id` holds.
+// f(T&) changes a copy of the item.
 template <class T, class F>
 Result<Edit> modify(const Scene& scene, Id<T> id, std::string label, F&& f) {
     const T* before = table<T>(scene).find(id);
@@ -36,8 +36,8 @@ Result<Edit> modify(const Scene& scene, Id<T> id, std::string label, F&& f) {
     return edit;
 }
 
-// "chair" -> "chair 2", "chair 2" -> "chair 3", past every name that is taken; it is taken then. `tried` makes a long
-// row of names quick: the numbers of each stem, after the first and up to the last, that are known to be taken.
+// "chair" -> "chair 2", "chair 2" -> "chair 3", skipping names in use; marks the result used. `tried` speeds up long
+// series of names: per stem, the range (first, last] known to be in use.
 using TriedNumbers = std::unordered_map<std::string, std::pair<unsigned long, unsigned long>>;
 std::string next_name(std::string name, std::set<std::string>& taken, TriedNumbers* tried = nullptr);
 
@@ -46,7 +46,7 @@ Result<Edit> rename(const Scene& scene, Id<T> id, std::string name) {
     return modify(scene, id, "Rename " + std::string(kind_name<T>), [&](T& item) { item.name = std::move(name); });
 }
 
-// Refused while something refers to it, with the names of what does.
+// Refused while something refers to it; the error names the referrers.
 template <class T>
 Result<Edit> remove(const Scene& scene, Id<T> id);
 extern template Result<Edit> remove(const Scene&, Id<Mesh>);
@@ -58,14 +58,14 @@ extern template Result<Edit> remove(const Scene&, Id<Group>);
 extern template Result<Edit> remove(const Scene&, Id<Light>);
 extern template Result<Edit> remove(const Scene&, Id<Camera>);
 
-// Instances are what a user deletes. Groups left with nothing in them go too; meshes and materials stay.
+// Instances are what a user deletes. Groups left empty go too; meshes and materials stay.
 Result<Edit> remove_instances(const Scene&, std::span<const Id<Instance>>);
-// Every mesh, image, texture, material, medium and group nothing refers to, directly or through others of them.
+// Every mesh, image, texture, material, medium and group that is not referenced, directly or through others.
 Edit remove_unused(const Scene&);
 
 struct Duplicate {
     Edit edit;
-    std::vector<Id<Instance>> copies; // in the order asked for
+    std::vector<Id<Instance>> copies; // in the order requested
 };
 // Copies share mesh and material; `move` is applied in world space. Groups wholly contained in the selection are
 // copied with it; other copies stay in the group of their original. Names get a number: "chair" -> "chair 2".
@@ -78,19 +78,19 @@ Result<Edit> set_emission(const Scene&, Id<Instance>, std::optional<Emission>);
 Result<Edit> set_hidden(const Scene&, std::span<const Id<Instance>>, bool hidden);
 Result<Edit> set_hidden(const Scene&, Id<Light>, bool hidden);
 
-// Drops the lines that hold only while `param` ("*": while everything) is as it was imported. The builders below do it.
+// Drops the lines valid only while `param` ("*": everything) is as imported. The builders below call it.
 void forget_edited(Origin&, std::string_view param);
 Result<Edit> set_param(const Scene&, Id<Material>, std::string_view param, Value);
 Result<Edit> set_param(const Scene&, Id<Texture>, std::string_view param, Value);
 Result<Edit> set_params(const Scene&, Id<Material>, std::span<const std::pair<std::string, Value>>, std::string label);
 Result<Edit> reset_param(const Scene&, Id<Material>, std::string_view param); // back to the table's default
-Result<Edit> set_material_type(const Scene&, Id<Material>, std::string type); // values of other ids stay
+Result<Edit> set_material_type(const Scene&, Id<Material>, std::string type); // values of other ids are kept
 
 // --- edits_material.cpp ---------------------------------------------------------------------------------------------
 
 using model::ParamTable;
-// Changes the type and keeps what both have in common: a value of the same id goes on where the new table can hold it
-// (clamped to its range), else its default holds. The main colour (the first COLOR of range 0..1) and roughness go on
+// Changes the type and keeps common values: a value with the same id is kept if the new table can hold it
+// (clamped to its range), else the default holds. The main colour (first COLOR of range 0..1) and roughness are kept
 // under the new type's names.
 Result<Edit> switch_material_type(const Scene&, Id<Material>, std::string type, ParamTable before, ParamTable after);
 
@@ -98,11 +98,11 @@ struct MadeUnique {
     Edit edit;
     Id<Material> material; // the copy
 };
-// A copy of the material that only these instances have; others keep theirs. An error when none of them has it.
+// A copy of the material for these instances only; others keep theirs. An error if none of them has it.
 Result<MadeUnique> make_unique(const Scene&, std::span<const Id<Instance>>, Id<Material>);
 
-// An `imagemap` of this image stands for the parameter. An image of the same file and encoding that the scene has is
-// shared, and so is a texture that shows it as it is. `scalar`: of one channel.
+// An `imagemap` of this image replaces the parameter. An existing image of the same file and encoding is
+// shared, as is a texture that shows it unmodified. `scalar`: single-channel.
 Result<Edit> set_image_texture(const Scene&, Id<Material>, std::string_view param, model::ParamType type, bool scalar,
                                Image);
 

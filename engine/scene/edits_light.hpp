@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builders of edits of lights without a surface, as edits.hpp has them of other things.
+// Edit builders for lights without a surface, like edits.hpp for other things.
 #pragma once
 
 #include "scene/edits.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builders of edits for what is done to materials: another type, one of one's own, an image for a parameter.
+// Edit builders for materials: change type, make unique, set an image for a parameter.
 #include "scene/edits.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ bool is_roughness(const model::Param& p) {
     return p.type == model::ParamType::number && p.max == 1 && p.id.ends_with("roughness");
 }
 
-// The value as the table line can hold it; nothing where it cannot.
+// The value converted to fit the table line; nullopt if impossible.
 std::optional<Value> fitted(Value value, const model::Param& line) {
     const auto type = line.type;
     if (value.texture && !line.texturable && type != model::ParamType::texture) return {};
@@ -38,11 +38,11 @@ Result<Edit> switch_material_type(const Scene& scene, Id<Material> id, std::stri
                                   ParamTable after) {
     const Material* old = scene.materials.find(id);
     if (!old) return fail("there is no material with id " + std::to_string(id.value));
-    const auto held = [&](const model::Param& line) { // what the old type showed for it
+    const auto held = [&](const model::Param& line) { // the old type's effective value
         const Value* set = old->params.find(line.id);
         return set ? *set : default_value(line);
     };
-    ParamSet params = old->params; // ids of neither table travel along
+    ParamSet params = old->params; // ids in neither table are kept
     for (const model::Param& line : after) {
         const Value* set = params.find(line.id);
         if (!set) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a material emits by itself (restage.emission/1). Lights are made of it by render/, and written by io/.
+// A material's own emission (restage.emission/1). render/ turns it into lights; io/ writes it.
 #pragma once
 
 #include "model/material.hpp"
@@ -11,13 +11,13 @@
 namespace restage::scene {
 
 struct MaterialEmission {
-    glm::vec3 radiance{0}; // [W/(m^2 sr)]; times the texture, where there is one
+    glm::vec3 radiance{0}; // [W/(m^2 sr)]; times the texture, if any
     Id<Texture> texture;
     bool two_sided = false;
     bool operator==(const MaterialEmission&) const = default;
 };
 
-// nullopt = it is dark, or its values are no light: negative or non-finite.
+// nullopt = no emission, or its values are invalid: negative or non-finite.
 std::optional<MaterialEmission> emission_of(const model::Material&, const ParamSet&);
 
 } // namespace restage::scene

@@ -11,7 +11,7 @@ namespace restage::scene {
 
 namespace {
 
-// Of what a change is: its type and, where there are many of that, its id.
+// A change's target: its type and, for tables, its id.
 std::uint64_t target(const AnyChange& change) {
     const std::uint32_t id = std::visit(
         []<class C>(const C& c) -> std::uint32_t {
@@ -30,8 +30,8 @@ void drop_idle_changes(Edit& edit) {
     });
 }
 
-// `later` happened after `edit`: each target keeps its first `before` and gets the last `after`. Changes of different
-// targets commute, and an insert stays where it was first.
+// `later` follows `edit`: each target keeps its first `before` and gets the last `after`. Changes of different
+// targets commute, and an insert keeps its first position.
 void merge(Edit& edit, const Edit& later) {
     std::unordered_map<std::uint64_t, std::size_t> place;
     place.reserve(edit.changes.size());
@@ -47,7 +47,7 @@ void merge(Edit& edit, const Edit& later) {
     drop_idle_changes(edit);
 }
 
-// --- how much an edit holds
+// --- memory held by an edit
 
 std::size_t heap_bytes(const std::string& text) {
     return text.capacity() > std::string().capacity() ? text.capacity() + 1 : 0;
@@ -67,7 +67,7 @@ std::size_t heap_bytes(const Origin& origin) {
     return sum;
 }
 
-// Of a thing, beside itself; not what it shares. A test compares this with the fields of project files.
+// Heap bytes of an item, without shared data. A test compares this with the fields of project files.
 template <class T>
 std::size_t heap_bytes(const T& item) {
     std::size_t sum = 0;
@@ -151,7 +151,7 @@ void History::hold_to_budget() {
         forget(entries_.begin(), entries_.begin() + 1);
         --position_;
         ++dropped_;
-        for (auto* clean : {&clean_, &clean_before_}) // a state before what is the oldest now is unreachable
+        for (auto* clean : {&clean_, &clean_before_}) // a state before the oldest entry is unreachable
             if (*clean) *clean = **clean > 0 ? std::optional(**clean - 1) : std::nullopt;
     }
 }
@@ -165,7 +165,7 @@ bool History::push(Scene& scene, Edit edit, std::string_view gesture) {
         count_shared(running, -1);
         own_bytes_ -= std::exchange(entries_.back().bytes, 0);
         merge(running, edit);
-        if (running.changes.empty()) { // dragged back to where it began
+        if (running.changes.empty()) { // dragged back to the start
             entries_.pop_back();
             --position_;
             end_gesture();
@@ -204,7 +204,7 @@ bool History::cancel_gesture(Scene& scene) {
     if (gesture_.empty() || position_ == 0) return false;
     apply(scene, inverse(entries_[position_ - 1].edit));
     forget(entries_.begin() + std::ptrdiff_t(--position_), entries_.end());
-    std::ranges::move(redo_before_, std::back_inserter(entries_)); // comes back, and so does the saved state
+    std::ranges::move(redo_before_, std::back_inserter(entries_)); // restored, and so is the saved state
     redo_before_.clear();
     clean_ = clean_before_;
     end_gesture();

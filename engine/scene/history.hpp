@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// History: the edits of a document in order, and where in them the scene stands. A gesture (a drag, a slider) is one
-// entry: pushes with the same key are merged until the gesture ends. What it may hold is bounded: beyond a budget of
-// bytes the oldest edits are dropped, and what they changed can no longer be undone.
+// History: the edits of a document in order, and the scene's position among them. A gesture (a drag, a slider) is one
+// entry: pushes with the same key are merged until the gesture ends. Memory is bounded: beyond a budget of
+// bytes the oldest edits are dropped and can no longer be undone.
 #pragma once
 
 #include "scene/edit.hpp"
@@ -22,32 +22,32 @@ class History {
     History() = default;
     explicit History(std::size_t budget) : budget_(budget) {}
 
-    // Applies the edit and records it; what could be redone is gone. An edit that changes nothing is not recorded.
-    // `gesture`: not empty = merge with the entry of the same running gesture. True when the scene changed.
+    // Applies the edit and records it; clears redo. An edit that changes nothing is not recorded.
+    // `gesture`: if not empty, merge with the entry of the same running gesture. True if the scene changed.
     bool push(Scene&, Edit edit, std::string_view gesture = {});
     void end_gesture();
-    // Takes back what the running gesture did and forgets it: position, entries and what could be redone are as they
-    // were before it began. True when the scene changed.
+    // Reverts the running gesture and forgets it: position, entries and redo are as they
+    // were before it began. True if the scene changed.
     bool cancel_gesture(Scene&);
 
     bool undo(Scene&); // false = nothing to undo
     bool redo(Scene&);
 
     std::size_t size() const { return entries_.size(); }
-    std::size_t position() const { return position_; } // so many edits are applied
+    std::size_t position() const { return position_; } // number of edits applied
     const std::string& label(std::size_t i) const { return entries_[i].edit.label; }
     std::string_view undo_label() const { return position_ ? std::string_view(label(position_ - 1)) : ""; }
     std::string_view redo_label() const { return position_ < size() ? std::string_view(label(position_)) : ""; }
 
-    // An estimate [bytes]: things before and after, and geometry and pixels that nobody but the history holds any more.
+    // An estimate [bytes]: items before and after, and geometry and pixels held only by the history.
     std::size_t bytes() const;
     std::size_t budget() const { return budget_; }
     void set_budget(std::size_t bytes); // the newest applied edit stays, however large it is
-    std::size_t dropped() const { return dropped_; } // so many edits, for the budget's sake
+    std::size_t dropped() const { return dropped_; } // number of edits dropped to meet the budget
 
-    void mark_clean(); // the scene as it is now is what the file holds
-    std::optional<std::size_t> clean_position() const { return clean_; } // of the saved state, while it can be reached
-    void mark_unsaved() { clean_.reset(); } // no position is what the file holds
+    void mark_clean(); // the current scene equals the file
+    std::optional<std::size_t> clean_position() const { return clean_; } // of the saved state, while reachable
+    void mark_unsaved() { clean_.reset(); } // no position equals the file
     bool clean() const { return clean_ && *clean_ == position_; }
 
   private:
@@ -58,7 +58,7 @@ class History {
     };
     struct Entry {
         Edit edit;
-        std::size_t bytes = 0; // without what is shared
+        std::size_t bytes = 0; // without shared data
     };
     Entry hold(Edit);
     void count_shared(const Edit&, int sign);
@@ -67,10 +67,10 @@ class History {
 
     std::vector<Entry> entries_;
     std::size_t position_ = 0;
-    std::optional<std::size_t> clean_ = 0; // position of the saved state; none = it cannot be reached any more
+    std::optional<std::size_t> clean_ = 0; // position of the saved state; nullopt = unreachable
     std::string gesture_; // key of the running gesture; its entry is entries_[position_ - 1]
-    std::vector<Entry> redo_before_; // what could be redone when the running gesture began
-    std::optional<std::size_t> clean_before_; // the same of clean_
+    std::vector<Entry> redo_before_; // redo entries from when the running gesture began
+    std::optional<std::size_t> clean_before_; // likewise clean_
     std::map<const void*, Shared> shared_;
     std::size_t budget_ = default_budget, own_bytes_ = 0, dropped_ = 0; // own_bytes_: of all entries, and redo_before_
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Id<T>: a 1-based, never reused name of a slot in a Table<T>. Removing leaves a hole, so undo restores the same id.
-// Every change of a slot gives it a new version from the scene's clock; who derives from it compares versions.
+// Every change of a slot gives it a new version from the scene's clock; derived data compares versions.
 #pragma once
 
 #include "base/copy_on_write.hpp"
@@ -26,8 +26,8 @@ struct Id {
     auto operator<=>(const Id&) const = default;
 };
 
-// Copies share slots and items until one of them is changed: a copy costs one reference, and a set() after it the chunk
-// of its slot and the list of chunks, but no other item. Items are immutable once shared, so that copies may be read on
+// Copies share slots and items until one of them changes: a copy costs one reference, a set() after it copies the chunk
+// of its slot and the list of chunks, but no other item. Items are immutable once shared, so copies may be read on
 // other threads.
 template <class T>
 class Table {
@@ -49,9 +49,9 @@ class Table {
         return slot ? slot->version : 0;
     }
     Version version() const { return root_ ? root_->version : 0; } // of the latest change anywhere in the table
-    Id<T> next() const { return {size() + 1}; } // the id the next append gets
+    Id<T> next() const { return {size() + 1}; } // the id of the next append
 
-    // The only way in: nullopt removes. `id` may be next(), or an existing slot.
+    // The only mutator: nullopt removes. `id` is next() or an existing slot.
     void set(Id<T> id, std::optional<T> item, Version version) {
         assert(id && id.value <= size() + 1);
         if (!root_) root_.assign({});
@@ -80,14 +80,14 @@ class Table {
         root.version = version;
     }
 
-    // f(Id<T>, const T&) for every live slot, in order of id. f may change the table: what is walked is what was there.
+    // f(Id<T>, const T&) for every live slot, in order of id. f may change the table: the walk sees a snapshot.
     template <class F>
     void each(F&& f) const {
         walk(0, [&](Id<T> id, const Slot& slot) {
             if (slot.item) f(id, *slot.item);
         });
     }
-    // f(Id<T>, const T*) for every slot that was changed after `version`, null for what was removed.
+    // f(Id<T>, const T*) for every slot changed after `version`; null if removed.
     template <class F>
     void each_changed(Version version, F&& f) const {
         walk(version, [&](Id<T> id, const Slot& slot) {
@@ -96,7 +96,7 @@ class Table {
     }
 
   private:
-    // A set() after a copy counts up a reference for each chunk and each slot of one: n / 128 + 128.
+    // A set() after a copy increments a reference per chunk and per slot of one chunk: n / 128 + 128.
     static constexpr std::uint32_t chunk_slots = 128;
     struct Slot {
         CopyOnWrite<T> item;

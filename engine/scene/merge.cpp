@@ -25,11 +25,11 @@ glm::dvec3 up_axis(const Camera& camera) {
     return result;
 }
 
-// The quarter (or half) turn that takes one axis to another.
+// The quarter (or half) turn from one axis to another.
 glm::dmat3 turn(glm::dvec3 from, glm::dvec3 to) {
     const glm::dvec3 axis = glm::cross(from, to);
-    if (glm::dot(axis, axis) > 0) { // columns: what becomes of x, y, z; v = (v.from) from + (v.axis) axis + rest
-        const glm::dvec3 other = glm::cross(axis, from); // to, in fact
+    if (glm::dot(axis, axis) > 0) { // columns: images of x, y, z; v = (v.from) from + (v.axis) axis + rest
+        const glm::dvec3 other = glm::cross(axis, from); // equals `to`
         const auto turned = [&](glm::dvec3 v) {
             return glm::dot(v, from) * to + glm::dot(v, axis) * axis - glm::dot(v, other) * from;
         };
@@ -56,7 +56,7 @@ class Ids {
     std::unordered_map<std::uint32_t, Id<T>> map_;
 };
 
-// What else becomes of a thing in its new place.
+// Other changes to an item in its new place.
 struct Place {
     glm::dmat4 frame;
     Id<Group> group; // around all of them
@@ -94,7 +94,7 @@ glm::dmat4 frame_change(const Scene& into, const Scene& from) {
     const glm::dvec3 up = up_axis(*there);
     glm::dmat3 change = turn(up_axis(*here), up);
     const auto mirrored = [](const Camera& c) { return glm::determinant(glm::dmat3(c.camera_to_world)) < 0; };
-    if (mirrored(*there) != mirrored(*here)) { // along the axis that is not up and comes last: z where y is up
+    if (mirrored(*there) != mirrored(*here)) { // along the last axis that is not up: z if y is up
         const int axis = up.z != 0 ? 1 : 2;
         for (int column = 0; column < 3; ++column)
             change[column][axis] = -change[column][axis];
@@ -103,7 +103,7 @@ glm::dmat4 frame_change(const Scene& into, const Scene& from) {
 }
 
 Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
-    // What only the environment, the camera or nothing used stays behind.
+    // Items used only by the environment or camera, or not at all, are left behind.
     Scene from = whole;
     from.environment.value.reset();
     from.settings.value.camera_medium = {};
@@ -111,7 +111,7 @@ Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
 
     Merged result;
     result.edit.label = "Insert " + name;
-    // A group around them all comes first, so its own come after it.
+    // The enclosing group comes first, before the inserted groups.
     const bool several = !name.empty() && from.instances.live() + from.lights.live() > 1;
     if (several) result.group = into.groups.next();
     const auto ids = std::apply(

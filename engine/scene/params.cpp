@@ -78,7 +78,7 @@ Value default_value(const model::Param& param) {
 }
 
 std::string misfit(const model::Param& line, const Value& value) {
-    if (line.type != value.type) return " has another type";
+    if (line.type != value.type) return " has a different type";
     if (value.texture && !line.texturable && line.type != ParamType::texture) return " takes no texture";
     if (value.texture) return "";
     if (line.type == ParamType::choice && !line.choice_index(value.text))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ParamSet: the values of a material or texture, by parameter id. Knows nothing of tables: ids that no table knows are
-// kept and travel along.
+// ParamSet: the values of a material or texture, by parameter id. Knows no tables: unknown ids are
+// kept.
 #pragma once
 
 #include "model/param.hpp"
@@ -23,7 +23,7 @@ struct Value {
     std::array<float, 4> v{}; // number, color
     int i = 0;                // integer; boolean: 0 or 1
     std::string text;         // choice, text; table: an absolute path
-    Id<Texture> texture;      // stands for v
+    Id<Texture> texture;      // replaces v
     Id<Material> material;    // material
 
     static Value number(float x) { return {.type = ParamType::number, .v = {x, 0, 0, 0}}; }
@@ -32,7 +32,7 @@ struct Value {
     static Value boolean(bool b) { return {.type = ParamType::boolean, .i = b}; }
     static Value choice(std::string text) { return {.type = ParamType::choice, .text = std::move(text)}; }
     static Value table(std::string path) { return {.type = ParamType::table, .text = std::move(path)}; }
-    // What stands in v[0] or i, whichever the type has.
+    // v[0] or i, depending on the type.
     float scalar() const { return is_whole() ? static_cast<float>(i) : v[0]; }
     int whole() const { return is_whole() ? i : static_cast<int>(v[0]); }
     bool is_whole() const { return type == ParamType::integer || type == ParamType::boolean; }
@@ -46,11 +46,11 @@ class ParamSet {
     const Value* find(std::string_view id) const;
     void set(std::string_view id, Value value); // replaces or appends
     void remove(std::string_view id);
-    float number(std::string_view id, float fallback) const; // an integer or boolean, too
-    int integer(std::string_view id, int fallback) const;    // a boolean, too
+    float number(std::string_view id, float fallback) const; // also of an integer or boolean
+    int integer(std::string_view id, int fallback) const;    // also of a boolean
     std::string_view choice(std::string_view id, std::string_view fallback) const;
     std::array<float, 3> color(std::string_view id, std::array<float, 3> fallback) const;
-    Id<Texture> texture(std::string_view id) const; // none when absent
+    Id<Texture> texture(std::string_view id) const; // none if absent
     bool operator==(const ParamSet&) const = default;
 
     struct Entry {
@@ -74,9 +74,9 @@ class ParamSet {
     std::vector<Entry> entries_;
 };
 
-// The value a table line stands for when nothing is set.
+// A table line's default as a value.
 Value default_value(const model::Param&);
-// Why the line cannot hold the value, to follow its name: " takes no texture"; "" = it can.
+// Why the line cannot hold the value, to follow its name: " takes no texture"; "" if it can.
 std::string misfit(const model::Param& line, const Value&);
 
 } // namespace restage::scene

@@ -26,10 +26,9 @@ std::vector<Missing> missing_things(const Scene& scene) {
 
 Result<Edit> find_mesh(const Scene& scene, Id<Mesh> id, std::string file, std::shared_ptr<const MeshData> data) {
     const Mesh* before = scene.meshes.find(id);
-    if (!before || !is_missing(*before)) return fail("this mesh is not missing any more");
-    if (before->source_file.empty())
-        return fail("\"" + before->name + "\" stands for a line of the file, not for a mesh");
-    if (!data) return fail(file + ": holds no mesh");
+    if (!before || !is_missing(*before)) return fail("this mesh is no longer missing");
+    if (before->source_file.empty()) return fail("\"" + before->name + "\" represents a line of the file, not a mesh");
+    if (!data) return fail(file + ": contains no mesh");
     if (const std::string problem = check_mesh(*data); !problem.empty()) return fail(file + ": " + problem);
     Mesh after = *before;
     after.data = std::move(data);

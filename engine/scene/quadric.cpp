@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// `sphere "float radius" [ 2 ] "float zmin" -1`: the numbers by name, or nothing where the line is not understood.
+// `sphere "float radius" [ 2 ] "float zmin" -1`: the numbers by name, or nullopt if the line is not understood.
 std::optional<std::map<std::string_view, double>> numbers_of(std::string_view text) {
     std::map<std::string_view, double> out;
     const auto skip = [&](std::string_view what) {
@@ -57,7 +57,7 @@ std::optional<Quadric> quadric_of(const Mesh& mesh) {
         q.kind = Quadric::Kind::cylinder;
     else
         return std::nullopt;
-    const auto numbers = numbers_of(line.substr(type.size())); // several lines are several shapes: not understood
+    const auto numbers = numbers_of(line.substr(type.size())); // several lines mean several shapes: not supported
     if (!numbers) return std::nullopt;
     const auto get = [&](const char* name, double otherwise) {
         const auto it = numbers->find(name);

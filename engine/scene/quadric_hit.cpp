@@ -8,7 +8,7 @@ namespace restage::scene {
 
 namespace {
 
-// Of the whole surface. The discriminant as pbrt 4ed, eq. 6.6, has it, roots by Press et al. 2007, 5.6.
+// For the whole surface. Discriminant as in pbrt 4ed, eq. 6.6, roots by Press et al. 2007, 5.6.
 int roots(const Quadric& q, glm::dvec3 o, glm::dvec3 d, double (&t)[2]) {
     if (q.kind == Quadric::Kind::disk) {
         t[0] = (q.z_min - o.z) / d.z;

@@ -19,18 +19,18 @@
 
 namespace restage::scene {
 
-// What a value was before it was reduced to what the scene can hold, in the words of its format.
+// A value before it was reduced to what the scene can hold, in its format's notation.
 struct OriginValue {
-    std::string id; // of the value; "*": of the whole thing, of which there may be several lines
+    std::string id; // of the value; "*": of the whole thing, possibly on several lines
     std::string text;
     bool operator==(const OriginValue&) const = default;
 };
 
-// Where a thing came from. The engine looks at none of it but the ids: values hold only until that one, or any ("*"),
+// Where a thing came from. The engine reads only the ids: values are valid only until that one, or any ("*"),
 // is edited (edits.hpp).
 struct Origin {
-    std::string verbatim; // what its importer did not understand: one "key value" line each, written back verbatim
-    std::string format; // "pbrt-v4", ...; "" = made here
+    std::string verbatim; // not understood by its importer: one "key value" line each, written back verbatim
+    std::string format; // "pbrt-v4", ...; "" = created in Restage
     std::vector<OriginValue> values;
     bool operator==(const Origin&) const = default;
 };
@@ -49,7 +49,7 @@ struct Mesh {
     std::string name;
     std::shared_ptr<const MeshData> data;
     std::string source_file; // exporters may refer to it
-    std::string primitive; // `sphere "float radius" 1`: what the triangles stand for
+    std::string primitive; // `sphere "float radius" 1`: what the triangles represent
     Origin origin;
     bool operator==(const Mesh&) const = default; // data compares by identity
 };
@@ -59,7 +59,7 @@ struct PixelData { // immutable once shared; linear
     std::vector<float> values; // width * height * channels
 };
 
-// How the numbers of an 8-bit file become linear; float files are.
+// How values of an 8-bit file are linearized; float files are linear.
 enum class Encoding : std::uint8_t { linear, srgb, gamma };
 
 struct Image {
@@ -84,7 +84,7 @@ struct Texture { // types and values: restage/scene_io.h
 
 struct Material {
     std::string name;
-    std::string type; // of a material plugin; an unknown one shades as a placeholder and is kept
+    std::string type; // of a material plugin; an unknown type shades as a placeholder and is kept
     ParamSet params;
     Origin origin;
     bool operator==(const Material&) const = default;
@@ -108,7 +108,7 @@ struct Group {
 struct Emission {
     glm::vec3 radiance{0}; // [W/(m^2 sr)]
     bool two_sided = false;
-    bool unseen = false; // shines also where alpha lets rays pass: lights, and is not seen there
+    bool unseen = false; // emits even where alpha lets rays pass: lights, but is invisible there
     bool operator==(const Emission&) const = default;
 };
 
@@ -125,12 +125,12 @@ struct Instance {
     glm::dmat4 object_to_world{1}; // affine
     std::optional<Emission> emission;
     std::optional<MediumInterface> media;
-    Id<Texture> alpha_texture; // scalar; stands for alpha
+    Id<Texture> alpha_texture; // scalar; replaces alpha
     float alpha = 1;
     bool reverse_orientation = false;
     bool hidden = false;
     Origin origin;
-    bool alpha_mask = false; // alpha above 0 stops every ray; else it is the share that is stopped
+    bool alpha_mask = false; // alpha above 0 stops every ray; else it is the fraction stopped
     bool operator==(const Instance&) const = default;
 };
 
@@ -162,19 +162,19 @@ struct Environment {
     Mapping mapping = Mapping::equirect;
     glm::vec3 scale{1};
     glm::dmat4 light_to_world{1};
-    bool hidden_from_camera = false; // it shines; a camera ray that leaves the scene sees black
+    bool hidden_from_camera = false; // it lights; camera rays that leave the scene see black
     Origin origin;
-    std::string sky; // the type of a sky plugin that has made the image; "" = nobody's
+    std::string sky; // type of the sky plugin that made the image; "" = none
     ParamSet sky_params; // its parameters
     bool operator==(const Environment&) const = default;
 };
 
-// How a camera maps directions to the film, and what of Camera it uses.
+// How a camera maps directions to the film, and which members of Camera it uses.
 enum class Projection : std::uint8_t {
     perspective,
-    orthographic, // parallel to +z; the screen window is in units of the camera's space, fov is not used
+    orthographic, // parallel to +z; the screen window is in camera-space units, fov is unused
     spherical, // all directions, +y up: u = phi/2pi from +x over +z, v = theta/pi from +y; no window, no lens
-    spherical_equal_area // the same by Clarberg's octahedral map, as in pbrt-v4
+    spherical_equal_area // likewise by Clarberg's octahedral map, as in pbrt-v4
 };
 
 struct Camera {
@@ -186,7 +186,7 @@ struct Camera {
     float frame_aspect = 0; // 0 = width/height
     Origin origin;
     Projection projection = Projection::perspective;
-    float fit_aspect = 0; // > 0: fov is of a frame of this aspect, which is always seen whole (projection.hpp)
+    float fit_aspect = 0; // > 0: fov is of a frame of this aspect, which is always fully visible (projection.hpp)
     bool operator==(const Camera&) const = default;
 };
 
@@ -207,7 +207,7 @@ struct Film {
     bool operator==(const Film&) const = default;
 };
 
-// What changes the image but is no thing in the scene.
+// What affects the image but is not an item of the scene.
 struct Settings {
     std::uint32_t max_depth = 8; // pbrt's maxdepth
     std::uint32_t samples = 64;
@@ -230,7 +230,7 @@ struct Scene {
     Table<Light> lights;
     Table<Camera> cameras;
 
-    // Single things with a version each.
+    // Single items with a version each.
     template <class T>
     struct One {
         T value{};

@@ -13,12 +13,12 @@ namespace restage::scene {
 // The rotation of an environment whose pole, +z in a panorama, points along `up` (a unit vector).
 glm::dmat4 upright_sky(const glm::dvec3& up);
 
-// Soft grey light from all around: a wide soft box overhead and one at the side, made without a file.
+// Soft grey light from all around: a wide soft box overhead and one at the side, generated without a file.
 Edit studio_sky(const Scene& scene, const glm::dvec3& up);
 
-// The image, with its pixels read as scene::Encoding::srgb, becomes the sky; square ones are octahedral maps as pbrt-v4
-// has them, others panoramas. The rotation and strength of a sky that was an image of the same mapping stay. An image
-// the scene has already is used again.
+// The image, with its pixels read as scene::Encoding::srgb, becomes the sky; square images are octahedral maps as in
+// pbrt-v4, others panoramas. If the sky was an image of the same mapping, its rotation and strength stay. An image
+// already in the scene is reused.
 Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<const PixelData> pixels,
                const glm::dvec3& up);
 

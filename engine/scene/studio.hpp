@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Studio: the scene a new document begins with: a floor, a neutral sky, a camera that looks at where things will stand.
+// Studio: the initial scene of a new document: a floor, a neutral sky, a camera facing where objects will stand.
 #pragma once
 
 #include "scene/scene.hpp"

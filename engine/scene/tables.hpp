@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of things and the single things a scene holds, listed once: edits, validation, merging, references and
-// projects walk these lists. Those that others refer to come first.
+// The kinds of items and the single items of a scene, listed once: edits, validation, merging, references and
+// projects walk these lists. Referenced kinds come first.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -13,7 +13,7 @@ namespace restage::scene {
 template <class T>
 struct Kind {
     using type = T;
-    const char* name;   // of one, in messages
+    const char* name;   // singular, in messages
     const char* plural; // in project files
     Table<T> Scene::* table;
 };
@@ -40,10 +40,10 @@ inline constexpr std::tuple singles{
     Single<std::optional<Environment>>{"environment", "the environment", &Scene::environment},
     Single<Id<Camera>>{"active_camera", "the active camera", &Scene::active_camera},
     Single<Film>{"film", "the film", &Scene::film},
-    Single<Settings>{"settings", "the medium of the camera", &Scene::settings}, // what it refers to
+    Single<Settings>{"settings", "the medium of the camera", &Scene::settings}, // its only reference
 };
 
-// f(Kind<T>) for each; and f(const Single<T>&).
+// f(Kind<T>) for each; likewise f(const Single<T>&).
 template <class F>
 void each_kind(F&& f) {
     std::apply([&](const auto&... kind) { (f(kind), ...); }, kinds);
@@ -53,7 +53,7 @@ void each_single(F&& f) {
     std::apply([&](const auto&... single) { (f(single), ...); }, singles);
 }
 
-// What holds a T, for code that is the same for every kind of thing. S: Scene or const Scene.
+// The holder of Ts, for code generic over kinds. S: Scene or const Scene.
 template <class T, class S>
 auto& table(S& scene) {
     return scene.*std::get<Kind<T>>(kinds).table;
@@ -71,7 +71,7 @@ void each_table(S& scene, F&& f) {
     each_kind([&](const auto& kind) { f(scene.*kind.table); });
 }
 
-// The first live thing of that name, or none.
+// The first live item of that name, or none.
 template <class T>
 Id<T> find_by_name(const Scene& scene, std::string_view name) {
     Id<T> found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who refers to a thing: what must be asked before it is removed. Every reference the scene can hold is walked in one
+// Referrers of an item, checked before it is removed. Every reference in a scene is walked in one
 // place, for_each_reference.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace restage::scene {
 template <class T, class U>
 concept Of = std::same_as<std::remove_const_t<T>, U>; // U or const U
 
-// Calls visitor(Id<X>&) for each reference that a thing holds, none (0) excluded; const where the thing is.
+// Calls visitor(Id<X>&) for each non-null reference an item holds; const if the item is.
 template <class T, class V>
 void visit_references(T&, V&&) {} // meshes, images, media, lights, cameras, the film: none
 template <Of<Id<Camera>> T, class V>

@@ -15,7 +15,7 @@ constexpr std::size_t listed_of_a_kind = 8;
 
 class Findings {
   public:
-    // `kind` counts alike problems together.
+    // Problems of the same `kind` are counted together.
     void add(Problem::Severity severity, const std::string& kind, std::string sentence) {
         auto& [seen, worst] = counts_[kind];
         worst = std::max(worst, severity);
@@ -48,12 +48,12 @@ std::string called(const T& item) {
 void check_references(const Scene& scene, Findings& out) {
     for_each_reference(scene, [&]<class X>(Id<X> target, const std::string& who) {
         if (!table<X>(scene).find(target))
-            out.error("reference to nothing",
+            out.error("dangling reference",
                       who + ": " + kind_name<X> + " " + std::to_string(target.value) + " does not exist");
     });
 }
 
-// Things that refer to things of their own kind must not do so in a circle. Iterative depth-first search, three
+// References among items of one kind must not form a cycle. Iterative depth-first search, three
 // colours.
 template <class T, class Next>
 void check_cycles(const Scene& scene, Findings& out, Next&& next) {
@@ -98,7 +98,7 @@ std::vector<Id<T>> params_of_kind(const ParamSet& params) {
     return result;
 }
 
-// What things hold themselves: validate_values.cpp.
+// Items' own values: validate_values.cpp.
 void check_things(const Scene& scene, Findings& out) {
     const auto add = [&](const auto& thing) {
         for (ValueProblem& p : value_problems(thing))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// validate: what is wrong with a scene, as sentences. `error` = it must not be rendered or saved as it is (a dangling
-// id, an index out of range, NaN); `warning` = odd, but it has a meaning (a transform that flattens, a negative light).
-// One set of rules for importers, editor and scripts: a file with an error is refused, and so is an edit that brings in
-// an error or a warning that was not there.
+// validate: problems of a scene, as sentences. `error` = must not be rendered or saved as is (a dangling
+// id, an index out of range, NaN); `warning` = odd but well-defined (a singular transform, a negative light).
+// One set of rules for importers, editor and scripts: a file with an error is refused, and so is an edit that adds
+// a new error or warning.
 #pragma once
 
 #include "base/result.hpp"
@@ -19,16 +19,16 @@ struct Problem {
     bool operator==(const Problem&) const = default;
 };
 
-// The sentence of a scene that cannot be rendered yet, and nothing else.
+// Issued only for a scene that cannot be rendered yet.
 inline constexpr const char* no_camera = "there is no camera to look through";
 
-// In the order of the tables. Of one kind of problem in many places the first few are listed and the rest counted.
+// In table order. Of many problems of one kind the first few are listed and the rest counted.
 std::vector<Problem> validate(const Scene&);
 
 struct ValueProblem : Problem {
-    const char* kind; // alike problems have the same
+    const char* kind; // groups similar problems
 };
-// Of what a thing holds itself, not of what it refers to.
+// Problems of an item's own values, not of its references.
 std::vector<ValueProblem> value_problems(const Mesh&);
 std::vector<ValueProblem> value_problems(const Image&);
 std::vector<ValueProblem> value_problems(const Texture&);
@@ -43,11 +43,11 @@ std::vector<ValueProblem> value_problems(const Film&);
 std::vector<ValueProblem> value_problems(const Settings&);
 
 struct Edit;
-// Refuses an edit that makes a thing bad: the first problem of this severity or worse that its kind did not have
-// before, so that what a file brought along can still be moved and renamed. Pixels that were not read are let through.
+// Refuses an edit that makes an item invalid: the first problem of this severity or worse of a kind it did not have
+// before, so that items already invalid in the file can still be moved and renamed. Unread pixels are accepted.
 Result<> check_edit(const Edit&, Problem::Severity least = Problem::Severity::warning);
 
-// Of one mesh: 'vertex 17 is not a finite number', or "" when all is well. Importers' data goes through here.
+// Of one mesh: 'vertex 17 is not a finite number', or "" if valid. Importers' data is checked here.
 std::string check_mesh(const MeshData&);
 bool is_finite(const glm::dmat4&);
 

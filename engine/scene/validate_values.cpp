@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with the values of one thing, whoever sets them: an importer, a builder of edits, a script.
+// Problems in one item's values, whatever sets them: an importer, an edit builder, a script.
 #include "scene/edit.hpp"
 #include "scene/tables.hpp"
 #include "scene/validate.hpp"
@@ -12,11 +12,11 @@ namespace restage::scene {
 
 namespace {
 
-constexpr std::uint32_t longest_film_side = 65536;       // 8 bytes a pixel and side: 32 GiB for one layer
+constexpr std::uint32_t longest_film_side = 65536;       // 8 bytes per pixel and side: 32 GiB for one layer
 constexpr std::uint64_t most_film_pixels = 1ull << 28;
-// Tracers compute in floats, and squares of lengths must be floats as well. [scene units]
+// Tracers compute in floats, so squared lengths must fit a float. [scene units]
 constexpr double largest_length = 1e17;
-// [W/(m^2 sr)] and the like; times areas and numbers of samples it must stay a float.
+// [W/(m^2 sr)] and the like; times areas and sample counts it must still fit a float.
 constexpr float most_light = 1e18f;
 
 template <class... X>
@@ -47,7 +47,7 @@ class Found {
     }
 
     void transform(const std::string& who, const glm::dmat4& m) {
-        if (!is_finite(m)) return error("transform", who + ": the transform holds a value that is not a finite number");
+        if (!is_finite(m)) return error("transform", who + ": the transform has a non-finite value");
         if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
             return error("transform", who + ": the transform is projective; only affine ones can be rendered");
         for (int c = 0; c < 4; ++c)
@@ -61,16 +61,15 @@ class Found {
             warning("flat transform", who + ": the transform flattens space and cannot be inverted");
     }
 
-    // A colour of light: what a lamp, a sky or a surface emits.
+    // Emitted colour: of a lamp, a sky or a surface.
     void light(const std::string& who, const char* kind, const char* what, const glm::vec3& v) {
         if (!finite(v))
-            error(kind, fmt::format("{}: {} holds a value that is not a finite number", who, what));
+            error(kind, fmt::format("{}: {} has a non-finite value", who, what));
         else if (std::max({v.x, v.y, v.z}) > most_light)
             error(kind, fmt::format("{}: {} of {:g}; up to {:g} is possible", who, what, std::max({v.x, v.y, v.z}),
                                     most_light));
         else if (negative(v))
-            warning("negative light",
-                    fmt::format("{}: {} ({:g}, {:g}, {:g}) is less than no light", who, what, v.x, v.y, v.z));
+            warning("negative light", fmt::format("{}: {} ({:g}, {:g}, {:g}) is negative", who, what, v.x, v.y, v.z));
     }
 
   private:
@@ -161,7 +160,7 @@ std::vector<ValueProblem> value_problems(const Material& m) {
 std::vector<ValueProblem> value_problems(const Medium& m) {
     Found out;
     if (!finite(m.sigma_a) || !finite(m.sigma_s) || !finite(m.g))
-        out.error("medium", called(m) + " holds a value that is not a finite number");
+        out.error("medium", called(m) + " has a non-finite value");
     else if (negative(m.sigma_a) || negative(m.sigma_s))
         out.error("medium", called(m) + " has a negative coefficient");
     return out.take();
@@ -182,7 +181,7 @@ std::vector<ValueProblem> value_problems(const Light& light) {
     out.transform(called(light), light.light_to_world);
     out.light(called(light), "light", "a value", light.value);
     if (!finite(light.cone_angle, light.cone_delta))
-        out.error("light", called(light) + " holds a value that is not a finite number");
+        out.error("light", called(light) + " has a non-finite value");
     else if (light_row(light.kind).cone &&
              !(light.cone_angle > 0 && light.cone_angle <= 180 && light.cone_delta >= 0 && light.cone_delta <= 180))
         out.warning("cone", fmt::format("{}: a cone of {:g} degrees with an edge of {:g}; more than 0 and 0 or more, "
@@ -212,7 +211,7 @@ std::vector<ValueProblem> value_problems(const Camera& c) {
     if (c.screen_window) {
         const glm::vec4& w = *c.screen_window;
         if (!(w.x < w.y && w.z < w.w) || !finite(w.x, w.y, w.z, w.w))
-            out.error("camera", called(c) + ": the screen window is empty or holds what is not a finite number");
+            out.error("camera", called(c) + ": the screen window is empty or has a non-finite value");
     }
     return out.take();
 }
@@ -229,7 +228,7 @@ std::vector<ValueProblem> value_problems(const Film& film) {
     Found out;
     if (film.width == 0 || film.height == 0 || film.width > longest_film_side || film.height > longest_film_side ||
         std::uint64_t{film.width} * film.height > most_film_pixels)
-        out.error("film", fmt::format("the film has {}x{} pixels; 1x1 to {} a side and 2^28 in all are possible",
+        out.error("film", fmt::format("the film has {}x{} pixels; 1x1 to {} a side and 2^28 in total are possible",
                                       film.width, film.height, longest_film_side));
     const glm::vec4& crop = film.crop;
     if (!(crop.x >= 0 && crop.x < crop.y && crop.y <= 1 && crop.z >= 0 && crop.z < crop.w && crop.w <= 1))
@@ -251,7 +250,7 @@ std::vector<ValueProblem> value_problems(const Settings& s) {
     Found out;
     if (!(s.clamp_direct >= 0) || !(s.clamp_indirect >= 0) || !(s.ray_epsilon >= 0) ||
         !finite(s.clamp_direct, s.clamp_indirect, s.ray_epsilon))
-        out.error("settings", "a clamp or the ray epsilon is negative or no finite number");
+        out.error("settings", "a clamp or the ray epsilon is negative or not a finite number");
     return out.take();
 }
 
@@ -270,7 +269,7 @@ std::vector<ValueProblem> problems_in(const std::optional<T>& thing) {
     return thing ? value_problems(*thing) : std::vector<ValueProblem>{};
 }
 
-// Large data is looked at when it is new only.
+// Large data is checked only when new.
 template <class C>
 bool same_data(const C& c) {
     if constexpr (std::is_same_v<C, Change<Mesh>> || std::is_same_v<C, Change<Image>>)

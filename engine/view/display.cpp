@@ -14,8 +14,8 @@ constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) 
     return r | g << 8 | b << 16 | 0xff000000u;
 }
 
-// 8-bit values by the upper 16 bits of a float, so that no power is computed a pixel: 7 bits of mantissa are finer than
-// 8 bits of sRGB need below 1 in all but the darkest steps.
+// 8-bit values indexed by the upper 16 bits of a float, avoiding a power per pixel: 7 bits of mantissa are finer than
+// 8-bit sRGB needs below 1, except for the darkest steps.
 class Curve {
   public:
     explicit Curve(ToneCurve tone) : table_(0x8000) {
@@ -44,7 +44,7 @@ const Curve& curve(ToneCurve tone) {
     return tone == ToneCurve::filmic ? soft : clipped;
 }
 
-// A colour a number, the same each time; 0 is black.
+// A reproducible colour per number; 0 is black.
 std::uint32_t id_color(std::uint32_t id) {
     if (id == 0) return pack(0, 0, 0);
     const std::uint32_t h = id * 2654435761u; // Knuth's multiplicative hash
@@ -135,7 +135,7 @@ bool to_outlines(const render::FilmImage& image, std::span<const std::uint8_t> m
                  std::array<std::uint32_t, 2> colors, std::vector<std::uint32_t>& rgba) {
     const int w = int(image.width), h = int(image.height), stride = w + 2 * width;
     rgba.clear();
-    // With a margin, so that neighbours need no bounds.
+    // With a margin, so that neighbours need no bounds checks.
     std::vector<std::uint8_t> own(std::size_t(stride) * (h + 2 * width), 0);
     bool any = false;
     for (int y = 0; y < h; ++y) {

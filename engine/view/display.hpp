@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Display: a frame becomes 8-bit pixels for the eye: exposure and a tone curve for the picture, a false colour for the
-// guides. Nothing here changes what was rendered.
+// Display: converts a frame to 8-bit pixels for viewing: exposure and a tone curve for the picture, false colours for
+// guides. The rendered data is unchanged.
 #pragma once
 
 #include "render/film_layers.hpp"
@@ -14,11 +14,11 @@
 namespace restage::view {
 
 enum class ToneCurve {
-    srgb,   // clipped: what a saved PNG holds
-    filmic, // soft highlights: ACES fitted curve (Narkowicz 2016), a channel at a time
+    srgb,   // clipped: as in a saved PNG
+    filmic, // soft highlights: ACES fitted curve (Narkowicz 2016), per channel
 };
 
-// What of a film can be shown: its layers (render/film_layers.hpp), by name, and the relative error.
+// The viewable data of a film: its layers (render/film_layers.hpp), by name, and the relative error.
 struct LayerChoice {
     const char *name, *label;
 };
@@ -32,11 +32,11 @@ struct DisplaySettings {
     float scale = 1;    // of the scene's film
 };
 
-// width * height RGBA, row 0 on top. 1280x720 takes some 5 ms on one thread. [any]
+// width * height RGBA, row 0 on top. 1280x720 takes about 5 ms on one thread. [any]
 void to_display(const render::FilmImage&, const DisplaySettings&, std::vector<std::uint32_t>& rgba);
 
-// Rings, `width` pixels thick, around what is marked: marks[instance id] is 0 (not; ids beyond the end too), 1 or 2
-// (wins over 1), colors[mark - 1] the ring's RGBA; else 0. False, and `rgba` empty: nothing marked is seen. [any]
+// Outlines, `width` pixels thick, of marked objects: marks[instance id] is 0 (not; ids beyond the end too), 1 or 2
+// (wins over 1), colors[mark - 1] the RGBA; else 0. False, and `rgba` empty, if nothing marked is visible. [any]
 bool to_outlines(const render::FilmImage&, std::span<const std::uint8_t> marks, int width,
                  std::array<std::uint32_t, 2> colors, std::vector<std::uint32_t>& rgba);
 

@@ -24,18 +24,18 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double coarse_budget = 0.05;   // for the first picture after a change [s]
-constexpr double coarse_pixels = 3000;   // at least: denoised, smaller pictures of a sample a pixel are dark blots
+constexpr double coarse_pixels = 3000;   // minimum: smaller pictures at one sample per pixel denoise to dark blots
 constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
-constexpr double compile_patience = 0.15; // a document's first picture gives way to a newer request after so long [s]
-constexpr double clay_pixels = 200e3;     // some 30 ms on two cores
-constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 6, 8, 12, 16}; // each halved (rounded down) is another, or 1
+constexpr double compile_patience = 0.15; // after this a newer request may replace a document's first picture [s]
+constexpr double clay_pixels = 200e3;     // about 30 ms on two cores
+constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 6, 8, 12, 16}; // each halved (rounded down) is in the list, or 1
 
 struct Request {
     scene::Scene scene;
     ViewOptions options;
     std::uint64_t number = 0;
     Clock::time_point time;
-    std::optional<scene::Film> film; // of the scene as it came, without what is done with a finished picture
+    std::optional<scene::Film> film; // of the scene as given, without settings that only affect finished pictures
 };
 
 } // namespace
@@ -50,9 +50,9 @@ struct LiveView::Impl {
     bool stop = false;
     std::optional<Request> mail; // the newest request, not yet taken
     std::optional<render::RendererOptions> new_options;
-    std::uint64_t last_number = 0; // given out
-    bool taking = false; // a request was taken from `mail`, and is not yet known to show something else
-    std::uint64_t visible = 0; // the newest request that shows something else than the one before
+    std::uint64_t last_number = 0; // last issued
+    bool taking = false; // a request was taken from `mail`, and may turn out to show the same
+    std::uint64_t visible = 0; // the newest request that shows something different from its predecessor
     Pictures pictures;
     ViewStatus now;
 
@@ -62,7 +62,7 @@ struct LiveView::Impl {
     Impl(const plugin::Registry& r, Log& l, render::RendererOptions options, std::function<void()> news)
         : registry(r), log(l), on_news(std::move(news)), new_options(std::move(options)) {
         denoiser.emplace(registry, ViewDenoiser::Host{
-                                       // A coarse picture is worth finishing; a fine one is given up when the scene has
+                                       // A coarse picture is worth finishing; a fine one is dropped when the scene has
                                        // changed.
                                        .wanted =
                                            [this](const Frame& frame) {
@@ -104,19 +104,19 @@ struct LiveView::Impl {
     // --- the render thread
     // ---------------------------------------------------------------------------------------------
 
-    struct Work { // what the render thread is at
+    struct Work { // state of the render thread
         std::unique_ptr<render::Renderer> renderer;
         std::optional<Request> request;
-        scene::Version film_version = std::uint64_t(1) << 62; // of the films of other resolutions
+        scene::Version film_version = std::uint64_t(1) << 62; // version of reduced-resolution films
         std::uint64_t document = 0, variant = 0;
-        bool pictured = false; // a picture of this document was made; until then: clay
-        bool compiling = false; // as the last pass saw it
+        bool pictured = false; // a picture of this document exists; until then: clay
+        bool compiling = false; // as of the last pass
         std::optional<scene::Film> film; // the scene's own
-        std::uint64_t shown = 0; // number of the request the film is of; 0 = none
+        std::uint64_t shown = 0; // number of the film's request; 0 = none
         glm::uvec2 size{0}; // of the full picture
         std::uint32_t divider = 1;
-        double rate = 0; // pixels times samples a second
-        bool finished = false; // nothing to do until something new comes
+        double rate = 0; // pixels times samples per second
+        bool finished = false; // idle until a new request
         Clock::time_point last_publish;
         std::uint32_t published_samples = 0;
     };
@@ -168,8 +168,8 @@ struct LiveView::Impl {
         if (work.request) begin(work);
     }
 
-    // A new request: the first, coarse picture; or, when nothing that shows has changed (a name, say), the same one
-    // goes on.
+    // A new request: the first, coarse picture; or, if nothing visible has changed (a name, say), the same picture
+    // continues.
     void begin(Work& work) {
         work.finished = true; // until the scene is ready
         if (!work.renderer) return;
@@ -194,7 +194,7 @@ struct LiveView::Impl {
         }
         work.divider = 1;
         const double pixels = double(size.x) * size.y;
-        const double rate = work.rate > 0 ? work.rate : 1e5; // not known yet: be careful
+        const double rate = work.rate > 0 ? work.rate : 1e5; // unknown yet: be conservative
         for (const std::uint32_t d : dividers) {
             if (d > 1 && pixels / (d * d) < coarse_pixels) break;
             work.divider = d;
@@ -212,7 +212,7 @@ struct LiveView::Impl {
         pass(work, true);
     }
 
-    // What stands where, at once; nobody waits for it where it cannot be had.
+    // An immediate preview of the geometry; optional.
     void show_clay(Work& work) {
         const double pixels = double(work.size.x) * work.size.y;
         std::uint32_t divider = 1;
@@ -233,7 +233,7 @@ struct LiveView::Impl {
 
     // The next step of the same request: refine, or gather samples.
     void advance(Work& work) {
-        if (!work.pictured && work.compiling) { // clay is shown: leave the processors to the compiler
+        if (!work.pictured && work.compiling) { // clay is shown: leave the CPUs to the compiler
             {
                 std::unique_lock lock(mutex);
                 wake_render.wait_for(lock, std::chrono::milliseconds(20), [&] { return stop || mail || new_options; });
@@ -276,11 +276,11 @@ struct LiveView::Impl {
         return bool(ready);
     }
 
-    // The driver has stopped: once more, from the scene.
+    // The device is lost: retry once, from the scene.
     Result<void> revive(Work& work) {
         set_state(ViewState::starting);
         auto revived = work.renderer->revive(work.request->scene);
-        if (!revived) work.renderer.reset(); // until somebody chooses another device
+        if (!revived) work.renderer.reset(); // until another device is chosen
         return revived;
     }
 
@@ -297,8 +297,8 @@ struct LiveView::Impl {
                (o.error > 0 && work.renderer->samples() >= 8 && work.renderer->relative_error() <= o.error);
     }
 
-    // One sample a pixel. The first pass of a request is always finished, so that something shows however fast the
-    // requests come.
+    // One sample per pixel. The first pass of a request is always finished, so that something shows however fast
+    // requests arrive.
     void pass(Work& work, bool first) {
         render::Renderer& renderer = *work.renderer;
         const auto start = Clock::now();
@@ -326,12 +326,12 @@ struct LiveView::Impl {
             }
         }
         if (!traced) return give_up(work, traced.error());
-        if (stopped) return; // what is new comes next
+        if (stopped) return; // the new request is next
         if (renderer.samples() <= before) work.published_samples = 0; // something compiled: the film started again
         const double took = seconds_since(start);
         const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
         const double rate = double(size.x) * size.y / std::max(took, 1e-6);
-        // The first pass of new code is slow, and nothing to judge by: one fast pass counts at once, a slow one slowly.
+        // The first pass of new code is slow, hence no measure: a fast pass counts immediately, a slow one gradually.
         work.rate = work.rate <= 0 ? rate : std::max(rate, work.rate) * 0.3 + std::min(rate, work.rate) * 0.7;
         const auto compiling = renderer.compiling();
         work.compiling = bool(compiling);
@@ -393,7 +393,7 @@ struct LiveView::Impl {
             if (pictures.denoiser_missing() == problem) return;
             pictures.denoiser(problem);
         }
-        if (!problem.empty()) log.debug("pictures stay noisy: " + problem); // the toolbar says it
+        if (!problem.empty()) log.debug("pictures stay noisy: " + problem); // shown in the toolbar
         on_news();
     }
 };

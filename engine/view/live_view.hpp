@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// LiveView: a picture that follows a scene while it is edited. Rendering and denoising have threads of their own, below
-// the caller's priority; the newest scene wins. While things move, a coarse picture comes first, of a resolution chosen
-// from the measured speed, and is refined in halves to the full one, which then gathers samples.
+// LiveView: a picture that follows a scene while it is edited. Rendering and denoising have their own threads, below
+// the caller's priority; the newest scene wins. During changes, a coarse picture comes first, at a resolution chosen
+// from the measured speed, and is refined by halving to the full one, which then accumulates samples.
 //
 // Threads: all public functions are [main] and return at once. `on_news` is called from the threads.
 #pragma once
@@ -24,26 +24,26 @@ namespace restage::view {
 
 // A finished picture. Immutable once handed out.
 struct Frame {
-    render::FilmImage image; // colour is the denoised one where `denoised`
-    std::uint64_t request = 0; // of which show()
+    render::FilmImage image; // colour is denoised if `denoised`
+    std::uint64_t request = 0; // of the corresponding show()
     std::uint64_t document = 0; // of its ViewOptions
-    std::uint32_t divider = 1; // full resolution / this one's
+    std::uint32_t divider = 1; // full resolution / this resolution
     bool denoised = false;
-    std::string denoiser; // its type, where `denoised`
-    bool clay = false; // of first hits alone, see render/clay.hpp; colours in [0,1], not to be exposed
+    std::string denoiser; // its type, if `denoised`
+    bool clay = false; // first hits only, see render/clay.hpp; colours in [0,1], not to be exposed
     double seconds = 0; // since that show()
-    double relative_error = 1e30; // of what was traced; Film::relative_error
+    double relative_error = 1e30; // of the traced picture; Film::relative_error
 };
 
 struct ViewOptions {
     glm::uvec2 size{640, 360}; // of the full picture [pixel]
-    std::uint64_t document = 0; // another number = another scene: nothing of the last one is of use, or shown
-    std::uint64_t variant = 0; // another number = the same document in another state (as it was opened): nothing that
-                               // was made of the last one is of use, but its picture stays until there is a new one
+    std::uint64_t document = 0; // a new number = a new scene: nothing of the previous one is reused or shown
+    std::uint64_t variant = 0; // a new number = the same document in another state (as it was opened): nothing
+                               // of the previous one is reused, but its picture stays until there is a new one
     bool denoise = true;
-    bool paused = false; // keep what is there
-    std::uint32_t samples = 0; // stop at so many a pixel; 0 = never
-    double seconds = 0; // stop after so long; 0 = never
+    bool paused = false; // keep the current picture
+    std::uint32_t samples = 0; // stop at this many per pixel; 0 = never
+    double seconds = 0; // stop after this time; 0 = never
     double error = 0; // stop at this relative error; 0 = never
 };
 
@@ -51,7 +51,7 @@ enum class ViewState {
     starting, // opening the device
     preparing, // uploading, building, compiling
     rendering,
-    done, // a target is met, or paused
+    done, // a target is reached, or paused
     failed
 };
 
@@ -59,10 +59,10 @@ struct ViewStatus {
     ViewState state = ViewState::starting;
     std::string text; // of `failed`: why
     std::string device, tracer; // once started
-    std::string compiling; // a material type whose code is not ready: a stand-in is shown, or clay; "" = none
-    std::size_t compiling_left = 0; // how many are not
+    std::string compiling; // a material type still compiling: a stand-in is shown, or clay; "" = none
+    std::size_t compiling_left = 0; // how many types
     bool current = false; // frame() shows the newest request
-    std::uint32_t samples = 0, divider = 1; // of the picture being made
+    std::uint32_t samples = 0, divider = 1; // of the picture in progress
     double samples_per_second = 0; // pixels times samples, measured
     std::size_t gpu_bytes = 0;
     std::map<std::string, std::uint64_t> not_finite; // samples dropped, by material type
@@ -70,30 +70,30 @@ struct ViewStatus {
 
 class LiveView {
   public:
-    // `registry` outlives it.
+    // `registry` must outlive it.
     LiveView(const plugin::Registry& registry, Log& log, render::RendererOptions options,
              std::function<void()> on_news);
-    ~LiveView(); // stops within some 50 ms
+    ~LiveView(); // stops within about 50 ms
 
     LiveView(const LiveView&) = delete;
     LiveView& operator=(const LiveView&) = delete;
 
     // Shows this scene from now on. Returns the number of the request.
     std::uint64_t show(scene::Scene scene, const ViewOptions& options);
-    // Opens the renderer anew, with another device, tracer or number of threads.
+    // Reopens the renderer, with another device, tracer or number of threads.
     void configure(render::RendererOptions options);
-    // Denoises by this one, see render::choose_denoiser; the picture that is there too.
+    // Selects the denoiser, see render::choose_denoiser; also for the current picture.
     void denoise_by(const std::string& name);
 
-    // The newest pictures of the document that was asked for last; null before the first. frame(): as traced.
+    // The newest pictures of the last requested document; null before the first. frame(): as traced.
     std::shared_ptr<const Frame> frame() const;
     std::shared_ptr<const Frame> denoised() const;
-    // What to show; null: nothing yet. With `want_denoised` never a noisy one: the last clean one, of whichever
-    // request, stays until the next is there. A document begins with clay, until all that it needs is compiled and its
-    // first picture is made. Where there is no denoiser, or it fails, noisy ones.
+    // What to show; null: nothing yet. With `want_denoised` never a noisy one: the last clean one, of any
+    // request, stays until the next is ready. A document starts with clay, until all it needs is compiled and its
+    // first picture exists. Without a working denoiser, noisy ones.
     std::shared_ptr<const Frame> best(bool want_denoised) const;
     ViewStatus status() const;
-    // Why pictures are not denoised, now; "" = they are.
+    // Why pictures are not being denoised; "" = they are.
     std::string denoiser_missing() const;
 
   private:

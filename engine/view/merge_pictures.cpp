@@ -17,7 +17,7 @@ namespace {
 
 double luminance(const glm::vec3& c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
-// Sums and sums of squares are what adds up: the film's mean and the error of the mean give them back.
+// Sums and sums of squares are additive: recover them from the film's mean and error of the mean.
 template <class D> // double or dvec3
 struct Moments {
     D sum{0}, square{0};
@@ -49,7 +49,7 @@ void merge_pixel(std::span<const PicturePart> parts, std::size_t i, FilmImage& o
     out.luminance_variance[i] = float(light.variance_of_mean());
 }
 
-// Ids and other layers of the first sample stay those of `out`.
+// Ids and other first-sample layers stay those of `out`.
 template <class V>
 void merge_means(std::span<const PicturePart> parts, const render::FilmLayer<V>& layer, FilmImage& out) {
     if constexpr (!std::is_same_v<V, std::uint32_t>) {
@@ -73,7 +73,7 @@ std::ptrdiff_t place(const io::ExrLayer& layer, const std::string& name) {
     return found == layer.channels.end() ? -1 : found - layer.channels.begin();
 }
 
-// The places of a film layer's channels in the layer of a file, or nothing where it lacks one.
+// The positions of a film layer's channels in a file's layer, or empty if it lacks one.
 template <class V>
 std::vector<std::size_t> places(const io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& layer) {
     const io::ExrLayer* in = image.find(name);
@@ -87,7 +87,7 @@ std::vector<std::size_t> places(const io::ExrImage& image, const std::string& na
     return at;
 }
 
-// The mirror of write_picture's add_layer().
+// The inverse of write_picture's add_layer().
 template <class V>
 void read_layer(const io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& layer,
                 FilmImage& film) {
@@ -112,7 +112,7 @@ std::string metadata(const StoredPicture& p, const char* key) {
     return found == p.metadata.end() ? "" : found->second;
 }
 
-// The numbers of "0:0+64,1:0+64", three a range; nothing when it is something else.
+// The numbers of "0:0+64,1:0+64", three per range; empty if malformed.
 std::vector<SampleRange> parse_ranges(const std::string& text) {
     std::vector<SampleRange> out;
     const char *at = text.data(), *end = at + text.size();
@@ -132,7 +132,7 @@ std::vector<SampleRange> parse_ranges(const std::string& text) {
 
 std::uint64_t end_of(const SampleRange& r) { return std::uint64_t{r.first} + r.count; }
 
-// Sorted, those that touch as one; what two of them have in common is an error.
+// Sorted, adjacent ranges merged; overlap is an error.
 Result<std::vector<SampleRange>> join(std::vector<SampleRange> ranges) {
     std::ranges::sort(ranges, {}, [](const SampleRange& r) { return std::pair(r.seed, r.first); });
     std::vector<SampleRange> out;
@@ -154,7 +154,7 @@ Result<std::vector<SampleRange>> join(std::vector<SampleRange> ranges) {
 } // namespace
 
 Result<FilmImage> merge_films(std::span<const PicturePart> parts) {
-    if (parts.empty()) return fail("there are no pictures to merge");
+    if (parts.empty()) return fail("no pictures to merge");
     const PicturePart& earliest = *std::ranges::min_element(parts, {}, &PicturePart::first_sample);
     FilmImage out = *earliest.film; // its ids are those of the first sample
     std::uint64_t samples = 0;
@@ -200,9 +200,9 @@ Result<StoredPicture> read_picture(const std::string& path) {
         film.samples += r.count;
     if (film.samples == 0)
         return fail(path +
-                    ": does not say how many samples it has; only pictures that `restage render` wrote as .exr "
+                    ": does not give its number of samples; only pictures that `restage render` wrote as .exr "
                     "can be continued and merged");
-    // Errors are those of the path-traced picture; where it was denoised, that is the layer "noisy".
+    // Errors belong to the path-traced picture; if denoised, that is the layer "noisy".
     const auto& color = std::get<0>(render::film_layers);
     const std::string traced = image.find("noisy") ? "noisy" : "";
     if (places(image, traced, color).empty()) return fail(path + ": has no colours");
@@ -213,7 +213,7 @@ Result<StoredPicture> read_picture(const std::string& path) {
     });
     if (lacking.contains("stderr"))
         return fail(path +
-                    ": has no layer \"stderr\" with R, G, B and Y, so that nothing can be added to it; render "
+                    ": has no layer \"stderr\" with R, G, B and Y, so nothing can be added to it; render "
                     "with --aov all or stderr");
     render::each_film_layer([&](const auto& layer) {
         if (lacking.contains(layer.in_file)) return;
@@ -230,13 +230,13 @@ Result<> same_render(const std::map<std::string, std::string>& first, const std:
     };
     for (const char* key : {"restage:scene", "restage:changes", "restage:strategy", "restage:max_depth"})
         if (value(first, key) != value(other, key))
-            return fail(fmt::format("is of another render: its {} is \"{}\", not \"{}\"", std::string(key).substr(8),
+            return fail(fmt::format("is from another render: its {} is \"{}\", not \"{}\"", std::string(key).substr(8),
                                     value(other, key), value(first, key)));
     return {};
 }
 
 Result<StoredPicture> merge_pictures(std::span<const StoredPicture> pictures) {
-    if (pictures.empty()) return fail("there are no pictures to merge");
+    if (pictures.empty()) return fail("no pictures to merge");
     StoredPicture out{.film = {}, .layers = pictures[0].layers, .metadata = pictures[0].metadata, .ranges = {}};
     std::vector<PicturePart> parts;
     for (std::size_t i = 0; i < pictures.size(); ++i) {

@@ -14,15 +14,15 @@ namespace restage::view {
 
 namespace {
 
-// Film layers of one name in a file are one layer there, with the channels of all of them.
+// Film layers with the same file name become one layer there, with the channels of all.
 io::ExrLayer& layer_of(io::ExrImage& image, const std::string& name) {
     for (io::ExrLayer& layer : image.layers)
         if (layer.name == name) return layer;
     return image.layers.emplace_back(io::ExrLayer{.name = name, .channels = {}});
 }
 
-// `scale`: the exposure, for what it applies to. A variance is written as its root, the standard error: of luminance,
-// as those of the channels do not tell it, because channels err together.
+// `scale`: the exposure, where it applies. A variance is written as its root, the standard error: also of luminance,
+// as it does not follow from those of the channels, whose errors are correlated.
 template <class V>
 void add_layer(io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& from,
                const std::vector<V>& values, float scale) {
@@ -76,7 +76,7 @@ Result<void> check_aovs(const std::string& aovs) {
         const std::size_t comma = std::min(rest.find(','), rest.size());
         const std::string_view name = rest.substr(0, comma);
         if (const auto names = aov_names(); std::ranges::find(names, name) == names.end())
-            return fail(fmt::format("there is no layer \"{}\"; there are {} and {} (commas between), all, or none",
+            return fail(fmt::format("there is no layer \"{}\"; there are {} and {} (separated by commas), all, or none",
                                     name, fmt::join(names.begin(), names.end() - 1, ", "), names.back()));
         if (comma == rest.size()) return {};
         rest.remove_prefix(comma + 1);
@@ -87,13 +87,13 @@ Result<void> check_picture_path(const std::string& path) {
     const std::filesystem::path p(path);
     static constexpr std::string_view known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr"};
     if (std::find(std::begin(known), std::end(known), extension_of(path)) == std::end(known))
-        return fail(path + ": the extension says the format: .exr, .png, .jpg, .pfm or .hdr");
+        return fail(path + ": the extension selects the format: .exr, .png, .jpg, .pfm or .hdr");
     const auto folder = p.has_parent_path() ? p.parent_path() : std::filesystem::path(".");
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
-        return fail(path + ": there is no folder " + folder.string() + "; make it first, or write elsewhere");
+        return fail(path + ": there is no folder " + folder.string() + "; create it first, or write elsewhere");
     if (const auto there = std::filesystem::status(p, error); exists(there) && !is_regular_file(there))
-        return fail(path + ": is there already, and no file that can be replaced");
+        return fail(path + ": exists already, and is not a file that can be replaced");
     return {};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures: of what a LiveView has made, what is shown. The rule is here alone, so that it can be held by a test: where
-// pictures are denoised nothing noisy is ever shown, and nothing of another document. Its owner locks.
+// Pictures: selects which of a LiveView's pictures is shown. The rule is only here, so that it can be tested: if
+// pictures are denoised nothing noisy is ever shown, and nothing of another document. The owner locks.
 #pragma once
 
 #include "view/live_view.hpp"
@@ -9,25 +9,25 @@ namespace restage::view {
 
 class Pictures {
   public:
-    // What is asked for from now on; of another document nothing is shown any more.
+    // The current request; pictures of other documents are no longer shown.
     void ask(std::uint64_t document, bool denoise) {
         denoise_ = denoise;
         if (document == document_) return;
         document_ = document;
         raw_ = clean_ = clay_ = nullptr;
     }
-    // Finished ones, in the order in which they were made. One of a document that is no longer asked for is dropped.
+    // Finished pictures, in order of creation. Those of a document no longer requested are dropped.
     void put(std::shared_ptr<const Frame> frame) {
         if (frame->document != document_) return;
         (frame->clay ? clay_ : frame->denoised ? clean_ : raw_) = std::move(frame);
     }
-    // Denoising works (""), or why it does not.
+    // "" if denoising works, else why not.
     void denoiser(std::string missing) { missing_ = std::move(missing); }
     const std::string& denoiser_missing() const { return missing_; }
 
     const std::shared_ptr<const Frame>& raw() const { return raw_; }
     const std::shared_ptr<const Frame>& clean() const { return clean_; }
-    // The last clean one stays until the next is there, however old; before the first, clay.
+    // The last clean one stays until the next is ready, however old; before the first, clay.
     const std::shared_ptr<const Frame>& best(bool want_denoised) const {
         const auto& real = want_denoised && denoise_ && missing_.empty() ? clean_ : raw_;
         return real ? real : clay_;

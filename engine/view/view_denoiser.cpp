@@ -21,7 +21,7 @@ ViewDenoiser::~ViewDenoiser() {
     thread_.join();
 }
 
-// The newest, but a coarse one of the same request goes before the full one: it is there in a quarter of the time.
+// The newest, but a coarse one of the same request precedes the full one: it takes a quarter of the time.
 void ViewDenoiser::add(std::shared_ptr<const Frame> frame) {
     {
         const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ void ViewDenoiser::choose(std::string name) {
     wake_.notify_one();
 }
 
-// False: there is none of that name, or none that can be used; it has been said.
+// False: unknown or unusable; already reported.
 bool ViewDenoiser::choose_again(std::optional<plugin::DenoiserEntry>& chosen) {
     std::string name;
     {
@@ -59,7 +59,7 @@ bool ViewDenoiser::choose_again(std::optional<plugin::DenoiserEntry>& chosen) {
 }
 
 void ViewDenoiser::run() {
-    lower_thread_priority(3); // before rendering (5): what is shown comes from here
+    lower_thread_priority(3); // ahead of rendering (5): shown pictures come from here
     std::optional<plugin::DenoiserEntry> denoiser;
     for (;;) {
         const bool able = choose_again(denoiser);
@@ -82,7 +82,7 @@ void ViewDenoiser::run() {
         };
         auto color = render::denoise(source->image, *denoiser, plugin::DenoiseQuality::fast, 0, keep_going);
         if (!color && color.error().cancelled()) continue;
-        host_.says(color ? "" : color.error().message); // where it failed, pictures are shown as they are
+        host_.says(color ? "" : color.error().message); // on failure, noisy pictures are shown
         if (!color) continue;
         auto frame = std::make_shared<Frame>(*source);
         frame->image.color = std::move(*color);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ViewDenoiser: denoises the pictures of a LiveView on a thread of its own, the newest first. [any]
+// ViewDenoiser: denoises the pictures of a LiveView on its own thread, newest first. [any]
 #pragma once
 
 #include "plugin/registry.hpp"
@@ -18,16 +18,16 @@ namespace restage::view {
 
 class ViewDenoiser {
   public:
-    struct Host { // all called from the thread
-        std::function<bool(const Frame&)> wanted; // false: it may be given up
+    struct Host { // all called on that thread
+        std::function<bool(const Frame&)> wanted; // false: it may be skipped
         std::function<void(std::shared_ptr<const Frame>)> done;
         std::function<void(const std::string& problem)> says; // why pictures are not denoised; "" = they are
     };
     ViewDenoiser(const plugin::Registry& registry, Host host);
-    ~ViewDenoiser(); // stops within some 50 ms
+    ~ViewDenoiser(); // stops within about 50 ms
 
     void add(std::shared_ptr<const Frame> frame);
-    // By this one from now on, the last picture too; see render::choose_denoiser.
+    // Selects the denoiser, also for the last picture; see render::choose_denoiser.
     void choose(std::string name);
 
   private:
@@ -40,9 +40,9 @@ class ViewDenoiser {
     std::condition_variable wake_;
     bool stop_ = false;
     std::deque<std::shared_ptr<const Frame>> queue_; // at most a coarse one and the full one
-    std::shared_ptr<const Frame> last_; // that was added
+    std::shared_ptr<const Frame> last_; // last added
     std::string name_;
-    bool chosen_ = false; // the thread knows of `name_`
+    bool chosen_ = false; // the thread has taken `name_`
     std::thread thread_;
 };
 

@@ -6,9 +6,9 @@ guide images, instance labels and a JSON that says what changed.
     python room_variations.py -o dataset --count 50             # one process
     python room_variations.py -o dataset --count 50 --ray       # the same files, frames spread over Ray's workers
 
-Variation i of a seed is the same whoever makes it and in whatever order; what is there already is not made again.
+Variation i of a seed is the same on any worker and in any order; existing ones are not made again.
 For each: 0007.png (denoised), 0007.exr (linear, with standard error, albedo, normal, depth, ids), 0007.npz (labels: index
-into "things" of the JSON, uint16; depth; normal), 0007.json (written last: a variation without one is made anew).
+into "things" of the JSON, uint16; depth; normal), 0007.json (written last: a variation without one is made again).
 """
 import argparse
 import json
@@ -33,7 +33,7 @@ def overlaps(a, b, gap=0.01):
 
 
 def place(session, thing, rng, obstacles, room, tries=30):
-    """Moves and turns a thing on the floor to where it stands free; returns what was done, or None where nowhere fits.
+    """Moves and turns a thing on the floor to a free place; returns what was done, or None if there is no place.
 
     Parts are boxes: a chair fits below a table, whose top and legs are boxes of their own."""
     for _ in range(tries):
@@ -51,7 +51,7 @@ def place(session, thing, rng, obstacles, room, tries=30):
 
 
 def vary(session, rng):
-    """Changes the room; returns what was changed, for the JSON."""
+    """Changes the room; returns the changes, for the JSON."""
     changes = {}
     paint = rng.choice(list(PAINTS))
     session.materials["Wall paint"]["reflectance"] = PAINTS[paint]
@@ -94,7 +94,7 @@ def vary(session, rng):
 
 
 def things_of(session):
-    """What labels count: groups that are not in a group, and objects in none."""
+    """The labelled things: top-level groups, and objects in no group."""
     return [g for g in session.groups if g.parent is None] + [o for o in session.objects if o.group is None]
 
 
@@ -107,7 +107,7 @@ def labels_of(picture, things):
 
 
 def make(index, o):
-    """Variation `index`, unless it is there. Returns True when it was made."""
+    """Makes variation `index` unless it exists. Returns True if it was made."""
     name = o.output / f"{index:04}"
     settings = {"index": index, "seed": o.seed, "size": list(o.size), "samples": o.samples}
     done = name.with_suffix(".json")
@@ -129,7 +129,7 @@ def make(index, o):
             "relative_error": picture.relative_error}, indent=1)
     part = name.with_suffix(".part")
     part.write_text(text)
-    os.replace(part, done)  # the other files are whole when this one is there
+    os.replace(part, done)  # the other files are complete once this one exists
     return True
 
 
@@ -153,8 +153,8 @@ def main(arguments=None):
     made = 0
     for index, new in results:
         made += new
-        print(f"{index:04} {'made' if new else 'is there'}", flush=True)
-    print(f"{made} made, {o.count - made} were there, in {o.output}")
+        print(f"{index:04} {'made' if new else 'exists'}", flush=True)
+    print(f"{made} made, {o.count - made} existed, in {o.output}")
 
 
 if __name__ == "__main__":

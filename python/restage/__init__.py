@@ -13,8 +13,8 @@
         session.export("edited.pbrt")
 
 Lengths are in the scene's own unit, angles in degrees, colours linear sRGB. Every change goes through the session's
-history, as in the editor. What cannot be done raises restage.Error with a sentence. Warnings of the engine go to the
-logger "restage" of Python's logging.
+history, as in the editor. What cannot be done raises restage.Error with one sentence. The engine's warnings go to
+Python's logger "restage".
 """
 import pathlib as _pathlib
 
@@ -35,7 +35,7 @@ from .checking import CheckReport, CheckStep, check
 __version__ = _core.version()
 
 _here = _pathlib.Path(__file__).parent
-# In a wheel all is inside the package; in a build tree or an installed one the package is lib/python/restage.
+# In a wheel everything is inside the package; in a build tree or an installed one the package is lib/python/restage.
 _core.set_home(_here if (_here / "share").is_dir() else _pathlib.Path(_core.__file__).parents[3])
 
 
@@ -44,7 +44,7 @@ def _program() -> _pathlib.Path:
     """The program `restage` of this installation."""
     program = _pathlib.Path(_core.home()) / "bin" / "restage"
     if not program.exists():
-        raise Error(f"{program}: the program is not there; the installation is incomplete")
+        raise Error(f"{program}: the program is missing; the installation is incomplete")
     return program
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wrong arguments in one sentence. nanobind answers them with the signatures of all overloads; here each function of the
+"""Errors about wrong arguments in one sentence. nanobind lists all overloads' signatures; here each function of the
 module says instead which argument was wrong, what it is and what it should be."""
 import ast
 import difflib
@@ -35,7 +35,7 @@ def _all(value, fits):
         return False
 
 
-# By the annotation of a signature: what to call it, and does a value fit? A type of the module's own is looked up there.
+# For each annotation: its name in messages, and does a value fit? The module's own types are looked up in the module.
 _KINDS = {
     "float": ("a number", _number),
     "int": ("a whole number", _whole),
@@ -63,11 +63,11 @@ def _text(annotation):
 
 
 class _Signature:
-    """One overload, from the text nanobind has of it."""
+    """One overload, parsed from nanobind's signature text."""
 
     def __init__(self, overload):
         text, _, defaults = overload
-        for i, default in enumerate(defaults or ()):  # \0, \1, ... stand for them
+        for i, default in enumerate(defaults or ()):  # \0, \1, ... replace them
             text = re.sub(rf"\\{i}\b", lambda _: _literal(default), text)
         text = re.sub(r"\bndarray\[.*?\]", "numpy.ndarray", text)  # nanobind's own words for arrays
         name = "" if text.startswith("def (") else None
@@ -115,7 +115,7 @@ def _kind(part, module):
     named = getattr(module, part, None)
     if isinstance(named, type):
         return f"{'an' if part[0] in 'AEIOU' else 'a'} {part}", lambda v: isinstance(v, named)
-    return part, lambda v: True  # who can tell
+    return part, lambda v: True  # unknown: accept
 
 
 def _shown(value):
@@ -124,7 +124,7 @@ def _shown(value):
 
 
 def _wrong(annotation, value, module):
-    """What should be there instead of this value, or None."""
+    """What should replace this value, or None if it fits."""
     if annotation is inspect.Parameter.empty or annotation in ("object", "typing.Any"):
         return None
     parts = _alternatives(annotation)
@@ -186,7 +186,7 @@ def _sentence(signatures, label, method, args, kwargs, module):
 
 def _wrap(function, label, method, module):
     overloads = function.__nb_signature__
-    signatures = []  # parsed when first needed
+    signatures = []  # parsed on first use
 
     @functools.wraps(function)
     def wrapper(*args, **kwargs):
@@ -209,7 +209,7 @@ def _is_function(thing):
 
 
 def install(module):
-    """Of every function, method and setter of a nanobind module."""
+    """Wraps every function, method and setter of a nanobind module."""
     for name, thing in list(vars(module).items()):
         if _is_function(thing):
             setattr(module, name, _wrap(thing, f"{name}()", False, module))

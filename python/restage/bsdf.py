@@ -14,30 +14,30 @@ if typing.TYPE_CHECKING:
 
 
 class BsdfSample(typing.NamedTuple):
-    """Sampled directions. Where `flags` is 0 nothing was sampled, and the rest of the row means nothing."""
+    """Sampled directions. Rows whose `flags` is 0 hold no sample; the rest of such a row is undefined."""
 
     wi: NDArray[numpy.float32]
     "(n, 3): towards the light."
     weight: NDArray[numpy.float32]
     "(n, 3): f |cos| / pdf."
     pdf: NDArray[numpy.float32]
-    "(n,): solid-angle density [1/sr]; of a delta lobe the chance that it was picked."
+    "(n,): solid-angle density [1/sr]; for a delta lobe the probability of choosing it."
     flags: NDArray[numpy.uint32]
-    "(n,): 1 reflected, 2 transmitted, 4 delta, added up."
+    "(n,): sum of 1 reflected, 2 transmitted, 4 delta."
     eta: NDArray[numpy.float32]
-    "(n,): of a transmission, index of refraction on the other side over this one; else 1."
+    "(n,): for a transmission, refractive index of the far side over that of the near side; else 1."
 
 
 class Bsdf:
-    """The BSDF of a material type, as its plugin's GLSL computes it on the GPU (or lavapipe), in single precision.
+    """The BSDF of a material type, computed by its plugin's GLSL on the GPU (or lavapipe), in single precision.
 
         glass = restage.Bsdf("dielectric")
         s = glass.sample(wo, u, {"uroughness": 0.1, "vroughness": 0.1})
         f = glass.eval(wo, s.wi, {"uroughness": 0.1, "vroughness": 0.1})
 
     Directions are unit vectors in the local frame, n = +z, both pointing away from the surface: wo to the viewer, wi to
-    the light; arrays (n, 3), or (3,) for all rows. `params`: a dict for all rows, or a list of n dicts; what is not named
-    has its default. Textures cannot be given.
+    the light; arrays (n, 3), or (3,) for all rows. `params`: a dict for all rows, or a list of n dicts; unnamed
+    parameters have their defaults. Textures are not supported.
     """
 
     def __init__(self, type: str):
@@ -72,8 +72,8 @@ class Bsdf:
 
     def eval(self, wo: ArrayLike, wi: ArrayLike, params: Params = None, *, repeats: int = 1,
              seed: int = 0) -> NDArray[numpy.float32]:
-        """f(wo, wi) |cos wi|, (n, 3) [1/sr]; 0 for delta lobes. Of stochastic materials: a random number with that
-        expectation, the mean of `repeats` of them."""
+        """f(wo, wi) |cos wi|, (n, 3) [1/sr]; 0 for delta lobes. For stochastic materials: an unbiased
+        estimate, the mean of `repeats` evaluations."""
         return self._run(wo, wi, (0.5, 0.5, 0.5), params, seed, repeats)["eval"].copy()
 
     def pdf(self, wo: ArrayLike, wi: ArrayLike, params: Params = None) -> NDArray[numpy.float32]:
@@ -86,5 +86,5 @@ class Bsdf:
         return BsdfSample(a["wi"].copy(), a["weight"].copy(), a["sample_pdf"].copy(), a["flags"].copy(), a["eta"].copy())
 
     def albedo(self, wo: ArrayLike, params: Params = None) -> NDArray[numpy.float32]:
-        """What the denoiser and the light budget see, (n, 3): about the share of light that is scattered."""
+        """Albedo as used by the denoiser and the light budget, (n, 3): about the share of light that is scattered."""
         return self._run(wo, (0, 0, 1), (0.5, 0.5, 0.5), params, 0)["albedo"].copy()

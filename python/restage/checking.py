@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check: what `restage check` finds about a plugin, from Python. The program runs the plugin in a process of its own, so
-that one that crashes or hangs takes nothing with it."""
+"""check: runs `restage check` on a plugin, from Python. The program runs the plugin in a process of its own, so
+that a crash or hang does not affect the caller."""
 from __future__ import annotations
 
 import dataclasses
@@ -24,7 +24,7 @@ class CheckStep:
     text: str
     "What is wrong and where, or why it was skipped."
     cause: str
-    "Of a failure: what usually causes it."
+    "For a failure: its usual cause."
     figures: dict[str, float | None]
     "What was measured."
     seconds: float
@@ -33,7 +33,7 @@ class CheckStep:
 
 @dataclasses.dataclass(frozen=True)
 class CheckReport:
-    """What a check found; true when everything passed."""
+    """The result of a check; true if everything passed."""
 
     id: str
     kind: str
@@ -63,7 +63,7 @@ def check(plugin: str | os.PathLike | _core.Plugin, *, quick: bool = False, only
           seed: int | None = None, time_limit: float | None = None) -> CheckReport:
     """Tests whether a plugin does what it promises. plugin: a folder with a plugin.json, an id, what a plugin provides
     ("dielectric"), or one of plugins(). quick: seconds instead of up to a minute. only: one step. time_limit: longest time
-    without an answer from the plugin [s]. Raises Error when there is nothing to check."""
+    without an answer from the plugin [s]. Raises Error if there is nothing to check."""
     from . import _program
 
     if not isinstance(plugin, (_core.Plugin, str, os.PathLike)):
@@ -80,7 +80,7 @@ def check(plugin: str | os.PathLike | _core.Plugin, *, quick: bool = False, only
         reports = []
     if not reports:
         message = done.stderr.strip().removeprefix("restage: ").removeprefix("error: ")
-        raise _core.Error(message or f"restage check ended with code {done.returncode} and said nothing")
+        raise _core.Error(message or f"restage check ended with code {done.returncode} and no message")
     r = reports[0]
     steps = [CheckStep(s["step"], s["of"], s["verdict"], s["text"], s["cause"],
                        {f["name"]: f["value"] for f in s["figures"]}, s["seconds"]) for s in r["steps"]]

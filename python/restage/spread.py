@@ -4,8 +4,8 @@
     picture = restage.spread.render("room.pbrt", samples=1024, parts=16, size=(640, 360))
     for index, result in restage.spread.each(make_frame, range(500)): ...
 
-A task whose worker is lost (a crash, a machine that goes) is done again by another. ray.init() as you like it before; else
-this machine's cores are the workers.
+A task whose worker is lost (by a crash or a lost machine) is repeated by another. Call ray.init() first to configure
+the workers; by default they are this machine's cores.
 """
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _ray():
     except ImportError:
         raise _core.Error("Ray is not installed: pip install 'restage[ray]', or pip install ray") from None
     if not ray.is_initialized():
-        # Workers import restage from where this process has it.
+        # Workers import restage from the same place as this process.
         package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
         paths = os.environ.get("PYTHONPATH", "")
         if package not in paths.split(os.pathsep):
@@ -34,7 +34,7 @@ def _ray():
 
 
 def split(samples: int, parts: int) -> list[tuple[int, int]]:
-    """(first sample, count) of each part; counts differ by one at most."""
+    """(first sample, count) of each part; counts differ by at most one."""
     parts = max(1, min(parts, samples))
     bounds = [samples * i // parts for i in range(parts + 1)]
     return [(a, b - a) for a, b in zip(bounds, bounds[1:])]
@@ -51,9 +51,9 @@ def _part(scene, edit, options, first, count):
 
 def render(scene: str | os.PathLike, *, samples: int, parts: int, edit: collections.abc.Callable | None = None,
            threads: int = 1, retries: int = 3, **options) -> _core.Picture:
-    """One picture, its samples as `parts` tasks; the same as Session.render with that seed gives, but for rounding.
-    edit(session): what is changed before rendering, in each task. threads: of a task; options: of Session.render, but
-    denoise, which is for the picture that comes back."""
+    """One picture, its samples split into `parts` tasks; equal to Session.render with that seed up to rounding.
+    edit(session): called in each task before rendering. threads: per task; options: those of Session.render;
+    denoise applies to the returned picture."""
     ray = _ray()
     task = ray.remote(num_cpus=threads, max_retries=retries)(_part)
     options["threads"] = threads
@@ -63,8 +63,8 @@ def render(scene: str | os.PathLike, *, samples: int, parts: int, edit: collecti
 
 def each(function: collections.abc.Callable[[typing.Any], T], items: collections.abc.Iterable, *, threads: int = 1,
          retries: int = 3) -> collections.abc.Iterator[tuple[typing.Any, T]]:
-    """(item, function(item)) for every item, as they are done. An exception in the function ends it; a lost worker does
-    not. The function says itself how many threads it renders with: as many as `threads`."""
+    """Yields (item, function(item)) for every item as it completes. An exception in the function ends it; a lost worker
+    does not. The function itself must limit its rendering to `threads` threads."""
     ray = _ray()
     task = ray.remote(num_cpus=threads, max_retries=retries)(function)
     waiting = {task.remote(item): item for item in items}

@@ -25,7 +25,7 @@ class Lab {
         table_ = entry->table->params;
         type_ = type;
         const nb::gil_scoped_release release;
-        const auto cache = cache_dir().value_or(std::filesystem::path()); // without: the device says so
+        const auto cache = cache_dir().value_or(std::filesystem::path()); // if it is missing, the device reports it
         device_ = take(gpu::Device::create({.cache_dir = cache}, host_->log()));
         compiler_ = std::make_unique<gpu::ShaderCompiler>(
             gpu::ShaderCompilerOptions{.include_dirs = {Host::home() / "share/restage/shaders"},
@@ -34,7 +34,7 @@ class Lab {
             take(check::BsdfLab::create(*device_, *compiler_, {entry->table, entry->plugin->folder, entry->source})));
     }
 
-    // All arrays have n rows, `config` names one of the parameter sets for each. The answer: raw records, 96 bytes.
+    // All arrays have n rows, `config` names one of the parameter sets for each. Returns raw records of 96 bytes.
     nb::bytes run(const Vectors& wo, const Vectors& wi, const Vectors& u, const Indices& config, const nb::list& sets,
                   std::uint32_t seed, std::uint32_t repeats) {
         Host::begin_threads();
@@ -46,7 +46,7 @@ class Lab {
                 const std::string who = type_ + ": parameter \"" + id + "\"";
                 const auto line =
                     std::find_if(table_.begin(), table_.end(), [&](const model::Param& p) { return p.id == id; });
-                if (line == table_.end()) throw Failure(who + " is not one of a " + type_);
+                if (line == table_.end()) throw Failure(who + " does not exist in a " + type_);
                 scene::Value v = to_value(nullptr, line->type, value, who);
                 if (line->type == model::ParamType::choice && !line->choice_index(v.text))
                     throw Failure(who + " cannot be \"" + v.text + "\"; " + choices_text(*line) + " are possible");
@@ -79,7 +79,7 @@ class Lab {
     Lab(const Lab&) = delete;
 
   private:
-    struct Kept { // for ever: a forked child must not end what has threads
+    struct Kept { // never freed: a forked child must not destroy objects with threads
         std::unique_ptr<gpu::Device> device;
         std::unique_ptr<gpu::ShaderCompiler> compiler;
         std::optional<check::BsdfLab> lab;
@@ -100,7 +100,7 @@ static_assert(offsetof(check::BsdfAnswer, pdf) == 40 && offsetof(check::BsdfAnsw
 } // namespace
 
 void bind_bsdf(nb::module_& m) {
-    nb::class_<Lab>(m, "BsdfLab", "What restage.Bsdf runs.")
+    nb::class_<Lab>(m, "BsdfLab", "Implementation of restage.Bsdf.")
         .def(nb::init<const std::string&>(), "type"_a)
         .def("run", &Lab::run, "wo"_a, "wi"_a, "u"_a, "config"_a, "sets"_a, "seed"_a, "repeats"_a);
 }

@@ -14,7 +14,7 @@ using namespace scene;
 
 namespace {
 
-// How many single letters must change, for "did you mean". Levenshtein 1966.
+// Edit distance, for "did you mean". Levenshtein 1966.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j)
@@ -45,7 +45,7 @@ std::vector<std::string> names(const Collection<T>& c) {
 }
 
 template <class T>
-std::string word_of() { // what Python calls it
+std::string word_of() { // its name in Python
     return std::is_same_v<T, Instance> ? "object" : std::string(kind_name<T>);
 }
 
@@ -63,7 +63,7 @@ void bind(nb::module_& m, const char* name, const char* element) {
     const std::string list_of = std::string("list[") + element + "]";
     const auto sig = [](const std::string& text) { return text; };
     const std::string iter_sig = sig("def __iter__(self) -> collections.abc.Iterator[" + std::string(element) + "]");
-    nb::class_<C>(m, name, "All things of one kind in a scene: by name, by position, or one after the other.")
+    nb::class_<C>(m, name, "All things of one kind in a scene: by name, by position, or by iteration.")
         .def("__len__", [](const C& c) { return table<T>(c.in->scene()).live(); })
         .def(
             "__iter__", [](const C& c) { return nb::iter(nb::cast(all(c))); }, nb::sig(iter_sig.c_str()))
@@ -76,7 +76,7 @@ void bind(nb::module_& m, const char* name, const char* element) {
                 if (!id) throw not_there(c, wanted);
                 return Handle<T>{c.in, id};
             },
-            "name"_a, "The first of that name; KeyError when there is none.")
+            "name"_a, "The first of that name; KeyError if there is none.")
         .def(
             "__getitem__",
             [](const C& c, long index) {
@@ -96,7 +96,7 @@ void bind(nb::module_& m, const char* name, const char* element) {
                 (void)h.get();
                 return h;
             },
-            "id"_a, "The one whose id is this, as in Picture.object_id and Picture.material_id.")
+            "id"_a, "The one with this id, as in Picture.object_id and Picture.material_id.")
         .def(
             "match",
             [](const C& c, const std::string& pattern) {
@@ -106,7 +106,7 @@ void bind(nb::module_& m, const char* name, const char* element) {
                     if (nb::cast<bool>(fits(h.get().name, pattern))) found.push_back(h);
                 return found;
             },
-            "pattern"_a, "Those whose name fits a shell pattern: \"Chair*\".")
+            "pattern"_a, "Those whose names match a shell pattern: \"Chair*\".")
         .def_prop_ro("names", &names<T>, "Their names, in order.")
         .def("__repr__", [list_of](const C& c) {
             return "<restage " + list_of + ", " +

@@ -32,7 +32,7 @@ struct Failure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// restage.Cancelled, a restage.Error: a callback asked for it.
+// restage.Cancelled, a restage.Error: requested by a callback.
 struct Stopped : Failure {
     using Failure::Failure;
 };
@@ -57,12 +57,12 @@ using Matrix = nb::ndarray<nb::numpy, double, nb::shape<4, 4>, nb::c_contig>;
 using Box = nb::ndarray<nb::numpy, double, nb::shape<2, 3>, nb::c_contig>;
 Matrix to_numpy(const glm::dmat4&);
 Box to_numpy(const glm::dvec3& lower, const glm::dvec3& upper);
-// Whatever numpy can make a 4x4 array of, column vectors: m @ (x, y, z, 1). The last row must be 0 0 0 1.
+// Anything numpy can convert to a 4x4 array, for column vectors: m @ (x, y, z, 1). The last row must be 0 0 0 1.
 glm::dmat4 to_matrix(nb::handle);
 
 } // namespace restage::python
 
-// Three numbers are taken from numpy arrays as well, and type checkers are told so.
+// Accepts numpy arrays as three numbers as well, and tells type checkers so.
 namespace nanobind::detail {
 template <>
 struct type_caster<restage::python::Three> : array_caster<restage::python::Three, double, 3> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geometry as arrays, and things that are made new: meshes, cameras, groups.
+// Geometry as arrays, and new things: meshes, cameras, groups.
 #include "values.hpp"
 
 #include "scene/bounds.hpp"
@@ -16,7 +16,7 @@ namespace {
 template <class T>
 using Rows = nb::ndarray<const T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-// Whatever numpy can make an array (n, columns) of.
+// Anything numpy can convert to an array (n, columns).
 template <class Row, class T>
 std::vector<Row> rows(nb::handle h, const char* type, const char* what) {
     constexpr std::size_t columns = sizeof(Row) / sizeof(T);
@@ -70,7 +70,7 @@ Handle<Instance> add_mesh(const Shared& w, nb::handle positions, nb::handle tria
 
 Handle<Camera> add_camera(const Shared& w, const Three& position, const Three& target, const std::optional<Three>& up,
                           std::optional<double> fov, const std::string& name) {
-    Camera camera; // looks as the active one does: a scene may be mirrored
+    Camera camera; // mirrored like the active one: a scene may be mirrored
     if (const Camera* active = w->scene().cameras.find(w->scene().active_camera.value)) {
         camera = *active;
         camera.origin = {};
@@ -85,7 +85,7 @@ Handle<Camera> add_camera(const Shared& w, const Three& position, const Three& t
         w->edit(insert(w->scene(), std::move(camera), "Add " + name));
         nb::cast(h).attr("look_at")(target, "position"_a = position, "up"_a = up);
         if (first) w->edit(set_active_camera(w->scene(), h.id));
-    } catch (...) { // nothing of it stays
+    } catch (...) { // undone completely
         if (w->scene().cameras.find(h.id)) w->edit(remove(w->scene(), h.id));
         w->end_step();
         throw;
@@ -96,10 +96,10 @@ Handle<Camera> add_camera(const Shared& w, const Three& position, const Three& t
 
 Handle<Group> add_group(const Shared& w, nb::handle things, const std::string& name) {
     const Objects ids = objects_of(*w, things);
-    if (ids.empty()) throw Failure("add_group: a group holds one object or more");
+    if (ids.empty()) throw Failure("add_group: a group needs at least one object");
     const Scene& s = w->scene();
     const Handle<Group> h{w, s.groups.next()};
-    // Groups that lie wholly in it keep together: they move into the new one, their objects stay in them.
+    // Groups wholly contained are kept: they move into the new one, with their objects.
     std::map<std::uint32_t, std::size_t> chosen; // of each group: objects in it or in groups of it
     const auto each_group = [&](Id<Instance> id, auto&& f) {
         for (Id<Group> g = s.instances[id].group; g; g = s.groups[g].parent)
@@ -110,7 +110,7 @@ Handle<Group> add_group(const Shared& w, nb::handle things, const std::string& n
     std::map<std::uint32_t, std::size_t> all;
     s.instances.each([&](Id<Instance> id, const Instance&) { each_group(id, [&](Id<Group> g) { ++all[g.value]; }); });
     const auto whole = [&](Id<Group> g) { return g && chosen[g.value] == all[g.value]; };
-    // A common parent of everything is the new group's.
+    // A parent common to all becomes the new group's.
     Id<Group> parent = s.instances[ids[0]].group;
     while (parent && (whole(parent) || chosen[parent.value] != ids.size()))
         parent = s.groups[parent].parent;
@@ -138,7 +138,7 @@ Handle<Group> add_group(const Shared& w, nb::handle things, const std::string& n
 
 using Geometry = std::shared_ptr<const MeshData>;
 
-// The array looks into the mesh, which it keeps alive; meshes never change, so it cannot be written to.
+// The array is a view of the mesh, which it keeps alive; meshes never change, so it is read-only.
 template <class T, class V>
 nb::object look_into(const Handle<Instance>& h, std::vector<V> MeshData::* member) {
     const Mesh* mesh = h.in->scene().meshes.find(h.get().mesh);
@@ -168,10 +168,10 @@ void bind_geometry(nb::class_<Workspace>& session, nb::class_<Handle<Instance>>&
                     "transform: numpy.typing.ArrayLike | None = None) -> Object"))
         .def("add_camera", &add_camera, "position"_a, "target"_a, "up"_a = nb::none(), "fov"_a = nb::none(),
              "name"_a = "Camera",
-             "A new camera at a point, looking at another [scene units]; else as the active one is, whose place it "
-             "takes\nwhere there is none. up: default the scene's; fov: of the shorter side [deg].")
+             "A new camera at a point, looking at another [scene units]; other values as in the active one; it "
+             "becomes\nactive if there is none. up: default the scene's; fov: of the shorter side [deg].")
         .def("add_group", &add_group, "things"_a, "name"_a = "Group",
-             "A new group of objects, groups and selections; groups that are wholly in it stay groups.",
+             "A new group of objects, groups and selections; groups wholly contained stay groups.",
              nb::sig("def add_group(self, things: Object | Group | Selection | collections.abc.Iterable[Object | Group "
                      "| Selection], name: str = 'Group') -> Group"));
     object
@@ -185,7 +185,7 @@ void bind_geometry(nb::class_<Workspace>& session, nb::class_<Handle<Instance>>&
             nb::sig("def triangles(self) -> numpy.typing.NDArray[numpy.uint32]"))
         .def_prop_ro(
             "normals", [](const H& h) { return look_into<float>(h, &MeshData::normals); },
-            "float32 (n, 3), read-only: shading normals, object space; None = it is flat.",
+            "float32 (n, 3), read-only: shading normals, object space; None = flat.",
             nb::sig("def normals(self) -> numpy.typing.NDArray[numpy.float32] | None"))
         .def_prop_ro(
             "uvs", [](const H& h) { return look_into<float>(h, &MeshData::uvs); },

@@ -28,7 +28,7 @@ fs::path& home_path() {
 
 std::atomic<bool> threads_began = false, is_forked = false;
 
-// Made at first use. In a forked child it is left alone at the end: its plugins would wait for their threads.
+// Created on first use. A forked child does not destroy it: its plugins would wait for their threads.
 struct HostKeeper {
     std::shared_ptr<Host> host = std::make_shared<Host>(Host::home());
     HostKeeper() = default;
@@ -73,7 +73,7 @@ void Host::begin_threads() {
     static const int registered = pthread_atfork(nullptr, nullptr, [] {
         is_forked = threads_began.load();
 #ifdef __GLIBC__
-        // Handlers of drivers, at the end of the process, would wait for their threads as well: ours goes first.
+        // Drivers' exit handlers would also wait for their threads: ours runs first.
         if (is_forked) on_exit([](int status, void*) { std::fflush(nullptr), _exit(status); }, nullptr);
 #endif
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host: the plugins and the log that all sessions of a Python process share. Made at first use.
+// Host: the plugins and the log that all sessions of a Python process share. Created on first use.
 #pragma once
 
 #include "convert.hpp"
@@ -27,8 +27,8 @@ class Host {
     explicit Host(const std::filesystem::path& home);
 
     // Rendering, denoising and the material lab start threads (Embree's, Vulkan's, the denoiser's) that live on. A
-    // fork() has none of them, and whoever waits for one waits for ever: so these say first that they begin, and in a
-    // child of a process where one had begun they are refused. What a session holds is not freed there either.
+    // fork() has none of them, and waiting for one would block for ever: so these announce their start, and are
+    // refused in a child forked after that. What a session holds is not freed there either.
     static void begin_threads(); // throws Failure in such a child
     static bool forked(); // is this such a child?
 
@@ -36,11 +36,11 @@ class Host {
     plugin::Registry& registry() { return registry_; }
     // Held shared while a thread without the GIL uses plugins; load() needs it alone.
     std::shared_mutex& in_use() { return in_use_; }
-    // What lies below the folder, refused ones too; what was loaded before stays as it is.
+    // The plugins below the folder, including refused ones; those loaded before stay.
     std::vector<const plugin::Entry*> load(const std::filesystem::path& folder);
 
-    // Gives what was logged meanwhile to Python's logger "restage". Threads without the GIL only queue it: one that
-    // waited for the GIL in the log's lock could wait for ever. [GIL]
+    // Passes lines logged meanwhile to Python's logger "restage". Threads without the GIL only queue them: waiting
+    // for the GIL inside the log's lock could deadlock. [GIL]
     void flush_log();
 
   private:

@@ -19,7 +19,7 @@ using CameraHandle = Handle<Camera>;
 glm::dmat4 look_at(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& up, bool mirrored) {
     const glm::dvec3 z = to - from;
     const glm::dvec3 x = glm::cross(up, z);
-    if (!(glm::length(z) > 0)) throw Failure("look_at: the target is where it looks from");
+    if (!(glm::length(z) > 0)) throw Failure("look_at: the target equals the viewpoint");
     if (!(glm::length(x) > 1e-9 * glm::length(z) * glm::length(up)))
         throw Failure("look_at: up is the direction of the view; name another up");
     const glm::dvec3 ez = glm::normalize(z), ex = glm::normalize(x), ey = glm::cross(ez, ex);
@@ -45,7 +45,7 @@ void bind_place(nb::class_<Handle<T>>& c, const char* label) {
             [label](const H& h, const Three& place) {
                 h.change(label, [&](T& thing) { (thing.*Field)[3] = glm::dvec4(vec(place), 1); });
             },
-            "Where it is, world space [scene units].")
+            "Position, world space [scene units].")
         .def(
             "look_at",
             [label](const H& h, const Three& target, const std::optional<Three>& from, const std::optional<Three>& up) {
@@ -70,7 +70,7 @@ void field(nb::class_<Handle<T>>& c, const char* name, const char* label, const 
 
 void bind_light(nb::module_& m) {
     nb::class_<LightHandle> c(m, "Light",
-                              "A light without a surface: point, spot or distant. What has a surface is an "
+                              "A light without a surface: point, spot or distant. An emitting surface is an "
                               "Object with an emission.");
     bind_handle(c, "Light");
     bind_place<Light, &Light::light_to_world>(c, "Move light");
@@ -81,13 +81,13 @@ void bind_light(nb::module_& m) {
         "Linear sRGB; point and spot: intensity [W/sr]; distant: irradiance at normal incidence [W/m^2].",
         [](const Light& l) { return triple(l.value); }, [](Light& l, const Three& v) { l.value = glm::vec3(vec(v)); });
     field<Light>(
-        c, "cone_angle", "Change light", "Of a spot: half angle [deg].",
+        c, "cone_angle", "Change light", "Half angle of a spot [deg].",
         [](const Light& l) { return exact(l.cone_angle); }, [](Light& l, double v) { l.cone_angle = float(v); });
     field<Light>(
-        c, "cone_delta", "Change light", "Of a spot: width of the smooth edge [deg].",
+        c, "cone_delta", "Change light", "Width of a spot's smooth edge [deg].",
         [](const Light& l) { return exact(l.cone_delta); }, [](Light& l, double v) { l.cone_delta = float(v); });
     field<Light>(
-        c, "falloff", "Change light", "Of a spot: how its edge fades, smooth (pbrt-v4) or quartic (pbrt-v3: t^4).",
+        c, "falloff", "Change light", "How a spot's edge fades: smooth (pbrt-v4) or quartic (pbrt-v3: t^4).",
         [](const Light& l) { return std::string(l.falloff == scene::Falloff::quartic ? "quartic" : "smooth"); },
         [](Light& l, const std::string& v) {
             if (v != "smooth" && v != "quartic") throw Failure("falloff is smooth or quartic, not \"" + v + "\"");
@@ -96,7 +96,7 @@ void bind_light(nb::module_& m) {
     c.def_prop_rw(
         "hidden", [](const LightHandle& h) { return h.get().hidden; },
         [](const LightHandle& h, bool hidden) { h.in->edit(set_hidden(h.in->scene(), h.id, hidden)); },
-        "Switched off: it stays in the scene and lights nothing.");
+        "Switched off: it stays in the scene but emits nothing.");
     c.def("remove", [](const LightHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); }, "Removes it.");
 }
 
@@ -113,7 +113,7 @@ scene::Projection projection_of(const std::string& name) {
 using Four = std::array<double, 4>;
 
 void bind_camera(nb::module_& m) {
-    nb::class_<CameraHandle> c(m, "Camera", "A camera; Session.camera is the one that is rendered from.");
+    nb::class_<CameraHandle> c(m, "Camera", "A camera; Session.camera is the one to render from.");
     bind_handle(c, "Camera");
     bind_place<Camera, &Camera::camera_to_world>(c, "Move camera");
     field<Camera>(
@@ -123,7 +123,7 @@ void bind_camera(nb::module_& m) {
         c, "lens_radius", "Change camera", "Radius of the lens [scene units]; 0 = a pinhole.",
         [](const Camera& v) { return exact(v.lens_radius); }, [](Camera& v, double x) { v.lens_radius = float(x); });
     field<Camera>(
-        c, "focal_distance", "Change camera", "Distance of what is sharp [scene units].",
+        c, "focal_distance", "Change camera", "Focus distance [scene units].",
         [](const Camera& v) { return exact(v.focal_distance); },
         [](Camera& v, double x) { v.focal_distance = float(x); });
     field<Camera>(
@@ -133,7 +133,7 @@ void bind_camera(nb::module_& m) {
         [](Camera& v, const std::string& x) { v.projection = projection_of(x); });
     field<Camera>(
         c, "screen_window", "Change camera",
-        "What the film shows, x0 x1 y0 y1: of an orthographic camera in scene units, else in units of what fov gives. "
+        "What the film shows, x0 x1 y0 y1: for an orthographic camera in scene units, else relative to fov. "
         "None: from the picture's aspect; then the shorter side of an orthographic camera is 2.",
         [](const Camera& v) {
             return v.screen_window ? std::optional(Four{exact(v.screen_window->x), exact(v.screen_window->y),
@@ -148,7 +148,7 @@ void bind_camera(nb::module_& m) {
         });
     c.def(
         "remove", [](const CameraHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
-        "Removes it; refused for the active one.");
+        "Removes it; refused for the active camera.");
 }
 
 } // namespace
@@ -156,7 +156,7 @@ void bind_camera(nb::module_& m) {
 void bind_lights(nb::module_& m) {
     bind_light(m);
     bind_camera(m);
-    nb::class_<Environment>(m, "Sky", "What lights a scene from all around, as it is now; Session.set_sky changes it.")
+    nb::class_<Environment>(m, "Sky", "The current light from all around; Session.set_sky changes it.")
         .def_prop_ro("name", [](const Environment& e) { return e.name; })
         .def_prop_ro(
             "is_image", [](const Environment& e) { return bool(e.image); }, "False: one colour everywhere.")
@@ -166,7 +166,7 @@ void bind_lights(nb::module_& m) {
             "equirect (a panorama) or octahedral (square, equal-area).")
         .def_prop_ro(
             "color", [](const Environment& e) { return triple(e.scale); },
-            "Radiance of a sky of one colour, or what its image is multiplied by.")
+            "Radiance of a sky of one colour, or the factor of its image.")
         .def_prop_ro(
             "transform", [](const Environment& e) { return to_numpy(e.light_to_world); }, nb::rv_policy::automatic,
             "Rotation: array (4, 4); a panorama's pole is +z.")

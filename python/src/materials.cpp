@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials and textures: types, and values by parameter id, held to the tables of the plugins.
+// Materials and textures: types, and values by parameter id, checked against the plugins' tables.
 #include "values.hpp"
 
 #include "scene/uses.hpp"
@@ -28,7 +28,8 @@ nb::object get_param(const MaterialHandle& h, const std::string& id) {
     const model::Param* line = find_line(table, id);
     if (!line)
         throw nb::key_error(
-            ("material \"" + material.name + "\": parameter \"" + id + "\" is not one of a " + material.type).c_str());
+            ("material \"" + material.name + "\": parameter \"" + id + "\" does not exist in a " + material.type)
+                .c_str());
     return to_python(h.in, default_value(*line));
 }
 
@@ -37,13 +38,13 @@ void set_param(const MaterialHandle& h, const std::string& id, nb::handle given)
     const std::string who = "material \"" + material.name + "\": parameter \"" + id + "\"";
     const auto table = table_of(*h.in, material.type);
     const model::Param* line = find_line(table, id);
-    if (!line && !table.empty()) throw Failure(who + " is not one of a " + material.type);
+    if (!line && !table.empty()) throw Failure(who + " does not exist in a " + material.type);
     const auto type = line ? line->type : guess_type(material.params.find(id), given);
     const bool image =
         type == model::ParamType::number || type == model::ParamType::color || type == model::ParamType::texture;
     if (const auto path = image ? to_path(given) : std::nullopt) {
         if (line && type != model::ParamType::texture && !line->texturable) throw Failure(who + " takes no texture");
-        // Colours are painted for the eye; heights, normals and roughness are data.
+        // Colours are sRGB; heights, normals and roughness are data.
         Image pixels =
             read_image(*h.in, *path, type == model::ParamType::color ? scene::Encoding::srgb : scene::Encoding::linear);
         h.in->edit(set_image_texture(h.in->scene(), h.id, id, type, type == model::ParamType::number || id == "bump",
@@ -57,7 +58,7 @@ void set_param(const MaterialHandle& h, const std::string& id, nb::handle given)
     h.in->edit(h.in->session().param_edit(h.id, id, to_value(h.in.get(), type, given, who)));
 }
 
-std::vector<std::string> param_ids(const MaterialHandle& h) { // the table's, then what else is set
+std::vector<std::string> param_ids(const MaterialHandle& h) { // the table's, then other values that are set
     std::vector<std::string> ids;
     const Material& material = h.get();
     for (const model::Param& line : table_of(*h.in, material.type))
@@ -95,16 +96,15 @@ void bind_parameter(nb::module_& m) {
                 return whole ? std::make_tuple(double(p.line.int_min), double(p.line.int_max))
                              : std::make_tuple(exact(p.line.min), exact(p.line.max));
             },
-            "Least and largest value, of each component.")
+            "Smallest and largest value, of each component.")
         .def_prop_ro(
-            "default", [](const Parameter& p) { return to_python({}, default_value(p.line)); },
-            "What holds while nothing is set.")
+            "default", [](const Parameter& p) { return to_python({}, default_value(p.line)); }, "The default.")
         .def_prop_ro(
-            "choices", [](const Parameter& p) { return p.line.choices; }, "Of an enum: the words it may be.")
+            "choices", [](const Parameter& p) { return p.line.choices; }, "Of an enum: the words to choose from.")
         .def_prop_ro(
-            "texturable", [](const Parameter& p) { return p.line.texturable; }, "May a texture stand for it?")
+            "texturable", [](const Parameter& p) { return p.line.texturable; }, "May a texture replace it?")
         .def_prop_ro(
-            "tooltip", [](const Parameter& p) { return p.line.tooltip; }, "One sentence on it.")
+            "tooltip", [](const Parameter& p) { return p.line.tooltip; }, "One sentence about it.")
         .def("__repr__",
              [](const Parameter& p) { return "<restage.Parameter " + p.line.id + ": " + type_name(p.line) + ">"; });
 }
@@ -123,7 +123,7 @@ void bind_material(nb::module_& m) {
         "may\n"
         "be a number, a colour (three numbers, linear sRGB), a word, a Texture, or the path of an image or a table.");
     bind_handle(c, "Material");
-    c.def("__getitem__", &get_param, "id"_a, "The value, or the default where nothing is set.")
+    c.def("__getitem__", &get_param, "id"_a, "The value, or the default if unset.")
         .def("__setitem__", &set_param, "id"_a, "value"_a.none(),
              nb::sig("def __setitem__(self, id: str, value: float | int | bool | str | os.PathLike | "
                      "numpy.typing.ArrayLike | Texture | Material | None) -> None"))
@@ -133,7 +133,7 @@ void bind_material(nb::module_& m) {
                 (void)get_param(h, id);
                 h.in->edit(reset_param(h.in->scene(), h.id, id));
             },
-            "id"_a, "Back to the default.")
+            "id"_a, "Resets it to the default.")
         .def("__contains__",
              [](const MaterialHandle& h, const std::string& id) {
                  const auto ids = param_ids(h);
@@ -166,7 +166,7 @@ void bind_material(nb::module_& m) {
                     throw Failure("there is no material type \"" + type + "\"; see restage.material_types()");
                 h.in->edit(switch_material_type(h.in->scene(), h.id, type, table_of(*h.in, h.get().type), after));
             },
-            "Its type, \"dielectric\"; another one keeps the values both have in common.")
+            "Its type, \"dielectric\"; changing it keeps the values both have in common.")
         .def_prop_ro(
             "parameters", [](const MaterialHandle& h) { return parameters(table_of(*h.in, h.get().type)); },
             "The table of its type: a list of Parameter.")
@@ -180,19 +180,19 @@ void bind_material(nb::module_& m) {
                 });
                 return users;
             },
-            "The objects that have it.")
+            "The objects that use it.")
         .def(
             "remove", [](const MaterialHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
-            "Removes it; refused while something has it.");
+            "Removes it; refused while something uses it.");
 }
 
 void bind_texture(nb::module_& m) {
     nb::class_<TextureHandle> c(m, "Texture",
-                                "A texture; its values are read and set as a material's: t[\"uscale\"] = 2.0.");
+                                "A texture; its values are read and set like a material's: t[\"uscale\"] = 2.0.");
     bind_handle(c, "Texture");
     c.def_prop_ro(
          "type", [](const TextureHandle& h) { return h.get().type; },
-         "imagemap, constant, scale, mix, checkerboard, or one that is only kept.")
+         "imagemap, constant, scale, mix, checkerboard, or a type that is only kept.")
         .def_prop_ro(
             "scalar", [](const TextureHandle& h) { return h.get().is_float; },
             "One channel (True) or a colour (False).")
@@ -231,7 +231,7 @@ void bind_texture(nb::module_& m) {
                     ids.push_back(entry.id);
                 return ids;
             },
-            "The ids of what is set.")
+            "The ids of the values that are set.")
         .def(
             "remove", [](const TextureHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
             "Removes it; refused while something uses it.");

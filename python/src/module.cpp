@@ -8,10 +8,9 @@ NB_MODULE(_core, m) {
     using namespace restage::python;
     m.doc() = "Restage's engine for Python; import restage instead.";
     nb::exception<Failure> error(m, "Error", PyExc_RuntimeError);
-    error.doc() = "What could not be done, as one sentence: what, where (file:line:column), what to do about it.";
-    nb::exception<Stopped>(m, "Cancelled", error).doc() =
-        "A callback returned False: what it was asked by is not done.";
-    m.def("version", &restage::version, "Of Restage. For the package itself, whose __version__ it is.");
+    error.doc() = "A failure, as one sentence: what, where (file:line:column), what to do about it.";
+    nb::exception<Stopped>(m, "Cancelled", error).doc() = "A callback returned False: the call was cancelled.";
+    m.def("version", &restage::version, "Restage's version. For the package itself, whose __version__ it is.");
     m.def("set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
     m.def("home", &Host::home, "Where they are.");
     nb::set_leak_warnings(false); // sessions in globals live until the process ends
@@ -24,7 +23,7 @@ NB_MODULE(_core, m) {
     bind_picture(m);
     nb::class_<Workspace> session(
         m, "Session",
-        "An open scene: what the desktop editor shows in its window. Find things, change them (each change is a step "
+        "An open scene, like the one in the editor's window. Find things, change them (each change is a step "
         "that\n"
         "undo takes back), render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
     bind_session(m, session);

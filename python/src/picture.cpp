@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picture for Python: arrays, denoising, saving, pickling, and merging parts that were rendered apart.
+// Picture for Python: arrays, denoising, saving, pickling, and merging parts that were rendered separately.
 #include "picture.hpp"
 
 #include "pulse.hpp"
@@ -27,7 +27,7 @@ using Rgb = Array<float, nb::shape<-1, -1, 3>>;
 using Scalar = Array<float, nb::shape<-1, -1>>;
 using Ids = Array<std::uint32_t, nb::shape<-1, -1>>;
 
-// The array looks into the picture, which it keeps alive.
+// The array is a view of the picture, which it keeps alive.
 template <class A, class V>
 A view(nb::handle self, std::vector<V>& data) {
     const Picture& p = *nb::cast<Owner>(self);
@@ -65,7 +65,7 @@ nb::object mask(const Owner& p, nb::handle thing) {
         Selection selection;
         Objects objects;
         if (nb::try_cast(thing, object, false))
-            objects = {object.id}; // also of one that is gone: its pixels are still in the picture
+            objects = {object.id}; // also for a removed one: its pixels are still in the picture
         else if (nb::try_cast(thing, group, false))
             objects = objects_of(group);
         else if (nb::try_cast(thing, selection, false))
@@ -110,16 +110,16 @@ nb::bytes png_of(const Picture& p) {
     return nb::bytes(bytes.data(), bytes.size());
 }
 
-// numpy.asarray(picture): a copy of what one looks at.
+// numpy.asarray(picture): a copy of the picture as shown.
 nb::object as_array(nb::handle self, nb::handle type, nb::handle copy) {
     auto& p = *nb::cast<Owner>(self);
     if (!copy.is_none() && !nb::cast<bool>(copy))
-        throw nb::value_error("a Picture gives a copy; its arrays `color` and `denoised` look into its memory");
+        throw nb::value_error("a Picture gives a copy; its arrays `color` and `denoised` are views of its memory");
     const nb::object array = nb::cast(view<Rgb>(self, p.denoised.empty() ? p.film.color : p.denoised));
     return nb::module_::import_("numpy").attr("array")(array, "dtype"_a = type);
 }
 
-// --- parts rendered apart
+// --- parts rendered separately
 // -----------------------------------------------------------------------------------------------
 
 Owner merge(const std::vector<Owner>& parts) {
@@ -212,13 +212,13 @@ void denoise(Picture& p, const std::string& quality, unsigned threads, const std
 
 void bind_picture(nb::module_& m) {
     static const std::string save_doc = fmt::format(
-        "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture where there "
+        "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture if there "
         "is one.\n"
         "aovs: of an .exr, comma-separated {}; all; none. exposure: of a .png or .jpg [stops].",
         fmt::join(view::aov_names(), ", "));
     nb::class_<Picture> c(
         m, "Picture",
-        "A rendered picture. Its arrays look into its memory (writing into them changes it); row 0 is the top.\n"
+        "A rendered picture. Its arrays are views of its memory (writing to them changes it); row 0 is the top.\n"
         "Colours are linear sRGB radiance times the exposure of the scene.");
     render::each_film_layer([&](const auto& layer) {
         if (*layer.name) array(c, layer);
@@ -235,20 +235,19 @@ void bind_picture(nb::module_& m) {
             "size", [](const Picture& p) { return std::make_tuple(p.film.width, p.film.height); },
             "Width and height [pixel].")
         .def_prop_ro(
-            "samples", [](const Picture& p) { return p.film.samples; }, "Samples a pixel (the least of any).")
+            "samples", [](const Picture& p) { return p.film.samples; }, "Samples a pixel (the minimum over all).")
         .def_prop_ro(
             "relative_error", [](const Picture& p) { return view::relative_error(p.film); },
-            "Root mean square of standard error over luminance, what render(error=...) stops at.")
+            "Root mean square of standard error over luminance, the measure of render(error=...).")
         .def_ro("seconds", &Picture::seconds, "Time it took to trace [s].")
         .def_ro("seed", &Picture::seed, "Seed of its random numbers.")
         .def_ro("first_sample", &Picture::first_sample, "Number of its first sample in a pixel; 0 unless asked for.")
         .def_ro("finished", &Picture::finished, "False: a callback stopped it before its target.")
-        .def_ro("not_finite", &Picture::not_finite,
-                "Samples that were left out because they were no finite numbers: by material type.")
+        .def_ro("not_finite", &Picture::not_finite, "Samples left out because they were not finite: by material type.")
         .def_ro("device", &Picture::device, "The Vulkan device.")
         .def_ro("tracer", &Picture::tracer, "Name of the tracer.")
         .def("mask", &mask, "thing"_a,
-             "bool (H, W): where the first hit is of this object, group, selection or material.",
+             "bool (H, W): true where the first hit is on this object, group, selection or material.",
              nb::sig(
                  "def mask(self, thing: Object | Group | Selection | Material) -> numpy.typing.NDArray[numpy.bool_]"))
         .def(
@@ -261,11 +260,11 @@ void bind_picture(nb::module_& m) {
             "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. denoiser: its type or the "
             "id "
             "of\nits plugin; \"\" = the one that came with Restage. Returns the picture.")
-        .def_ro("denoiser", &Picture::denoiser, "Who made `denoised`: \"oidn high\"; none.")
+        .def_ro("denoiser", &Picture::denoiser, "The denoiser of `denoised`: \"oidn high\", or \"none\".")
         .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f, save_doc.c_str())
-        .def("_repr_png_", &png_of, "For notebooks: what save() writes as .png.")
+        .def("_repr_png_", &png_of, "For notebooks: the .png that save() writes.")
         .def("__array__", &as_array, "dtype"_a = nb::none(), "copy"_a = nb::none(),
-             "float32 (H, W, 3), a copy: the denoised picture where there is one, else `color`.",
+             "float32 (H, W, 3), a copy: the denoised picture if there is one, else `color`.",
              nb::sig("def __array__(self, dtype: numpy.typing.DTypeLike | None = None, copy: bool | None = None) -> "
                      "numpy.typing.NDArray[typing.Any]"))
         .def("__getstate__", &get_state)
@@ -277,7 +276,7 @@ void bind_picture(nb::module_& m) {
     m.def(
         "merge", &merge, "pictures"_a,
         "One picture of several of the same view: means weighted by their samples, errors from sums of squares. Parts\n"
-        "of one seed with adjoining sample ranges (render's first_sample) give what one render of all samples gives.");
+        "of one seed with adjoining sample ranges (render's first_sample) give the same as one render of all samples.");
 }
 
 } // namespace restage::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picture: what a render gave, in memory that numpy arrays look into.
+// Picture: the result of a render, in memory that numpy arrays view.
 #pragma once
 
 #include "workspace.hpp"
@@ -16,8 +16,8 @@ struct Picture {
     double seconds = 0;
     bool finished = false;
     std::map<std::string, std::uint64_t> not_finite;
-    std::string scene, device, tracer; // of whom and by whom, for the file
-    std::string denoiser = "none";     // who made `denoised`: "oidn high"
+    std::string scene, device, tracer; // about scene and renderer, for the file
+    std::string denoiser = "none";     // the denoiser of `denoised`: "oidn high"
 };
 
 // quality: fast, balanced, high. denoiser: see render::choose_denoiser.

@@ -8,7 +8,7 @@ namespace restage::python {
 
 namespace {
 
-struct PluginInfo { // a copy: what was found, at the time of asking
+struct PluginInfo { // a copy: the state at the time of the call
     std::string id, version, kind, licence, reason;
     std::filesystem::path folder;
     bool loaded = false;
@@ -45,9 +45,9 @@ void bind_report(nb::module_& m) {
             "kept", [](const io::Report& r) { return r.count(io::Fate::kept); }, "How many things were kept.")
         .def_prop_ro(
             "approximated", [](const io::Report& r) { return r.count(io::Fate::approximated); },
-            "How many became something similar.")
+            "How many were approximated.")
         .def_prop_ro(
-            "dropped", [](const io::Report& r) { return r.count(io::Fate::dropped); }, "How many were left out.")
+            "dropped", [](const io::Report& r) { return r.count(io::Fate::dropped); }, "How many were dropped.")
         .def("__len__", [](const io::Report& r) { return r.entries.size(); })
         .def("__str__",
              [](const io::Report& r) {
@@ -72,7 +72,7 @@ void bind_plugins(nb::module_& m) {
         .def_ro("version", &PluginInfo::version, "Its own version.")
         .def_ro("kind", &PluginInfo::kind, "material, importer, exporter or denoiser.")
         .def_ro("licence", &PluginInfo::licence, "Licence, as its manifest says.")
-        .def_ro("folder", &PluginInfo::folder, "Where it is.")
+        .def_ro("folder", &PluginInfo::folder, "Its folder.")
         .def_ro("loaded", &PluginInfo::loaded, "False: it was refused, and `reason` says why.")
         .def_ro("reason", &PluginInfo::reason, "Why it was refused, one sentence; else \"\".")
         .def_ro("provides", &PluginInfo::provides, "\"material velvet\", ...")
@@ -82,7 +82,7 @@ void bind_plugins(nb::module_& m) {
         });
     m.def(
         "plugins", [] { return describe(Host::get()->registry().entries()); },
-        "All plugins that were found, refused ones too: a list of Plugin.");
+        "All plugins found, including refused ones: a list of Plugin.");
     m.def(
         "load_plugins",
         [](const std::filesystem::path& folder) {
@@ -93,7 +93,7 @@ void bind_plugins(nb::module_& m) {
         },
         "folder"_a,
         "Loads the plugins in a folder (one with a plugin.json, or up to three folders above such). Returns them;\n"
-        "raises restage.Error with the reason when one is refused.");
+        "raises restage.Error with the reason if one is refused.");
     m.def(
         "reload_plugins",
         [] {
@@ -105,9 +105,9 @@ void bind_plugins(nb::module_& m) {
             return news;
         },
         nb::sig("def reload_plugins() -> dict[str, str]"),
-        "Loads anew the material plugins whose files have changed since. Also while a session renders: its next\n"
-        "render is of the new version. Returns, by id, \"\" or why the new version was not taken (the one before goes\n"
-        "on): an error of its GLSL with file and line, for example.");
+        "Reloads the material plugins whose files have changed. Also while a session renders: its next\n"
+        "render uses the new version. Returns, by id, \"\" or why the new version was refused (the previous one stays\n"
+        "in use): an error in its GLSL with file and line, for example.");
 }
 
 } // namespace restage::python

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulse: long work without the GIL asks Python now and then whether to go on: Ctrl-C, and what the script's callback
-// says. `release` is held while the work runs; `rethrow` after it raises what came up.
+// Pulse: long work without the GIL asks Python now and then whether to continue: Ctrl-C, and the script's
+// callback. `release` is held while the work runs; `rethrow` afterwards raises what was caught.
 #pragma once
 
 #include "convert.hpp"
@@ -13,7 +13,7 @@ namespace restage::python {
 
 class Pulse {
   public:
-    // `ask` is called with the GIL; false = stop. An exception in it stops too. Empty: only Ctrl-C is looked at.
+    // `ask` is called with the GIL; false = stop. An exception in it stops too. Empty: only Ctrl-C is checked.
     explicit Pulse(std::function<bool()> ask = {}) : ask_(std::move(ask)) {}
 
     bool keep_going() { // any thread, one at a time; cheap: Python is asked 20 times a second
@@ -46,7 +46,7 @@ class Pulse {
     bool stopped_ = false;
 };
 
-// What a Python callback returned: None goes on, False stops.
+// A Python callback's result: None continues, False stops.
 inline bool goes_on(const nb::object& answer) { return answer.is_none() || nb::cast<bool>(nb::bool_(answer)); }
 
 } // namespace restage::python

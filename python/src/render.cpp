@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Session.render: a copy of the scene, traced without the GIL until a target is met, Ctrl-C, or a callback says stop.
+// Session.render: a copy of the scene, traced without the GIL until a target is met, or Ctrl-C or a callback stops it.
 #include "picture.hpp"
 #include "pulse.hpp"
 
@@ -16,7 +16,7 @@ using Shared = std::shared_ptr<Workspace>;
 
 namespace {
 
-struct Progress { // what a callback gets
+struct Progress { // the callback's argument
     double fraction = 0, seconds = 0, relative_error = 1e30;
     std::uint32_t samples = 0;
 };
@@ -30,14 +30,14 @@ double now_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Versions of films and settings that are only a render's: no edit ever has them, so that the renderer sees each
+// Versions of films and settings used by renders only: no edit reaches them, so that the renderer notices each
 // change.
 scene::Version version_of_render() {
     static std::atomic<scene::Version> last = scene::Version(1) << 62;
     return ++last;
 }
 
-// Without the GIL. Batches of about a twentieth of a second, so that targets in time are met and Ctrl-C is heard.
+// Without the GIL. Batches of about 0.05 s, so that time targets are met and Ctrl-C is noticed.
 Result<void> trace(render::Renderer& renderer, const Target& target, Pulse& pulse, Progress& progress, bool& finished) {
     const double start = now_seconds();
     std::uint32_t batch = 1;
@@ -82,7 +82,7 @@ Result<void> run(Workspace& w, const scene::Scene& scene, const Request& request
     RESTAGE_TRY(render::Renderer * renderer, use.get(request.key));
     renderer->restart(request.seed, request.first_sample);
     renderer->reset_stats();
-    bool revived = false; // a driver that stops is started again, once
+    bool revived = false; // a driver that stops is restarted, once
     RESTAGE_CHECK(renderer->or_revive(renderer->sync(scene), scene, revived));
     const double start = now_seconds();
     auto traced = trace(*renderer, request.target, pulse, progress, out.finished);
@@ -91,7 +91,7 @@ Result<void> run(Workspace& w, const scene::Scene& scene, const Request& request
         if (traced) traced = trace(*renderer, request.target, pulse, progress, out.finished);
     }
     if (!traced) {
-        use.drop(); // whatever state it is in
+        use.drop(); // in any state
         return traced;
     }
     out.seconds = now_seconds() - start;
@@ -170,11 +170,11 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
 } // namespace
 
 void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
-    nb::class_<Progress>(m, "Progress", "How far a render is; what its callback gets.")
+    nb::class_<Progress>(m, "Progress", "The progress of a render; the argument of its callback.")
         .def_ro("fraction", &Progress::fraction, "0 to 1, an estimate.")
         .def_ro("samples", &Progress::samples, "Samples a pixel so far.")
         .def_ro("seconds", &Progress::seconds, "Time since the first sample [s].")
-        .def_ro("relative_error", &Progress::relative_error, "Where error is the target: what it is now; else 1e30.")
+        .def_ro("relative_error", &Progress::relative_error, "The current error if error is the target; else 1e30.")
         .def("__repr__", [](const Progress& p) {
             return "<restage.Progress " + std::to_string(int(100 * p.fraction)) + " %, " + std::to_string(p.samples) +
                    " samples a pixel>";
@@ -186,7 +186,7 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "Path-traces the scene as it is now; returns a Picture. The same seed gives the same picture.\n\n"
         "size: (width, height) [pixel], default Session.size. Target: samples a pixel (default Session.samples), or\n"
         "seconds, or error (relative standard error, 0.02). denoise: True, or fast, balanced, high. threads: 0 = all.\n"
-        "progress(p): called some 20 times a second with a Progress; when it returns False, what is there is returned "
+        "progress(p): called about 20 times a second with a Progress; on False the result so far is returned "
         "and\n"
         "Picture.finished is False. Ctrl-C raises KeyboardInterrupt. Other Python threads run meanwhile, and may "
         "edit:\n"

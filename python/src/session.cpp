@@ -42,7 +42,7 @@ Handle<Material> add_material(const Shared& w, const std::string& name, const st
     try {
         w->edit(insert(w->scene(), Material{.name = name, .type = type}, "Add " + name));
         nb::cast(h).attr("update")(**values);
-    } catch (...) { // nothing of it stays: insert and remove, in one step, are nothing
+    } catch (...) { // undone completely: insert and remove in one step cancel out
         w->edit(remove(w->scene(), h.id));
         w->end_step();
         throw;
@@ -184,13 +184,13 @@ struct Step {
 };
 
 void bind_history(nb::module_& m, nb::class_<Workspace>& c) {
-    nb::class_<Step>(m, "Step", "What Session.step returns, for `with`.")
+    nb::class_<Step>(m, "Step", "The context manager that Session.step returns.")
         .def("__enter__", [](const Step& s) { s.in->begin_step(s.label); })
         .def("__exit__", [](const Step& s, const nb::args&) { s.in->end_step(); });
     c.def(
-         "undo", [](Workspace& w) { return w.session().undo(); }, "Takes the latest step back. False: there was none.")
+         "undo", [](Workspace& w) { return w.session().undo(); }, "Undoes the latest step. False: there was none.")
         .def(
-            "redo", [](Workspace& w) { return w.session().redo(); }, "Does it again. False: there was nothing to redo.")
+            "redo", [](Workspace& w) { return w.session().redo(); }, "Redoes the next step. False: there was none.")
         .def(
             "step", [](const Shared& w, std::string label) { return Step{w, std::move(label)}; }, "label"_a,
             "with session.step(\"Restyle\"): all edits within are one step of the history.")
@@ -203,9 +203,8 @@ void bind_history(nb::module_& m, nb::class_<Workspace>& c) {
                     labels.push_back(history.label(i));
                 return labels;
             },
-            "The labels of the steps that are done, the first one first.")
-        .def_prop_ro(
-            "modified", [](Workspace& w) { return w.session().modified(); }, "Is there something that was not saved?");
+            "The labels of the steps done so far, oldest first.")
+        .def_prop_ro("modified", [](Workspace& w) { return w.session().modified(); }, "Are there unsaved changes?");
 }
 
 void bind_film(nb::class_<Workspace>& c) {
@@ -222,7 +221,7 @@ void bind_film(nb::class_<Workspace>& c) {
     c.def_prop_rw(
          "size", [](Workspace& w) { return std::make_tuple(w.scene().film.value.width, w.scene().film.value.height); },
          [film](Workspace& w, std::tuple<std::uint32_t, std::uint32_t> size) {
-             if (!std::get<0>(size) || !std::get<1>(size)) throw Failure("size: width and height are 1 and more");
+             if (!std::get<0>(size) || !std::get<1>(size)) throw Failure("size: width and height are at least 1");
              film(w, [&](Film& f) { std::tie(f.width, f.height) = size; });
          },
          "Width and height of the film [pixel].")
@@ -235,16 +234,16 @@ void bind_film(nb::class_<Workspace>& c) {
             [film](Workspace& w, const std::array<double, 4>& crop) {
                 film(w, [&](Film& f) { f.crop = glm::vec4(crop[0], crop[1], crop[2], crop[3]); });
             },
-            "The part of the film that is rendered, x0 x1 y0 y1 as shares from the upper left corner: (0, 1, 0, 1) = "
+            "The rendered part of the film, x0 x1 y0 y1 as shares from the upper left corner: (0, 1, 0, 1) = "
             "all.")
         .def_prop_rw(
             "exposure", [](Workspace& w) { return exact(w.scene().film.value.exposure); },
             [film](Workspace& w, double x) { film(w, [&](Film& f) { f.exposure = float(x); }); },
-            "Linear factor on the picture; 1 = none.")
+            "Linear exposure factor; 1 = unchanged.")
         .def_prop_rw(
             "samples", [](Workspace& w) { return w.scene().settings.value.samples; },
             [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.samples = n; }); },
-            "Samples a pixel that the scene asks for.")
+            "The scene's samples a pixel.")
         .def_prop_rw(
             "max_depth", [](Workspace& w) { return w.scene().settings.value.max_depth; },
             [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.max_depth = n; }); },
@@ -280,10 +279,9 @@ void bind_contents(nb::class_<Workspace>& c) {
                 if (h.in != w) throw Failure("this camera belongs to another session");
                 w->edit(set_active_camera(w->scene(), h.id));
             },
-            "The camera that is rendered from, or None.")
+            "The camera to render from, or None.")
         .def_prop_ro(
-            "sky", [](Workspace& w) { return w.scene().environment.value; },
-            "What lights the scene from all around, or None.")
+            "sky", [](Workspace& w) { return w.scene().environment.value; }, "The light from all around, or None.")
         .def("set_sky", &set_sky, "image"_a = nb::none(), "color"_a = nb::none(), "strength"_a = 1.0,
              "rotation"_a = nb::none(), "hidden_from_camera"_a = nb::none(),
              "Changes the sky. image: path, or linear array (H, W, 3); square ones are equal-area octahedral maps as "
@@ -292,18 +290,18 @@ void bind_contents(nb::class_<Workspace>& c) {
              "what\n"
              "the image is multiplied by. strength: times that. rotation: about the scene's up [deg]. With neither "
              "image nor\n"
-             "color, what is there is changed.",
+             "color, the present sky is changed.",
              nb::sig("def set_sky(self, image: str | os.PathLike | numpy.typing.ArrayLike | None = None, "
                      "color: numpy.typing.ArrayLike | None = None, strength: float = 1.0, "
                      "rotation: float | None = None, hidden_from_camera: bool | None = None) -> None"))
         .def(
             "remove_sky", [](Workspace& w) { w.edit(set_environment(w.scene(), std::nullopt, "Remove sky")); },
-            "No light from all around any more.")
+            "Removes the light from all around.")
         .def("add_material", &add_material, "name"_a, "type"_a, "values"_a,
              "A new material: add_material(\"Brass\", \"conductor\", uroughness=0.2, vroughness=0.2).")
         .def(
             "add_texture", &add_texture, "image"_a, "name"_a = nb::none(), "scalar"_a = false,
-            "A new texture. image: path (8-bit files are sRGB, or linear where scalar), or a linear array (H, W, C).",
+            "A new texture. image: path (8-bit files are sRGB, or linear if scalar), or a linear array (H, W, C).",
             nb::sig("def add_texture(self, image: str | os.PathLike | numpy.typing.ArrayLike, name: str | None = None, "
                     "scalar: bool = False) -> Texture"))
         .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
@@ -336,7 +334,7 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
                  w.close();
              })
         .def("close", &Workspace::close, nb::call_guard<nb::gil_scoped_release>(),
-             "Frees the renderer and its memory; the session is of no use afterwards. `with` does it.")
+             "Frees the renderer and its memory; the session cannot be used afterwards. `with` does it.")
         .def_prop_ro(
             "path", [](Workspace& w) { return w.session().path(); }, "File it was opened from or saved to, or \"\".")
         .def_prop_ro(
@@ -345,8 +343,8 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
             "report", [](Workspace& w) { return w.session().report(); }, "What the import did: a Report.")
         .def("export", &export_to, "path"_a, "format"_a = "", "progress"_a = nb::none(), "strict"_a = false,
              "options"_a,
-             "Writes a copy as another format's file, by the extension: export(\"a.pbrt\", version=\"v3\"). Returns a "
-             "Report. strict=True: raises restage.Error, and writes nothing, when not all of the scene can be written.",
+             "Writes a copy in another format, by the extension: export(\"a.pbrt\", version=\"v3\"). Returns a "
+             "Report. strict=True: raises restage.Error, and writes nothing, if not all of the scene can be written.",
              nb::sig(
                  "def export(self, path: str | os.PathLike, format: str = '', progress: "
                  "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False, **options: "
@@ -358,7 +356,7 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
                     throw Failure(path.string() + ": save writes projects, *.restage; export writes other formats");
                 take(w.session().save_project(path.string()));
             },
-            "path"_a, "Writes a project, *.restage: the file it began with by reference, and what was changed.")
+            "path"_a, "Writes a project, *.restage: a reference to the original file, and the changes.")
         .def("__repr__", [](Workspace& w) {
             if (w.closed()) return std::string("<restage.Session (closed)>");
             return "<restage.Session \"" + w.session().path() + "\": " + std::to_string(w.scene().instances.live()) +
@@ -369,9 +367,9 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
     bind_film(c);
     m.def(
         "open", &open, "path"_a, "base"_a = nb::none(), "progress"_a = nb::none(), "strict"_a = false,
-        "Opens a scene (pbrt, glTF, OBJ, PLY, STL: whatever a plugin reads) or a project (*.restage).\n"
-        "base: stands for the scene that a project names. progress(fraction, what): called some 20 times a second;\n"
-        "False stops. strict=True: an error when something is approximated or dropped (missing files, undefined\n"
+        "Opens a scene (pbrt, glTF, OBJ, PLY, STL: any format that a plugin reads) or a project (*.restage).\n"
+        "base: replaces the scene that a project names. progress(fraction, what): called about 20 times a second;\n"
+        "False stops. strict=True: an error if something is approximated or dropped (missing files, undefined\n"
         "names ...). Raises restage.Error with file, line and reason.",
         nb::sig("def open(path: str | os.PathLike, base: str | os.PathLike | None = None, progress: "
                 "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False) -> Session"));

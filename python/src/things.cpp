@@ -45,7 +45,7 @@ ObjectHandle copy_as(const ObjectHandle& original, const Objects& copies, Id<Gro
     return {original.in, copies.at(0)};
 }
 Selection copy_as(const Selection& original, const Objects& copies, Id<Group>) { return {original.in, copies}; }
-// The outermost group that is new.
+// The outermost new group.
 GroupHandle copy_as(const GroupHandle& original, const Objects& copies, Id<Group> first_new) {
     const Scene& s = original.in->scene();
     Id<Group> group = s.instances[copies.at(0)].group;
@@ -54,12 +54,12 @@ GroupHandle copy_as(const GroupHandle& original, const Objects& copies, Id<Group
     return {original.in, group};
 }
 
-// The verbs of whatever stands for some objects.
+// The verbs of everything that represents objects.
 template <class C>
 void bind_verbs(nb::class_<C>& c) {
     c.def_prop_ro(
          "objects", [](const C& self) { return handles(self.in, objects_of(self)); },
-         "The objects this stands for: a list of Object.")
+         "The objects it comprises: a list of Object.")
         .def_prop_ro(
             "bounds",
             [](const C& self) {
@@ -113,7 +113,7 @@ void bind_verbs(nb::class_<C>& c) {
             [](const C& self, nb::handle matrix) {
                 self.in->edit(move_instances(self.in->scene(), objects_of(self), to_matrix(matrix)));
             },
-            "matrix"_a, "Applies a 4x4 matrix in world space, after what is there.",
+            "matrix"_a, "Applies a 4x4 matrix in world space, after the present transform.",
             nb::sig("def transform_by(self, matrix: numpy.typing.ArrayLike) -> None"))
         .def(
             "drop",
@@ -125,13 +125,13 @@ void bind_verbs(nb::class_<C>& c) {
                     self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), -*fall * up)));
                 return fall;
             },
-            "Lets it fall until it stands on something visible. Returns how far it fell [scene units] (less than 0: it "
-            "was lifted out of what it was sunk into), or None where nothing is below.")
+            "Lets it fall until it stands on something visible. Returns how far it fell [scene units] (below 0: it "
+            "was lifted out of something), or None if nothing is below.")
         .def(
             "duplicate",
             [](const C& self, const Three& by) {
                 const Objects ids = objects_of(self);
-                if (ids.empty()) throw Failure("duplicate: there are no objects in it");
+                if (ids.empty()) throw Failure("duplicate: it contains no objects");
                 const auto first_new = self.in->scene().groups.next();
                 auto made = take(duplicate_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), vec(by))));
                 self.in->edit(std::move(made.edit));
@@ -155,7 +155,7 @@ void bind_verbs(nb::class_<C>& c) {
                 self.in->edit(std::move(made.edit));
                 return Handle<Material>{self.in, made.material};
             },
-            "material"_a, "A copy of the material that only these objects have; other objects keep theirs.")
+            "material"_a, "Gives these objects a copy of the material of their own; other objects keep theirs.")
         .def_prop_ro(
             "materials",
             [](const C& self) {
@@ -176,7 +176,7 @@ void bind_verbs(nb::class_<C>& c) {
                 });
             },
             [](const C& self, bool hidden) { self.in->edit(set_hidden(self.in->scene(), objects_of(self), hidden)); },
-            "True: it is in the scene, but no ray meets it.");
+            "True: it is in the scene, but no ray hits it.");
 }
 
 } // namespace
@@ -184,7 +184,7 @@ void bind_verbs(nb::class_<C>& c) {
 nb::class_<ObjectHandle> bind_things(nb::module_& m) {
     nb::class_<ObjectHandle> object(m, "Object",
                                     "One object: a mesh with a material at a place. Changing a property is "
-                                    "an edit, which Session.undo takes back.");
+                                    "an edit, which Session.undo reverts.");
     bind_handle(object, "Object");
     bind_verbs(object);
     object
@@ -238,7 +238,7 @@ nb::class_<ObjectHandle> bind_things(nb::module_& m) {
             "Triangles of its mesh.");
 
     nb::class_<GroupHandle> group(
-        m, "Group", "Objects that belong together, a chair of five parts; what a click in the editor selects.");
+        m, "Group", "Objects that belong together, such as the parts of a chair; one click in the editor selects all.");
     bind_handle(group, "Group");
     bind_verbs(group);
     group.def_prop_ro(

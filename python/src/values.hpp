@@ -12,16 +12,16 @@ namespace restage::python {
 nb::object to_python(const std::shared_ptr<Workspace>&, const scene::Value&);
 
 // `who`: 'parameter "roughness"', for messages. A COLOR takes one number for all three as well. Textures and materials
-// are those of the workspace; without one there are none.
+// are the workspace's; without one they are refused.
 scene::Value to_value(const Workspace*, model::ParamType, nb::handle, const std::string& who);
 
-// The type a value has where no table says one: from what is there, or from the looks of it.
+// The type of a value without a table line: from the present value, or guessed from the new one.
 model::ParamType guess_type(const scene::Value* before, nb::handle);
 
 // The lines of a material type's table; empty for types without a plugin.
 std::vector<model::Param> table_of(Workspace&, const std::string& type);
 
-// str or os.PathLike: the path of a file, absolute. Nothing else is one.
+// str or os.PathLike: the path of a file, absolute. Refuses all else.
 std::optional<std::string> to_path(nb::handle);
 
 // The image of a file, ready for an edit. [GIL, which it releases while it reads]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Workspace: a session as Python holds it, with its renderer; and handles of the things in it. Scene and history are
-// touched only with the GIL; what runs without it works on a copy of the scene.
+// Workspace: a session as held by Python, with its renderer; and handles of the things in it. Scene and history are
+// touched only with the GIL; code without it works on a copy of the scene.
 #pragma once
 
 #include "host.hpp"
@@ -20,7 +20,7 @@
 
 namespace restage::python {
 
-struct RendererKey { // what a renderer is made for
+struct RendererKey { // a renderer's settings
     std::string device, tracer;
     unsigned threads = 0;
     render::Strategy strategy = render::Strategy::mis;
@@ -71,7 +71,7 @@ class RendererUse {
     ~RendererUse() { in_.renderer_thread_ = std::thread::id(); }
     RendererUse(const RendererUse&) = delete;
     RendererUse& operator=(const RendererUse&) = delete;
-    Result<render::Renderer*> get(const RendererKey&); // made anew when the key is another
+    Result<render::Renderer*> get(const RendererKey&); // rebuilt if the key differs
     void drop() { in_.renderer_.reset(); }
 
   private:
@@ -79,7 +79,7 @@ class RendererUse {
     std::unique_lock<std::mutex> lock_;
 };
 
-// A thing of the scene: which session, which id. It stays valid as an object when the thing is removed, and says so.
+// A thing of the scene: session and id. The handle stays valid after the thing is removed, and reports that.
 template <class T>
 struct Handle {
     std::shared_ptr<Workspace> in;
@@ -107,18 +107,18 @@ struct Selection { // several objects, handled as one
 };
 
 Objects objects_of(const Handle<scene::Instance>&);
-Objects objects_of(const Handle<scene::Group>&); // of the group and the groups in it, those that are left
-Objects objects_of(const Selection&);            // those that are left
-// Objects, groups and selections of one session, in any mixture.
+Objects objects_of(const Handle<scene::Group>&); // of the group and its subgroups, those that still exist
+Objects objects_of(const Selection&);            // those that still exist
+// Any mixture of objects, groups and selections of one session.
 Objects objects_of(Workspace&, nb::handle things);
 
-// What all handles have: id, name, ==, hash, repr. `name_of_class` for repr: "Material".
+// Common to all handles: id, name, ==, hash, repr. `name_of_class` for repr: "Material".
 template <class T>
 void bind_handle(nb::class_<Handle<T>>& c, const char* name_of_class) {
     using H = Handle<T>;
     c.def_prop_ro(
          "id", [](const H& h) { return h.id.value; },
-         "Number of the thing, 1 and up, never used twice in a session; what Picture.object_id and material_id hold.")
+         "Number of the thing, from 1, unique in a session; the values of Picture.object_id and material_id.")
         .def_prop_rw(
             "name", [](const H& h) { return h.get().name; },
             [](const H& h, std::string name) { h.in->edit(scene::rename(h.in->scene(), h.id, std::move(name))); },
@@ -126,7 +126,7 @@ void bind_handle(nb::class_<Handle<T>>& c, const char* name_of_class) {
         .def_prop_ro(
             "exists",
             [](const H& h) { return !h.in->closed() && scene::table<T>(h.in->scene()).find(h.id) != nullptr; },
-            "False once it was removed, or its creation undone.")
+            "False once it is removed, or its creation undone.")
         .def("__eq__",
              [](const H& a, nb::handle b) {
                  H other;

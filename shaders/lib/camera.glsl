@@ -63,7 +63,7 @@ void camera_ray(CameraData camera, vec2 film_point, vec2 u_lens, out vec3 origin
     vec3 d = parallel ? vec3(0, 0, 1) : vec3(s, 1.0);
     vec3 o = parallel ? vec3(s, 0.0) : vec3(0);
     if (HAS_LENS && camera.lens_radius > 0.0) {
-        vec3 focus = o + d * camera.focal_distance; // rays leave the lens around the axis, orthographic ones too
+        vec3 focus = o + d * camera.focal_distance; // rays start on the lens around the axis, even orthographic ones
         o = vec3(camera.lens_radius * concentric_disk(u_lens), 0.0);
         d = focus - o;
     }

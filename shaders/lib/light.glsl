@@ -15,11 +15,11 @@
 struct LightSample {
     vec3 wi;       // unit, towards the light
     float dist;    // to it; 1e30 = infinitely far
-    vec3 end;      // where a shadow ray ends that is sure not to meet the light itself; unless infinitely far
-    vec3 radiance; // arriving, unoccluded; of delta lights divided by nothing but distance
+    vec3 end;      // end of a shadow ray that cannot hit the light itself; unless infinitely far
+    vec3 radiance; // arriving, unoccluded; for delta lights divided by squared distance only
     float pdf;     // solid angle, times the probability of choosing this light; 0 = no sample
     bool delta;    // point, spot, distant: cannot be hit, no MIS
-    float unseen;  // the share of the radiance that rays pass without a hit: only this sampling finds it, no MIS
+    float unseen;  // fraction of the radiance that rays pass without a hit: only this sampling finds it, no MIS
 };
 
 uint scaled_index(uint bits, uint count) { // 32 random bits to [0, count)
@@ -30,24 +30,24 @@ uint scaled_index(uint bits, uint count) { // 32 random bits to [0, count)
 
 // `bits` choose the entry, u_keep between it and its alias. Two numbers, because what one has left after choosing among
 // a hundred thousand is too coarse for the second choice, and the frequencies would not be the pmf. All 32 bits, because
-// a float's 24 never reach some texels of a sky of 8192 x 4096.
+// a float's 24 never reach some texels of an 8192 x 4096 sky.
 uint alias_pick(address table, uint count, uint bits, inout float u_keep) {
     uint i = scaled_index(bits, count);
     AliasEntry e = AliasArray(table).at[i];
-    // u_keep is stretched back to [0,1) within what was chosen
+    // u_keep is rescaled to [0,1) within the choice
     bool keep = u_keep < e.q;
     u_keep = min(keep ? u_keep / e.q : (u_keep - e.q) / (1.0 - e.q), 0.99999994);
     return keep ? i : e.alias;
 }
 
-// ---- environment: bilinear between the texels' centres, and so is its density: a texel's tent is chosen by the alias
-// table, a point under the tent drawn. The sum of the tents is the interpolated table, so sampling follows the radiance.
+// ---- environment: bilinear between texel centres, as is its density: the alias table chooses a texel's tent, then a
+// point under the tent is drawn. The sum of the tents is the interpolated table, so sampling follows the radiance.
 vec2 environment_uv(EnvironmentData env, vec3 w) { // w in the environment's frame
     if (env.mapping == ENV_OCTAHEDRAL) return direction_to_octahedral(w);
     float phi = atan(w.y, w.x);
     return vec2((phi < 0.0 ? phi + TWO_PI : phi) * (0.5 * INV_PI), atan(length(w.xy), w.z) * INV_PI); // acos is coarse at the poles
 }
-// The texel at integer coordinates up to one outside of the image: an equirectangular map goes round in u and ends at
+// The texel at integer coordinates up to one outside the image: an equirectangular map wraps in u and ends at
 // the poles, an octahedral one folds over each edge onto itself (pbrt 4ed, fig. 3.22).
 uint environment_texel(EnvironmentData env, ivec2 p) {
     ivec2 size = ivec2(env.width, env.height);
@@ -59,7 +59,7 @@ uint environment_texel(EnvironmentData env, ivec2 p) {
     }
     return uint(p.y) * env.width + uint(p.x);
 }
-// The same for a point of the unit square's plane.
+// Likewise for a point in the unit square's plane.
 vec2 environment_wrap(EnvironmentData env, vec2 uv) {
     if (env.mapping == ENV_OCTAHEDRAL) return octahedral_wrap(uv);
     return vec2(fract(uv.x), uv.y < 0.0 ? -uv.y : uv.y > 1.0 ? 2.0 - uv.y : uv.y);
@@ -128,16 +128,16 @@ float triangle_density(float area, float dist, float cos_light) {
 }
 
 // Distance along a triangle's normal that keeps the end of a shadow ray off it: bounds the rounding of the point on the
-// light, and of the intersector, that sees the ray from p in the light's object space (as ray_offset.glsl).
+// light, and of the intersector, which sees the ray from p in the light's object space (see ray_offset.glsl).
 // condition = |n| |m| |inverse m|, of the object-to-world m: 1 to 3 unless it shears.
 float light_offset(LightData light, vec3 p, float dist) {
     float condition = float(light.kind >> 16) * (1.0 / 16.0);
     // Origin to object space: 6 roundings of |p|. Direction, its normalisation and length, the two products whose
-    // quotient is the hit's distance: 15 of the distance. All as they are seen along the normal.
+    // quotient is the hit's distance: 15 of the distance. All projected onto the normal.
     return light.offset + EPS * condition * (6.0 * (abs(p.x) + abs(p.y) + abs(p.z)) + 15.0 * dist);
 }
 
-// Radiance that leaves a point of an emitter, from the side that shines.
+// Radiance leaving a point of an emitter, on its emitting side.
 vec3 emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
     if (!HAS_EMISSION_TEXTURES || inst.emission_texture == 0u) return inst.emission;
     TextureAt at = texture_at(scene, inst, prim, bary, hit_uv(inst, prim, bary));
@@ -163,7 +163,7 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
     vec2 bary = vec2(0);
     InstanceData lamp;
     QuadricData quadric;
-    vec3 n = vec3(0); // of surfaces, the emitting side
+    vec3 n = vec3(0); // of surfaces, on the emitting side
     if (HAS_QUADRICS && kind == LIGHT_QUADRIC) {
         lamp = InstanceArray(scene.instances).at[light.instance];
         quadric = quadric_of(lamp);
@@ -214,7 +214,7 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, float u_keep, uvec2
 
 // Power heuristic, beta = 2. Veach 1997, eq. 9.14
 float mis_weight(float a, float b) {
-    if (STRATEGY == 1) return 1.0; // asked by the only strategy in use
+    if (STRATEGY == 1) return 1.0; // called by the only strategy in use
     float r = b / a;               // a > 0; b may be +inf
     return 1.0 / (1.0 + r * r);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spheres, disks and cylinders in object space: where rays meet them, (u, v) and tangents as pbrt's (4ed, 6.2-6.4), and
-// sampling them as lights. Rays come from world space by the same matrices in every tracer, so that the bounds of
+// Spheres, disks and cylinders in object space: intersection, (u, v) and tangents as in pbrt (4ed, 6.2-6.4), and
+// sampling them as lights. Every tracer transforms rays from world space by the same matrices, so that the bounds of
 // rounding hold (ray_offset.glsl).
 #ifndef RESTAGE_LIB_QUADRIC
 #define RESTAGE_LIB_QUADRIC
@@ -18,7 +18,7 @@ vec3 to_object(InstanceData inst, vec3 w) { return (w - inst.object_to_world[3])
 vec3 to_object_direction(InstanceData inst, vec3 w) { return w * inst.normal_to_world; }
 mat3 linear_part(InstanceData inst) { return mat3(inst.object_to_world[0], inst.object_to_world[1], inst.object_to_world[2]); }
 
-// Pulls a point near the surface onto it; what is left is a few ulps. pbrt 4ed, 6.8.5.
+// Projects a nearby point onto the surface; the error is a few ulps. pbrt 4ed, 6.8.5.
 vec3 quadric_refine(QuadricData q, vec3 p) {
     if (q.kind == QUADRIC_SPHERE) return p * (q.radius / max(length(p), 1e-30));
     if (q.kind == QUADRIC_DISK) return vec3(p.xy, q.z_min);
@@ -55,13 +55,13 @@ vec3 quadric_normal(QuadricData q, vec3 p) { // unit, dp/du x dp/dv
 void quadric_tangents(QuadricData q, vec3 p, out vec3 dpdu, out vec3 dpdv) {
     float r = length(p.xy);
     vec2 around = r > 0.0 ? p.xy / r : vec2(1, 0);
-    dpdu = q.phi_max * max(r, 1e-6 * q.radius) * vec3(-around.y, around.x, 0.0); // at the poles: its direction
+    dpdu = q.phi_max * max(r, 1e-6 * q.radius) * vec3(-around.y, around.x, 0.0); // at the poles: only its direction
     if (q.kind == QUADRIC_DISK) dpdv = vec3(around * (q.inner - q.radius), 0.0);
     else if (q.kind == QUADRIC_CYLINDER) dpdv = vec3(0, 0, q.z_max - q.z_min);
     else dpdv = (q.theta_max - q.theta_min) * vec3(p.z * around, -r);
 }
 
-// Is this point of the whole quadric part of it?
+// Is this point of the complete quadric within its bounds?
 bool quadric_has(QuadricData q, vec3 p) {
     if (q.kind == QUADRIC_DISK) {
         float r = length(p.xy);
@@ -73,8 +73,8 @@ bool quadric_has(QuadricData q, vec3 p) {
     return q.phi_max >= TWO_PI || quadric_turn(p) <= q.phi_max;
 }
 
-// Distances along the ray, in units of d, of both candidates; false: it passes. The discriminant as pbrt 4ed, eq. 6.6,
-// has it, which does not cancel for what is small and far away; roots by Press et al. 2007, 5.6.
+// Distances along the ray, in units of d, of both candidates; false: a miss. The discriminant as in pbrt 4ed, eq. 6.6,
+// does not cancel for small, distant quadrics; roots by Press et al. 2007, 5.6.
 bool quadric_roots(QuadricData q, vec3 o, vec3 d, out vec2 t) {
     t = vec2(-1.0);
     if (q.kind == QUADRIC_DISK) {
@@ -96,10 +96,10 @@ bool quadric_roots(QuadricData q, vec3 o, vec3 d, out vec2 t) {
 }
 
 // Distance along the unit world normal n that keeps a ray off the surface: the rounding of p (object space; w: in world
-// space), of the way back, and of solving for the next hit from there.
+// space), of the transform back, and of solving for the next hit from there.
 float quadric_offset(InstanceData inst, QuadricData q, vec3 p, vec3 w, vec3 n) {
     float reach = q.kind == QUADRIC_DISK ? abs(q.z_min) : q.radius;
-    // The refined point: gamma(5); |o| - r of a ray that begins there: as much again.
+    // The refined point: gamma(5); |o| - r of a ray that starts there: as much again.
     vec3 extent = vec3(10.0 * reach);
     return ray_offset(vec3(0), extent * (1.0 / 3.0), vec3(0), p, w, inst.object_to_world, inst.normal_to_world, n);
 }
@@ -116,11 +116,11 @@ vec3 quadric_sample_area(QuadricData q, vec2 u) {
     return vec3(around * sqrt(max(0.0, (q.radius - z) * (q.radius + z))), z);
 }
 
-// Whole spheres are sampled by the cone that they fill, from points that are clearly outside; pbrt 4ed, 6.2.4.
+// Complete spheres are sampled by the cone they subtend, from points clearly outside; pbrt 4ed, 6.2.4.
 bool quadric_by_cone(QuadricData q, vec3 from) {
     return q.kind == QUADRIC_SPHERE && q.whole != 0u && dot(from, from) > sqr(1.0001 * q.radius);
 }
-const float SMALL_CONE = 0.00068523; // sin^2 of 1.5 degrees: there cosines cancel
+const float SMALL_CONE = 0.00068523; // sin^2 of 1.5 degrees: below, cosines cancel
 float cone_height(float sin2) { return sin2 < SMALL_CONE ? 0.5 * sin2 : 1.0 - sqrt(max(0.0, 1.0 - sin2)); } // 1 - cos
 
 vec3 quadric_sample_cone(QuadricData q, vec3 from, vec2 u) {
@@ -137,13 +137,13 @@ vec3 quadric_sample_cone(QuadricData q, vec3 from, vec2 u) {
 }
 
 // Density, in solid angle at `from`, of sampling the point `at` of the surface (both in world space), where the cosine
-// of the light's normal to the way is c. Sampling happens in object space: a transformation M takes solid angles to
-// |det M| / |M w|^3 of what they were, areas to |det M| |M^-T n|.
+// between the light's normal and the direction is c. Sampling is in object space: a transform M scales solid angles by
+// |det M| / |M w|^3, areas by |det M| |M^-T n|.
 float quadric_density(InstanceData inst, QuadricData q, vec3 from, vec3 at, float c) {
     vec3 o = to_object(inst, from), p = quadric_refine(q, to_object(inst, at));
     float det = abs(determinant(linear_part(inst))), way = distance(from, at);
     if (quadric_by_cone(q, o)) {
-        if (dot(o, p) < (1.0 - 1e-5) * sqr(q.radius)) return 0.0; // the side away from there, seen through holes
+        if (dot(o, p) < (1.0 - 1e-5) * sqr(q.radius)) return 0.0; // the far side, seen through holes
         float stretch = way / distance(o, p);
         return stretch * stretch * stretch / (det * TWO_PI * cone_height(sqr(q.radius) / dot(o, o)));
     }

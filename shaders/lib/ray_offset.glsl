@@ -19,15 +19,15 @@ float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, v
     mat3 lin = mat3(m[0], m[1], m[2]);
     mat3 abs_lin = mat3(abs(m[0]), abs(m[1]), abs(m[2]));
     vec3 world_error = 3.0 * EPS * (abs_lin * abs(p)) + 2.0 * EPS * abs(m[3]);
-    // Back to object space, as the intersector does with the origin: |inv| * |w| and |inv * t|, gamma(3) of the products
-    // and as much again for the entries of its own inverse, which it takes in floats.
+    // Back to object space, as the intersector does for the origin: |inv| * |w| and |inv * t|, gamma(3) of the products
+    // and as much again for the entries of its own inverse, computed in floats.
     mat3 abs_nw = mat3(abs(nw[0]), abs(nw[1]), abs(nw[2]));
     object_error += 6.0 * EPS * ((abs(w) + abs(m[3])) * abs_nw); // v * M = transpose(M) * v
-    // Both bounds, seen along n. An object-space error e moves the point by lin*e.
+    // Both bounds, projected onto n. An object-space error e moves the point by lin*e.
     return dot(abs(n), world_error + abs_lin * object_error);
 }
 
-// pushes p off the plane, to the side of d, and one ulp further so that rounding the sum cannot undo it
+// pushes p off the plane, to the side of d, and one ulp further so that rounding of the sum cannot undo it
 vec3 offset_origin(vec3 p, vec3 n, float offset, vec3 d) {
     vec3 step = dot(d, n) < 0.0 ? -offset * n : offset * n;
     vec3 q = p + step;

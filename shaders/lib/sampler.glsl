@@ -27,7 +27,7 @@ uint sobol1_reversed(uint x) {
 
 float to_unit(uint x) { return float(x >> 8) * (1.0 / 16777216.0); } // [0, 1)
 
-// The pair number `pair` of sample `index` in a pixel with this seed, as 32 bits each.
+// Pair number `pair` of sample `index` in a pixel with this seed, 32 bits each.
 uvec2 sample_bits(uint seed, uint index, uint pair) {
     uint s = pcg_hash(seed ^ (pair * 0x9e3779b9u));
     index = bitfieldReverse(laine_karras(bitfieldReverse(index), s));
@@ -42,7 +42,7 @@ vec2 sample_pair(uint seed, uint index, uint pair) {
 
 uint pixel_seed(uint pixel, uint seed) { return pcg_hash(pixel ^ pcg_hash(seed ^ 0xb5297a4du)); }
 
-// Pairs of a path: two for the camera, then four a vertex.
+// Pairs of a path: two for the camera, then four per vertex.
 const uint PAIR_FILTER = 0u;
 const uint PAIR_LENS = 1u;
 uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which light, y: Russian roulette

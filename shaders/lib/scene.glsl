@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device addresses as typed arrays, and the root every kernel starts from.
+// Device addresses as typed arrays, and the root record of every kernel.
 #ifndef RESTAGE_LIB_SCENE
 #define RESTAGE_LIB_SCENE
 #include "shared/scene_data.h"
@@ -23,7 +23,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Ins
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ImageArray { ImageData at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneRef { SceneData scene; };
 
-// What this scene does not use costs nothing: settled at pipeline creation.
+// Features the scene does not use are free: fixed at pipeline creation.
 layout(constant_id = 0) const bool HAS_ENVIRONMENT = true;
 layout(constant_id = 1) const bool HAS_TEXTURES = true;
 layout(constant_id = 2) const bool HAS_BUMP = true;    // bump or normal maps
@@ -36,18 +36,18 @@ layout(constant_id = 8) const bool HAS_FILTER_TABLE = true;
 layout(constant_id = 10) const bool HAS_BORDERS = false; // media end at surfaces that rays pass; the tracer absorbs
 layout(constant_id = 11) const bool HAS_EMISSION_TEXTURES = false;
 layout(constant_id = 12) const bool HAS_LIGHT_ALPHA = false; // some lamp has alpha below 1
-layout(constant_id = 13) const bool HAS_GLOW = false;        // some lamp is no surface: INSTANCE_PASSES
+layout(constant_id = 13) const bool HAS_GLOW = false;        // some lamp has no surface: INSTANCE_PASSES
 layout(constant_id = 15) const bool HAS_QUADRICS = false;
 layout(constant_id = 14) const uint CAMERA_KIND = 0u;        // CAMERA_*
 
-// The second set of uv where the mesh has one, else the first.
+// The second set of uv if the mesh has one, else the first.
 vec2 second_uv(InstanceData inst, uvec3 tri, vec2 bary, vec2 first) {
     if (inst.uvs2 == uint64_t(0)) return first;
     Vec2Array uvs = Vec2Array(inst.uvs2);
     return (1.0 - bary.x - bary.y) * uvs.at[tri.x] + bary.x * uvs.at[tri.y] + bary.y * uvs.at[tri.z];
 }
 
-// What textures take as uv at a hit: the mesh's, or barycentrics where it has none; both sets.
+// The uv of textures at a hit: the mesh's, or barycentrics if it has none; both sets.
 vec4 hit_uv(InstanceData inst, uint prim, vec2 bary) {
     vec2 uv = bary;
     if ((inst.flags & INSTANCE_HAS_UVS) == 0u && inst.uvs2 == uint64_t(0)) return uv.xyxy; // quadrics have no indices

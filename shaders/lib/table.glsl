@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the words of a Table are.
+// Access to the words of a Table.
 #ifndef RESTAGE_LIB_TABLE
 #define RESTAGE_LIB_TABLE
 #include "lib/scene.glsl"

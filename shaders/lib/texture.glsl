@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures: postfix programs, data, whose operations are a switch over the types that the scene has: where there are
 // some, render/texture_composer.cpp writes texture_operation(). Images are filtered bilinearly as pbrt does without mip
-// levels (pbrt 4ed, 10.4). Texels live in buffers, linear: the same result on every device, and no descriptor anywhere.
+// levels (pbrt 4ed, 10.4). Texels live in buffers, linear: the same result on every device, without descriptors.
 // render/texture_program.cpp does the same in C++, for cut-outs and mixes that the CPU resolves.
 #ifndef RESTAGE_LIB_TEXTURE
 #define RESTAGE_LIB_TEXTURE
@@ -159,14 +159,14 @@ vec3 texture_data(SceneData scene, uint texture_id, TextureAt where) {
     return texture_eval(scene, texture_id, where, TEXTURE_DATA).xyz;
 }
 
-// The share of rays that a point of a surface stops.
+// The fraction of rays stopped at a point of a surface.
 float hit_alpha(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
     float alpha = inst.alpha;
     if (inst.alpha_texture != 0u) {
         vec4 uv = hit_uv(inst, prim, bary);
         alpha = texture_number(scene, inst.alpha_texture, texture_at(scene, inst, prim, bary, uv));
     }
-    if ((inst.flags & INSTANCE_ALPHA_MASK) != 0u) return alpha > 0.0 ? 1.0 : 0.0; // as pbrt-v3, in Triangle::Intersect
+    if ((inst.flags & INSTANCE_ALPHA_MASK) != 0u) return alpha > 0.0 ? 1.0 : 0.0; // as in pbrt-v3's Triangle::Intersect
     return clamp(alpha, 0.0, 1.0);
 }
 

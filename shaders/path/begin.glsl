@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a path begins: the camera ray of one sample of one pixel, and the state that goes with it.
+// The start of a path: the camera ray of one sample of one pixel, and its initial state.
 #ifndef RESTAGE_PATH_BEGIN
 #define RESTAGE_PATH_BEGIN
 #include "lib/camera.glsl"

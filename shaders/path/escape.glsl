@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a path sees when it leaves the scene.
+// Radiance seen by a path that leaves the scene.
 #ifndef RESTAGE_PATH_ESCAPE
 #define RESTAGE_PATH_ESCAPE
 #include "lib/light.glsl"
@@ -12,7 +12,7 @@ vec3 clamp_contribution(SceneData scene, vec3 c, uint depth) {
     return limit > 0.0 && m > limit ? c * (limit / m) : c;
 }
 
-// Beer-Lambert along a ray in one medium. Where rays cross borders of media on their way, the tracer has done it.
+// Beer-Lambert along a ray in one medium. If the ray crosses borders of media, the tracer has applied it.
 vec3 absorb(SceneData scene, uint medium, float distance_) {
     return HAS_MEDIA && !HAS_BORDERS && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
 }
@@ -21,7 +21,7 @@ vec3 absorb(SceneData scene, uint medium, float distance_) {
 void path_escape(SceneData scene, vec3 direction, inout PathState path) {
     if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
     uint depth = path.flags & PATH_DEPTH_MASK;
-    // Straight from the camera, through cut-outs and surfaces that are none, too; glass and mirrors show it.
+    // Directly from the camera, also through cut-outs and null surfaces; glass and mirrors show it.
     if (depth == 0u && scene.environment.hidden != 0u) return;
     float pdf_env;
     vec3 le = environment_eval(scene.environment, direction, pdf_env);
@@ -30,7 +30,7 @@ void path_escape(SceneData scene, vec3 direction, inout PathState path) {
         float pdf_light = pdf_env * LightArray(scene.lights).at[scene.environment.light].pmf;
         w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
     }
-    if (HAS_MEDIA) le *= absorb(scene, path.medium, 1e30); // infinitely far behind what absorbs
+    if (HAS_MEDIA) le *= absorb(scene, path.medium, 1e30); // infinitely far behind the absorber
     path.radiance += clamp_contribution(scene, path.throughput * le * w, depth);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a frame's addresses lead, and how samples enter the film: sums and sums of squares, so that every image knows
+// Buffer types behind a frame's addresses, and adding samples to the film: sums and sums of squares, so that every image knows
 // its own error.
 #ifndef RESTAGE_PATH_FILM
 #define RESTAGE_PATH_FILM
@@ -15,10 +15,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer CounterArray
 
 const float INFINITE = 1e30;
 
-// What is larger would make the sums of squares overflow. A radiance of 1e16 is no light, but a broken file.
+// Larger values would overflow the sums of squares. A radiance of 1e16 means a broken file.
 const float FILM_LARGEST = 1e16;
 
-// A sample that is not finite, or too large, counts as black, and false says so: nothing unnatural reaches the film.
+// A sample that is non-finite or too large counts as black and returns false: nothing invalid reaches the film.
 bool film_add(inout FilmPixel f, vec3 c) {
     bool fits = finite(c) && all(lessThanEqual(abs(c), vec3(FILM_LARGEST)));
     if (!fits) c = vec3(0);
@@ -29,7 +29,7 @@ bool film_add(inout FilmPixel f, vec3 c) {
     return fits;
 }
 
-// Of a sample that meets nothing. weight: of the pixel filter; < 0: this surface guides nobody.
+// Of a sample that hits nothing. weight: of the pixel filter; < 0: this surface is not a guide.
 GuideSample guide_nothing(float weight) {
     GuideSample g;
     g.albedo = g.normal = vec3(0);
@@ -38,7 +38,7 @@ GuideSample guide_nothing(float weight) {
     g.weight = weight;
     return g;
 }
-// Field by field: all but the weight, which is there already; and, behind mirrors and glass, what looks through them.
+// Field by field: all but the weight, already set; and, behind mirrors and glass, the fields seen through them.
 void guide_write(GuideArray guides, uint i, GuideSample g) {
     guides.at[i].albedo = g.albedo;
     guides.at[i].normal = g.normal;
@@ -61,7 +61,7 @@ void guide_add(inout GuidePixel g, GuideSample a) {
     g.depth += a.depth;
     g.count += 1.0;
 }
-// Behind mirrors and glass: of a sample that guide_add has counted.
+// Behind mirrors and glass: for a sample that guide_add has counted.
 void guide_add_behind(inout GuidePixel g, GuideSample a) {
     g.albedo += a.albedo;
     g.normal += a.normal;

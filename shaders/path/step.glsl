@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // One path step, the physics of a path vertex, used by every tracer: emission with its MIS weight, next-event
 // estimation (gives a shadow ray), BSDF sampling (gives the next ray, which is also the BSDF half of the MIS), Russian
-// roulette. pbrt 4ed, 13.4; Veach 1997, ch. 9. Who finds the hits is not known here.
+// roulette. pbrt 4ed, 13.4; Veach 1997, ch. 9. Independent of who finds the hits.
 //
 // The material composer defines before this file: Material (the parameter struct), material_fetch, material_eval,
 // material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore. A path carries RGB:
-// here their Spectrum becomes that.
+// their Spectrum is converted here.
 #ifndef RESTAGE_PATH_STEP
 #define RESTAGE_PATH_STEP
 #include <restage/v1/bsdf.glsl>
@@ -22,13 +22,13 @@
 struct StepRay {
     vec3 origin;
     vec3 direction;
-    float tmax; // < 0: there is none
-    float tmin; // of path rays: where it goes on beyond a lamp that is no surface, else 0
+    float tmax; // < 0: none
+    float tmin; // of path rays: where it continues beyond a lamp without surface, else 0
     uint medium; // at the origin; of shadow rays
 };
 
-// From a hit, of `ray` at t, to the next rays. Returns false when something was not finite: the path then ends, and
-// carries nothing on.
+// From a hit, of `ray` at t, to the next rays. Returns false if something was not finite: the path then ends, and
+// contributes no more.
 bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, uint prim, vec2 bary, float t,
                StepRay ray, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
                out StepRay next, out GuideSample guide) {
@@ -67,13 +67,13 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         }
     }
 
-    // A lamp without a surface: the ray goes on from where it came, so that distances stay those to the last vertex.
+    // A lamp without a surface: the ray keeps its origin, so that distances stay those to the last vertex.
     if (HAS_GLOW && (inst.flags & INSTANCE_PASSES) != 0u) {
-        float away = s.offset + EPS * (6.0 * dot(abs(ray.origin), vec3(1)) + 15.0 * t); // as light_offset
+        float away = s.offset + EPS * (6.0 * dot(abs(ray.origin), vec3(1)) + 15.0 * t); // see light_offset
         next = ray;
         next.tmin = t * (1.0 + 4.0 * EPS) + away / max(abs(dot(wo_world, s.ng)), 1e-4);
         next.tmax = 1e30;
-        guide.weight = -1.0; // guides nobody
+        guide.weight = -1.0; // not a guide
         // As a border it may lie in neither part of the ray, or in both.
         if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
             path.medium = dot(ray.direction, s.ng) > 0.0 ? inst.exterior : inst.interior;
@@ -106,7 +106,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                                          sample_bits(path.seed, path.sample_index, pair_light(depth)));
         if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
             vec3 wi = to_local(s, light.wi);
-            // Shading and geometry must agree on reflection or transmission, or light would leak through a surface.
+            // Shading and geometry must agree on reflection or transmission, or light would leak through surfaces.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
             vec3 f = same_side == same_hemisphere(wo, wi) ? rgb_from_spectrum(material_eval(m, wo, wi, rng)) : vec3(0);
             ok = finite(f);
@@ -123,11 +123,11 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                 shadow.origin = offset_origin(s.p, s.ng, s.offset, light.wi);
                 shadow.direction = light.wi;
                 shadow.tmax = 1e30;
-                if (light.dist < 1e30) { // from where it begins to where it ends: both are off their surfaces
+                if (light.dist < 1e30) { // from start to end: both are off their surfaces
                     vec3 d = light.end - shadow.origin;
                     shadow.tmax = length(d);
                     shadow.direction = d / shadow.tmax;
-                    if (!positive(dot(d, light.wi))) { // closer than floats can tell: nothing is between
+                    if (!positive(dot(d, light.wi))) { // closer than floats can resolve: nothing is between
                         path.radiance += shadow_contribution;
                         shadow.tmax = -1.0;
                     }
@@ -160,7 +160,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     path.flags = (depth + 1u) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u);
 
     // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2
-    // ... and not while what guides the denoiser is still ahead
+    // ... and not while the denoiser's guide is still ahead
     if (scene.russian_roulette != 0u && depth > 0u && !(HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u)) {
         float survive = max_component(abs(path.throughput)) * path.eta_scale; // signed by some pixel filters
         if (survive < 1.0) {
@@ -168,7 +168,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
             path.throughput /= survive;
         }
     }
-    if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) { // looked through, as Open Image Denoise advises
+    if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) { // guides look through, as Open Image Denoise advises
         guide.albedo = vec3(0);
         guide.normal = vec3(0);
     }

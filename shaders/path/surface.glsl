@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface: what a hit looks like to the path step. Built from the triangle, in world space, with the shading frame and
+// Surface: a hit as seen by the path step. Built from the triangle, in world space, with the shading frame and
 // the bound of its own rounding error.
 #ifndef RESTAGE_PATH_SURFACE
 #define RESTAGE_PATH_SURFACE
@@ -15,9 +15,9 @@ struct Surface {
     vec3 p;
     vec3 ng;      // unit, geometric, the outside
     vec3 ns;      // unit, shading
-    vec3 ss, ts;  // with ns an orthonormal frame; right-handed but where tangents of the mesh say that uv are mirrored
+    vec3 ss, ts;  // with ns an orthonormal frame; right-handed unless the mesh's tangents say that uv are mirrored
     vec4 uv;      // both sets
-    float offset; // along ng, that a leaving ray needs
+    float offset; // along ng, required by a leaving ray
 };
 
 void orthonormal_basis(vec3 n, out vec3 s, out vec3 t) {
@@ -29,7 +29,7 @@ void orthonormal_basis(vec3 n, out vec3 s, out vec3 t) {
 vec3 to_local(Surface s, vec3 w) { return vec3(dot(w, s.ss), dot(w, s.ts), dot(w, s.ns)); }
 vec3 to_world(Surface s, vec3 w) { return s.ss * w.x + s.ts * w.y + s.ns * w.z; }
 
-// Frame around ns with s as near dpdu as it can be.
+// Frame around ns with s as close to dpdu as possible.
 void set_frame(inout Surface s, vec3 dpdu) {
     vec3 t = dpdu - s.ns * dot(dpdu, s.ns);
     float l = dot(t, t);
@@ -44,7 +44,7 @@ void set_frame(inout Surface s, vec3 dpdu) {
 // Bump map: the normal of the displaced surface p + d(uv) n. Blinn 1978; pbrt 4ed, 10.5.3.
 void apply_bump(SceneData scene, InstanceData inst, uint texture_id, TextureAt at, vec3 dpdu, vec3 dpdv,
                 inout Surface s) {
-    const float h = 0.0005; // in uv, as pbrt without ray differentials
+    const float h = 0.0005; // in uv, as in pbrt without ray differentials
     float d = texture_number(scene, texture_id, at);
     float du = (texture_number(scene, texture_id, texture_moved(at, inst, vec2(h, 0), h * dpdu)) - d) / h;
     float dv = (texture_number(scene, texture_id, texture_moved(at, inst, vec2(0, h), h * dpdv)) - d) / h;
@@ -58,7 +58,7 @@ void apply_bump(SceneData scene, InstanceData inst, uint texture_id, TextureAt a
     set_frame(s, a);
 }
 
-// The normal in the frame of the tangent; `side` is -1 where its y goes against cross(normal, tangent).
+// The normal in the frame of the tangent; `side` is -1 if its y opposes cross(normal, tangent).
 void apply_normal_map(SceneData scene, uint texture_id, TextureAt at, vec3 tangent, float side, inout Surface s) {
     vec3 m = 2.0 * texture_data(scene, texture_id, at) - 1.0;
     if (is_nan(dot(m, m)) || dot(m, m) <= 1e-6) return;
@@ -68,7 +68,7 @@ void apply_normal_map(SceneData scene, uint texture_id, TextureAt at, vec3 tange
     set_frame(s, tangent);
 }
 
-// Turns the shading normal just enough for wo to lie on the same side of it as of the geometry, so that light neither
+// Rotates the shading normal just enough for wo to lie on the same side of it as of the geometry, so that light neither
 // leaks nor vanishes at silhouettes. Keller et al. 2017, "The Iray Light Transport Simulation and Rendering System", A.3.
 void adapt_shading_normal(vec3 wo, inout Surface s) {
     float side = dot(wo, s.ng) < 0.0 ? -1.0 : 1.0;
@@ -86,7 +86,7 @@ void adapt_shading_normal(vec3 wo, inout Surface s) {
     }
 }
 
-// Of a quadric that the ray from `origin` meets at t * direction.
+// For a quadric hit by the ray from `origin` at t * direction.
 Surface quadric_surface(SceneData scene, InstanceData inst, MaterialData material, vec2 uv, vec3 origin, vec3 direction, float t) {
     Surface s;
     QuadricData q = quadric_of(inst);
@@ -159,14 +159,14 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
         vec2 products = vec2(duv1.x * duv2.y, duv1.y * duv2.x);
         float det = products.x - products.y;
         vec3 dpdu, dpdv;
-        if (abs(det) > 1e-6 * (abs(products.x) + abs(products.y))) { // more than the rounding of its terms
+        if (abs(det) > 1e-6 * (abs(products.x) + abs(products.y))) { // more than rounding of its terms
             dpdu = lin * ((duv2.y * e1 - duv1.y * e2) / det);
             dpdv = lin * ((duv1.x * e2 - duv2.x * e1) / det);
         } else {
             orthonormal_basis(s.ns, dpdu, dpdv);
         }
         vec3 tangent = dpdu;
-        if (inst.tangents != uint64_t(0)) { // glTF 2.0, 3.7.2.1; a mirrored object mirrors its bitangents, too
+        if (inst.tangents != uint64_t(0)) { // glTF 2.0, 3.7.2.1; a mirrored object also mirrors its bitangents
             Vec4Array tangents = Vec4Array(inst.tangents);
             vec4 t = (1.0 - bary.x - bary.y) * tangents.at[tri.x] + bary.x * tangents.at[tri.y] + bary.y * tangents.at[tri.z];
             if (dot(t.xyz, t.xyz) > 0.0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one function text readable by C++ and GLSL: the GLSL words that shared functions use, said with GLM. What
-// stands in such a header is tested in both languages with the same inputs (tests/render/shared_test.cpp).
+// Makes one function text valid in C++ and GLSL: the GLSL names that shared functions use, mapped to GLM. Such
+// headers are tested in both languages with the same inputs (tests/render/shared_test.cpp).
 #ifndef RESTAGE_SHARED_FUNCTIONS_H
 #define RESTAGE_SHARED_FUNCTIONS_H
 #include "shared/types.h"
@@ -8,7 +8,7 @@
 #ifdef __cplusplus
 #include <bit>
 #define RESTAGE_INLINE inline
-#define RESTAGE_REAL double // where the CPU can be exact for nothing
+#define RESTAGE_REAL double // where precision is free on the CPU
 #define RESTAGE_REAL2 glm::dvec2
 #define RESTAGE_REAL3 glm::dvec3
 namespace restage::shared {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path state, rays and film as kernels and the CPU pass share them. RayHit has the layout of Embree's RTCRayHit and
+// Path state, rays and film, shared by kernels and the CPU pass. RayHit has the layout of Embree's RTCRayHit and
 // ShadowRay starts with RTCRay, so Embree works on the kernels' memory in place.
 #ifndef RESTAGE_SHARED_PATH_DATA_H
 #define RESTAGE_SHARED_PATH_DATA_H
@@ -8,12 +8,12 @@
 
 RESTAGE_CONSTANTS_BEGIN
 RESTAGE_UINT(PATH_SPECULAR, 0x10000u); // the last bounce was a delta lobe (or the camera)
-RESTAGE_UINT(PATH_GUIDED, 0x20000u); // what guides the denoiser is still ahead: only delta bounces so far
+RESTAGE_UINT(PATH_GUIDED, 0x20000u); // the denoiser's guide is still ahead: only delta bounces so far
 RESTAGE_UINT(PATH_DEPTH_MASK, 0xffffu);
 RESTAGE_UINT(COUNTER_MAX_TYPES, 64u);
 RESTAGE_UINT(COUNTER_RAYS, 64u);
 RESTAGE_UINT(COUNTER_SHADOW_RAYS, 65u);
-RESTAGE_UINT(COUNTER_FILM, 66u); // samples that the film did not take
+RESTAGE_UINT(COUNTER_FILM, 66u); // samples rejected by the film
 RESTAGE_UINT(COUNTER_COUNT, 67u);
 RESTAGE_CONSTANTS_END
 
@@ -44,7 +44,7 @@ struct ShadowRay { // 64 bytes
     uint mask;
     uint id;
     uint flags;
-    vec3 contribution; // added to the path's radiance when the light is seen
+    vec3 contribution; // added to the path's radiance if the light is visible
     uint medium; // at its origin; only where HAS_BORDERS
 };
 
@@ -53,13 +53,13 @@ struct PathState { // 48 bytes
     float pdf; // of the last BSDF sample, solid angle
     vec3 radiance;
     uint flags;       // depth | PATH_*
-    float eta_scale;  // product of eta^2 on transmissions; Russian roulette looks through it
+    float eta_scale;  // product of eta^2 on transmissions; Russian roulette factors it out
     uint medium;
     uint seed;        // of the pixel's random numbers
     uint sample_index;
 };
 
-struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the first that is no mirror or smooth glass
+struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the first that is not a mirror or smooth glass
     vec3 albedo;
     vec3 normal; // world space, shading
     float depth; // distance along the ray; 0 = nothing hit
@@ -69,7 +69,7 @@ struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the fi
 };
 
 struct FilmPixel { // 40 bytes
-    vec3 sum;  // of radiance
+    vec3 sum; // of radiance
     float count;
     float sum_sq_luminance;
     float pad0;
@@ -84,29 +84,29 @@ struct GuidePixel {
     uint instance_id, material_id; // of the first sample
 };
 
-// What kernels count: samples that were not finite, by material type; and rays, where the device traces them.
+// Counted by kernels: non-finite samples, by material type; and rays, if the device traces them.
 
 struct FrameData { // behind the push constant
-    address scene;     // SceneData
-    address rays;      // RayHit[]
-    address shadows;   // ShadowRay[]
-    address paths;     // PathState[]
-    address guides;    // GuideSample[] or 0
-    address queue;     // uint[]: path indices, all types one after the other
-    address film;      // FilmPixel[]
+    address scene; // SceneData
+    address rays; // RayHit[]
+    address shadows; // ShadowRay[]
+    address paths; // PathState[]
+    address guides; // GuideSample[] or 0
+    address queue; // uint[]: path indices, grouped by type
+    address film; // FilmPixel[]
     address film_guides; // GuidePixel[]
-    address counters;  // uint[COUNTER_COUNT]
+    address counters; // uint[COUNTER_COUNT]
     uint first_pixel, pixel_count; // this wave: pixels of the crop window, row by row
-    uint samples;      // a pixel in this wave: path index = sample * pixel_count + pixel
+    uint samples; // per pixel in this wave: path index = sample * pixel_count + pixel
     uint first_sample;
     uint crop_x, crop_y, crop_width;
     uint seed;
 };
 
-struct TracePush { // of the ray-tracing pipeline: one sample a pixel of a rectangle of the film
+struct TracePush { // of the ray-tracing pipeline: one sample per pixel of a rectangle of the film
     address frame;
     address tlas;
-    uint x, y;         // the rectangle's first pixel, in the crop window
+    uint x, y; // the rectangle's first pixel, in the crop window
     uint sample_index; // after FrameData.first_sample
     uint pad0;
 };

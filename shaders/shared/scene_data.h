@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as shaders see it: flat records behind device addresses. World space is translated by GpuScene::origin so
+// The scene for shaders: flat records behind device addresses. World space is translated by GpuScene::origin so
 // that floats are precise near the camera (pbrt 4ed, 5.1.1, "camera-world" rendering space).
 #ifndef RESTAGE_SHARED_SCENE_DATA_H
 #define RESTAGE_SHARED_SCENE_DATA_H
@@ -16,12 +16,12 @@ RESTAGE_UINT(INSTANCE_HAS_NORMALS, 8u);
 RESTAGE_UINT(INSTANCE_HAS_UVS, 16u);
 RESTAGE_UINT(INSTANCE_HAS_ALPHA, 32u);
 RESTAGE_UINT(INSTANCE_HAS_MEDIA, 64u);
-RESTAGE_UINT(INSTANCE_HAS_GAPS, 128u); // its material is a mix with a share of no surface: rays pass there
+RESTAGE_UINT(INSTANCE_HAS_GAPS, 128u); // its material is a mix with a null component: rays pass there
 RESTAGE_UINT(INSTANCE_ALPHA_MASK, 256u); // alpha above 0 stops every ray
-RESTAGE_UINT(INSTANCE_EMITS_UNSEEN, 512u); // shines also where alpha lets rays pass
-RESTAGE_UINT(INSTANCE_PASSES, 1024u); // no surface, but it shines: rays see its light and go on
+RESTAGE_UINT(INSTANCE_EMITS_UNSEEN, 512u); // emits even where alpha lets rays pass
+RESTAGE_UINT(INSTANCE_PASSES, 1024u); // no surface, but it emits: rays see its light and continue
 RESTAGE_UINT(INSTANCE_QUADRIC, 2048u); // `positions` is the address of a QuadricData; prim is 0, bary is pbrt's (u, v)
-RESTAGE_UINT(MATERIAL_NOTHING, 0xfffffffeu); // in place of a MaterialData index: no surface, rays pass
+RESTAGE_UINT(MATERIAL_NOTHING, 0xfffffffeu); // instead of a MaterialData index: no surface, rays pass
 RESTAGE_UINT(MATERIAL_MIX, 1u);
 // The first word of an operation of a texture's program
 RESTAGE_UINT(TEXTURE_KIND, 255u); // mask: the type's index in this scene + 1
@@ -36,10 +36,10 @@ RESTAGE_UINT(TEXEL_HALF4, 0u);
 RESTAGE_UINT(TEXEL_FLOAT4, 1u);
 RESTAGE_UINT(LIGHT_TRIANGLE, 0u); // a = p0, b = p1-p0, c = p2-p0
 RESTAGE_UINT(LIGHT_ENVIRONMENT, 1u);
-RESTAGE_UINT(LIGHT_QUADRIC, 2u); // of `instance`; area is that in object space
+RESTAGE_UINT(LIGHT_QUADRIC, 2u); // of `instance`; area is in object space
 RESTAGE_UINT(LIGHT_LAMP, 16u); // and on, plus LAMP_*: a = position, b = axis, c = cone (shared/lamps.h)
 RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
-RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the side that shines
+RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the emitting side
 RESTAGE_UINT(ENV_CONSTANT, 0u);
 RESTAGE_UINT(ENV_EQUIRECT, 1u);
 RESTAGE_UINT(ENV_OCTAHEDRAL, 2u);
@@ -82,7 +82,7 @@ struct QuadricData { // 40 bytes; scene/quadric.hpp
     uint kind;
     uint whole; // 1: a sphere without zmin, zmax, phimax
     float radius;
-    float z_min, z_max; // a disk's height is both
+    float z_min, z_max; // equal for a disk: its height
     float inner;
     float phi_max; // [rad]
     float theta_min, theta_max; // of a sphere, at z_min and z_max
@@ -91,17 +91,17 @@ struct QuadricData { // 40 bytes; scene/quadric.hpp
 
 struct MaterialData { // 32 bytes
     uint type; // index of the material type in this scene
-    uint params; // first word in SceneData.params; before it, three of the colour that stands in for it
+    uint params; // first word in SceneData.params; before it, three for its stand-in colour
     uint bump; // texture or 0
     uint normal_map; // texture or 0
     uint id; // Id<Material>
     uint mix_first,
-        mix_second; // MaterialData indices or MATERIAL_NOTHING when the type is a mix; its first parameter is `amount`
+        mix_second; // MaterialData indices or MATERIAL_NOTHING if the type is a mix; its first parameter is `amount`
     uint flags;
 };
 
 // A texture is a short postfix program, in words; render/texture_types.hpp.
-struct TextureProgram { // index = texture; 0 is none
+struct TextureProgram { // index = texture; 0 = none
     uint first, count; // word; operations
 };
 
@@ -121,12 +121,12 @@ struct LightData { // 68 bytes
     vec3 c;
     float area;
     vec3 value; // radiance, intensity or irradiance
-    float offset; // of a triangle: that part of light_offset which does not depend on the ray
-    uint instance; // of a quadric, or of a triangle with a texture of emission or with alpha; else NONE
+    float offset; // of a triangle: the part of light_offset that does not depend on the ray
+    uint instance; // of a quadric, or of a triangle with an emission texture or alpha; else NONE
 };
 
 struct AliasEntry { // Vose 1991
-    float q; // keep when u < q
+    float q; // keep if u < q
     uint alias;
     float pmf;
 };
@@ -137,7 +137,7 @@ struct EnvironmentData {
     vec3 scale;
     uint mapping;
     address texels; // vec4[]: rgb, and the pmf of the alias table times the number of texels
-    address alias; // AliasEntry[], one a texel; 0 for a constant
+    address alias; // AliasEntry[], one per texel; 0 for a constant
     uint width, height;
     uint light; // its index in the lights, or NONE
     uint hidden; // 1: black for camera rays
@@ -145,7 +145,7 @@ struct EnvironmentData {
 
 struct CameraData {
     mat4x3 camera_to_world;
-    // Of the whole film, min is the top left corner: at z = 1; orthographic: where rays begin
+    // Of the whole film, min is the top left corner: at z = 1; orthographic: where rays start
     vec2 screen_min, screen_max;
     float lens_radius, focal_distance;
     uint width, height; // of the whole film
@@ -154,9 +154,9 @@ struct CameraData {
 struct FilterData {
     vec2 radius;
     uint kind;
-    uint table_size; // entries an axis
+    uint table_size; // entries per axis
     address table; // float cdf_x[n+1], cdf_y[n+1], sign_x[n], sign_y[n] of |f|
-    vec2 weight; // integral of |f| / integral of f, an axis
+    vec2 weight; // integral of |f| / integral of f, per axis
 };
 
 struct MediumData {
@@ -174,7 +174,7 @@ struct SceneData {
     uint camera_medium;
     float clamp_direct, clamp_indirect; // 0 = off
     float ray_epsilon; // 0 = error bounds
-    vec3 world_origin; // of the kernels' world in the scene's
+    vec3 world_origin; // of the kernels' world space, in scene space
 };
 
 RESTAGE_SHARED_END

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one struct text readable by C++ and GLSL. Layout is `scalar` (VK_EXT_scalar_block_layout) on both sides;
+// Makes one struct text valid in C++ and GLSL. Layout is `scalar` (VK_EXT_scalar_block_layout) on both sides;
 // structs holding an address are padded to 8 bytes by hand. Sizes are asserted in C++ (render/gpu_scene.cpp).
 #ifndef RESTAGE_SHARED_TYPES_H
 #define RESTAGE_SHARED_TYPES_H
@@ -7,7 +7,7 @@
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
-// Constants stand before the structs and are found in namespace restage itself.
+// Constants precede the structs and are in namespace restage itself.
 #define RESTAGE_CONSTANTS_BEGIN namespace restage {
 #define RESTAGE_CONSTANTS_END }
 #define RESTAGE_SHARED_BEGIN namespace restage::shared {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Push constants of the wavefront's kernels: what every path of a wave asks for alike, so that kernels need
-// not load it from behind an address once a path.
+// Push constants of the wavefront's kernels: data common to all paths of a wave, so that kernels need
+// not load it through an address per path.
 #ifndef RESTAGE_SHARED_WAVE_DATA_H
 #define RESTAGE_SHARED_WAVE_DATA_H
 #include "shared/address.h"
@@ -8,7 +8,7 @@
 
 RESTAGE_SHARED_BEGIN
 
-struct WavePush { // 128 bytes: what every device has room for
+struct WavePush { // 128 bytes: the minimum guaranteed by Vulkan
     address frame;  // FrameData
     address rays;   // as in FrameData, from here
     address shadows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the measurements share: a stopwatch of wall and CPU time, the plugins of the build tree, a renderer, and errors
+// Shared by the measurements: a stopwatch of wall and CPU time, the plugins of the build tree, a renderer, and errors
 // that end the process with a sentence.
 #pragma once
 

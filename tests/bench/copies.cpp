@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the live picture's copy of a scene costs: the copy, the first change after it, a walk over all objects, and what
-// a frame of a drag does with it, in seconds and in allocations.
+// The cost of the live picture's copy of a scene: the copy, the first change after it, a walk over all objects, and
+// what a frame of a drag does with it, in seconds and in allocations.
 #include "allocations.hpp"
 #include "base/jobs.hpp"
 #include "bench.hpp"
@@ -67,7 +67,7 @@ Json measure_copies(const Options& o) {
             for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
                 sum += scene.instances[{i + 1}].object_to_world[3].y;
         });
-        if (!(sum == sum)) die("the walk found no number");
+        if (!(sum == sum)) die("the walk found NaN");
         const Json frame = cost(runs, [&] {
             move();
             shown = Scene(scene);

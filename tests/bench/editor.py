@@ -17,7 +17,7 @@ def percentile(values, p):
 
 
 def during(editor, act):
-    """Latencies of what `act` asks for [ms], and how long a denoised picture took afterwards [s]. Only the newest 512 are kept."""
+    """Latencies of the changes made by `act` [ms], and how long a denoised picture took afterwards [s]. Only the newest 512 are kept."""
     editor.wait(lambda s: s["view"]["current"] and s["view"]["divider"] == 1, "rest", 120)
     before = editor.state()["latency"]["count"]
     act()
@@ -36,7 +36,7 @@ def choose_type(editor, name):
 
 
 def new_type(editor, name):
-    """The latency of a type whose code no cache has; and when it, not its stand-in, is shown [s]."""
+    """The latency of a type whose code is in no cache; and when it, not its stand-in, is shown [s]."""
     started = time.monotonic()
     row = during(editor, lambda: choose_type(editor, name))
     editor.wait(lambda s: s["view"]["current"] and not s["view"]["compiling"], "the new code", 120)

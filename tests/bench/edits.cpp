@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an edit of one of a thousand instances costs until the next sample can start.
+// The time from an edit of one of a thousand instances until the next sample can start.
 #include "bench.hpp"
 #include "embree_counts.hpp"
 #include "scene/edit.hpp"

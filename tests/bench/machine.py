@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the figures were measured on."""
+"""The machine of the measurements."""
 import os
 import pathlib
 import platform
@@ -35,7 +35,7 @@ def describe(restage):
 
 
 def commit():
-    """Of the checkout, "+" behind it when tracked files differ from it; what was measured before does not count."""
+    """The commit of the checkout, with "+" if tracked files differ from it; earlier measurements do not count as changes."""
     git = ["git", "-C", str(pathlib.Path(__file__).parents[2])]
     changed = output(*git, "status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs/bench").strip()
     return first(output(*git, "rev-parse", "--short", "HEAD"), r"(\S+)") + ("+" if changed else "")

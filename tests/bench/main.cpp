@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
     Json result;
     program.require_subcommand(1);
     program.fallthrough();
-    program.add_option("--runs", o.runs, "How often each figure is taken")->capture_default_str();
+    program.add_option("--runs", o.runs, "How often each figure is measured")->capture_default_str();
     program.add_flag("--quick", o.quick, "Less of everything");
     program.add_option("--threads", o.threads, "0 = all")->capture_default_str();
     program.add_option("--samples", o.samples, "Where error curves end; strategies for study end at half of it")
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
     auto* features = program.add_subcommand("features", "The Cornell box and what else its scene uses");
     features->add_option("VARIANT", variant, "alone, types, features or all")->required();
     features->callback([&] { result = measure_features(o, variant); });
-    program.add_subcommand("multiscatter", "What light scattered more than once costs, by material")->callback([&] {
+    program.add_subcommand("multiscatter", "The cost of multiple scattering, by material")->callback([&] {
         result = measure_multiscatter(o);
     });
     auto* first = program.add_subcommand("first-image", "Where the time to a file's first picture goes");

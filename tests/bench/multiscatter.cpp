@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `multiscatter` costs: the two boxes of the Cornell box in each material that has it, at alpha 0.5, without and
+// The cost of `multiscatter`: the two boxes of the Cornell box in each material that has it, at alpha 0.5, without and
 // with.
 #include "bench.hpp"
 #include "scenes.hpp"

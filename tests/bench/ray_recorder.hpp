@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Notes every ray the engine hands to Embree, in the order of each thread, so that the same rays can be traced again
-// without the engine. The linker puts it between the two (see CMakeLists.txt): no line of the engine knows of it.
+// without the engine. The linker puts it between the two (see CMakeLists.txt): the engine is unaware of it.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -22,7 +22,7 @@ struct RecordedRay { // 36 bytes
 void start_recording();
 std::vector<RecordedRay> stop_recording(); // threads one after the other
 
-// Traces them in a plain loop over rtcIntersect1 and rtcOccluded1, against the very scene they were recorded on.
+// Traces them in a plain loop over rtcIntersect1 and rtcOccluded1, against the scene they were recorded on.
 // Returns how many hit something.
 std::uint64_t trace_plainly(const std::vector<RecordedRay>& rays, Jobs& jobs);
 

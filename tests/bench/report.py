@@ -7,7 +7,7 @@ import fit
 
 
 def spread(values, form="{:.2f}"):
-    """Median, and from where to where."""
+    """Median and range."""
     low, high, middle = (form.format(f(values)) for f in (min, max, statistics.median))
     return middle if low == high else f"{middle} ({low}–{high})"
 
@@ -149,7 +149,7 @@ def error(f):
             "median of the seeds (band: all of them). *Trimmed* leaves out the thousandth of the pixels that differ most: a single pixel "
             "can decide the mean of all. In veach-mis one does from 64 samples on: the edge of its brightest light, seen by one sample "
             "of ours in 128 and by none of the reference's (30, 89). Nothing is subtracted: curves end on a floor made of the reference's own "
-            "noise (in brackets) and of what is not alike (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has "
+            "noise (in brackets) and of systematic differences (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has "
             "p = 1, stratified samples more where the picture is smooth; a denoised picture less, for its bias.\n\n![error against samples](error_samples.svg)\n\n"
             "![error against CPU time](error_time.svg)\n\n" +
             table(["scene", "strategy", "curve to", "samples", "CPU-s", "relMSE", "x CPU-s", "p", "fitted floor (noise)",
@@ -160,7 +160,7 @@ def editor(f):
     rows = [[name, f"{r['median_ms']:.0f}", f"{r['p95_ms']:.0f}", len(r["pixels_ms"]), f"{r['denoised_s']:.2f}"] for name, r in f["rows"].items()]
     ui = f["ui_frame_ms"]
     return ("## The editor\n\nThe kitchen in a window of 1280x720, real mouse events under Xvfb, the window drawn by lavapipe too. From the "
-            "begin of the frame that handles an event to the picture of it on the screen, and from the last event to a denoised "
+            "start of the frame that handles an event to the picture of it on the screen, and from the last event to a denoised "
             "picture at half resolution or finer. Targets: 150 ms (median), 2 s.\n\n" +
             table(["while", "first changed pixel, ms, median", "95 %", "pictures", "denoised after, s"], rows) +
             f"\nFirst picture after process start: {f['first_image_s']:.1f} s; whole and denoised: {f['whole_denoised_s']:.1f} s. "
@@ -175,12 +175,12 @@ def machine_line(m):
 
 
 def measured_line(row, several_machines):
-    """When, of which commit, and how undisturbed a row was measured."""
+    """When a row was measured, of which commit, and how busy the machine was."""
     line = (f"Measured {row['date']} at commit {row['commit']}; load average before it {row['load_before']:.1f}; others used "
             f"{100 * row['others_cpu']:.0f} % of the cores meanwhile")
     if several_machines:
         line += f"; on {machine_line(row['machine'])}"
-    return line + ("; a quick look, not the full measurement.\n" if row["quick"] else ".\n")
+    return line + ("; a quick run, not the full measurement.\n" if row["quick"] else ".\n")
 
 
 def write(data, folder):

@@ -36,7 +36,7 @@ class Bench:
         commit = machine.commit()
         self.references = pathlib.Path(self.made.name) if commit.endswith("+") else ROOT / "build/bench-references" / commit
         if not self.program.exists():
-            sys.exit(f"{self.program} is not there; build it: ninja restage_bench in the build folder")
+            sys.exit(f"{self.program} is missing; build it: ninja restage_bench in the build folder")
 
     def measure(self, *command, runs=None, env=None):
         """One call of restage_bench: its JSON."""
@@ -132,7 +132,7 @@ def main():
     parser.add_argument("--only", nargs="+", choices=ROWS, help="measure these rows again, keep the others of bench.json")
     parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")
     parser.add_argument("--samples", type=int, default=256, help="a pixel, where the error curves end (default 256)")
-    parser.add_argument("--quick", action="store_true", help="a look in two minutes: fewer runs, samples and scenes")
+    parser.add_argument("--quick", action="store_true", help="a quick run of two minutes: fewer runs, samples and scenes")
     parser.add_argument("--report", action="store_true", help="measure nothing, write table and charts from bench.json")
     args = parser.parse_args()
     args.runs = args.runs or (1 if args.quick else 3)

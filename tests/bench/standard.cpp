@@ -12,7 +12,7 @@
 namespace restage::bench {
 namespace {
 
-// As the peers' figures were made: a pixel's squared error, mean over channels, over the mean square of its reference.
+// As in the peers' figures: a pixel's squared error, mean over channels, over the mean square of its reference.
 double rel_mse(const scene::PixelData& a, const scene::PixelData& reference) {
     double sum = 0;
     for (std::size_t i = 0; i < a.values.size(); i += 3) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Broken files that somebody wrote (tests/data/broken, made by its make.py, and tests/data/pbrt/broken): each gives an
-// error that names the file, the place where there is one, and what is wrong; in little time and memory.
+// Hand-made broken files (tests/data/broken, made by its make.py, and tests/data/pbrt/broken): each gives an error
+// that names the file, the place if there is one, and what is wrong; in little time and memory.
 
 #include "broken_files.hpp"
 #include "io/image_file.hpp"
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double most_seconds = 20; // with sanitizers, on a machine that does other things as well
+constexpr double most_seconds = 20; // with sanitizers, on a busy machine
 constexpr double most_megabytes = 700;
 
 struct Case {
@@ -46,7 +46,7 @@ std::vector<Case> cases(const std::string& folder) {
             REQUIRE(bar != std::string::npos);
             result.push_back({data_folder / "broken" / line.substr(0, bar), line.substr(bar + 1)});
         }
-    // Nothing lies in the folder that is not expected.
+    // The folder holds no unexpected files.
     const auto files = std::distance(fs::directory_iterator(data_folder / "broken" / folder), fs::directory_iterator());
     CHECK(files == static_cast<std::ptrdiff_t>(result.size()));
     return result;
@@ -123,7 +123,7 @@ TEST_CASE("broken: PLY files are an error at the shape that names them") {
         const test::Watch watch;
         const auto result = io::import_scene(scene.string(), importers.registry);
         ++count;
-        if (c.message.starts_with("report:")) { // unreadable as a file, as one that is not there
+        if (c.message.starts_with("report:")) { // unreadable as a file, like a missing one
             REQUIRE(result);
             CHECK(drops(*result, c.message.substr(7)));
             continue;
@@ -203,7 +203,7 @@ TEST_CASE("broken: PLY files opened by themselves") {
     }
 }
 
-TEST_CASE("broken: what is no scene at all") {
+TEST_CASE("broken: files that are not scenes at all") {
     const test::Importers importers;
     const test::Folder folder;
     for (const fs::path& path : {folder / "absent.pbrt", folder / "", data_folder / "broken/images/cut.png"}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every scene, model and picture of RESTAGE_CORPORA, RESTAGE_CASES, RESTAGE_SCENES and tests/data is opened: read or
-// refused with a sentence. Made for AddressSanitizer and UndefinedBehaviorSanitizer, which end the process at what they
-// find.
+// refused with a message. Made for AddressSanitizer and UndefinedBehaviorSanitizer, which end the process at a
+// finding.
 #include "broken_files.hpp"
 #include "io/image_file.hpp"
 #include "io/import.hpp"
@@ -32,7 +32,7 @@ struct Count {
 
 } // namespace
 
-TEST_CASE("every file of the corpora opens, or is refused with a sentence", "[corpora]") {
+TEST_CASE("every file of the corpora opens, or is refused with a message", "[corpora]") {
     const test::Importers importers;
     std::map<std::string, Count> counts;
     for (const char* variable : {"RESTAGE_CORPORA", "RESTAGE_CASES", "RESTAGE_SCENES", ""}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets of importers share: a host that takes everything, and one file a process.
+// Shared by the fuzz targets of importers: a host that takes everything, and one file a process.
 #pragma once
 
 #include "common/picture.hpp"
@@ -30,7 +30,7 @@ inline RestageSceneWriter1 host() {
             .mesh =
                 [](void*, const RestageMesh* mesh) {
                     for (std::size_t i = 0; i < std::size_t{3} * mesh->triangle_count; ++i)
-                        if (mesh->indices[i] >= mesh->vertex_count) std::abort(); // what every host relies on
+                        if (mesh->indices[i] >= mesh->vertex_count) std::abort(); // every host relies on this
                     return ++handles;
                 },
             .image = take<RestageImage>,
@@ -54,7 +54,7 @@ inline RestageSceneWriter1 host() {
             }};
 }
 
-// Four texels, whatever the bytes: the decoders have a target of their own (fuzz_image).
+// Four texels for any bytes: the decoders have a target of their own (fuzz_image).
 inline const RestageHost& services() {
     static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255, 9, 9, 9, 0, 130, 120, 250, 255};
     static const RestageImageService1 images{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material's library is loaded anew a hundred times, and so are the other kinds: nothing is lost. Made for
-// AddressSanitizer, whose leak checker is asked at the end; without it, loading and unloading is all that is tested.
+// A material's library is reloaded a hundred times, and so are the other kinds: nothing leaks. Made for
+// AddressSanitizer, whose leak checker runs at the end; without it, only loading and unloading are tested.
 #include "base/log.hpp"
 #include "io/services.hpp"
 #include "paths.hpp"
@@ -29,7 +29,7 @@ void no_leaks() {
 
 } // namespace
 
-TEST_CASE("a hundred reloads of a material's library lose nothing", "[reload]") {
+TEST_CASE("a hundred reloads of a material's library leak nothing", "[reload]") {
     Log silent([](LogLevel, std::string_view) {});
     {
         plugin::Registry registry(silent);
@@ -40,7 +40,7 @@ TEST_CASE("a hundred reloads of a material's library lose nothing", "[reload]") 
         INFO(entry.reason);
         REQUIRE(entry.state == plugin::State::loaded);
         for (int i = 0; i < 100; ++i) {
-            const auto in_use = registry.materials(); // of the version before, as a renderer holds them
+            const auto in_use = registry.materials(); // of the previous version, as held by a renderer
             const auto done = registry.reload(entry);
             INFO((done ? "" : done.error().message));
             REQUIRE(done);
@@ -50,7 +50,7 @@ TEST_CASE("a hundred reloads of a material's library lose nothing", "[reload]") 
     no_leaks();
 }
 
-TEST_CASE("registries that come and go lose nothing", "[reload]") {
+TEST_CASE("registries that come and go leak nothing", "[reload]") {
     Log silent([](LogLevel, std::string_view) {});
     for (int i = 0; i < 100; ++i) {
         plugin::Registry registry(silent, io::with_services());

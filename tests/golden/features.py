@@ -5,8 +5,8 @@
 RESTAGE_CASES names the folder that holds `pbrt-v4-features`: NAME.pbrt with NAME.1.exr and NAME.2.exr.
     features.py [--samples 16] [--write] [NAME ...]
 --write puts the table into docs/pbrt.md. A row *agrees* when the mean luminance is within 0.5 % (and three standard errors)
-and hardly any block of 8x8 pixels is further off than noise can be; otherwise a line of its import report must say what is
-approximated or dropped. Exit code 1: there is a row that does neither.
+and hardly any block of 8x8 pixels is off by more than noise; otherwise a line of its import report must say what is
+approximated or dropped. Exit code 1: some row does neither.
 """
 import argparse
 import os
@@ -31,11 +31,11 @@ def package():
 
 
 def scenes(folder):
-    """Names of the scenes that have pictures, all of which must be there in two halves."""
+    """Names of the scenes that have pictures, each of which must exist in two halves."""
     names = sorted(p.name[:-6] for p in folder.glob("*.1.exr"))
     missing = [f for n in names for f in (f"{n}.pbrt", f"{n}.2.exr") if not (folder / f).is_file()]
     if not names or missing:
-        raise FileNotFoundError(f"{folder}: not all files are there: {missing or 'no pictures'}")
+        raise FileNotFoundError(f"{folder}: files are missing: {missing or 'no pictures'}")
     return names
 
 
@@ -54,7 +54,7 @@ def compare(color, error, halves):
     a, b = (h.astype(np.float64) @ WEIGHTS for h in halves)
     reference = 0.5 * (a + b)
     mean = max(reference.mean(), 1e-9)
-    # Neighbouring pixels of pbrt share no samples; of a block's difference half is the error of the mean of both.
+    # Neighbouring pixels of pbrt share no samples; half of a block's difference is the error of the mean of both.
     pixels = (0.5 * (a - b)) ** 2
     variance_reference, variance_ours = pixels.mean() / pixels.size, (error.astype(np.float64) ** 2).mean() / error.size
     sigma = np.sqrt(variance_reference + variance_ours)
@@ -62,7 +62,7 @@ def compare(color, error, halves):
         [[min(BLOCK, ours.shape[0] - y) * min(BLOCK, ours.shape[1] - x) for x in range(0, ours.shape[1], BLOCK)]
          for y in range(0, ours.shape[0], BLOCK)])
     block_variance = (blocks(error.astype(np.float64) ** 2) + blocks(pixels)) / count
-    # A block of few bright samples knows its own noise badly: no less than 0.4 % of the block, or of the mean.
+    # A block with few bright samples estimates its own noise badly: at least 0.4 % of the block, or of the mean.
     floor = 0.004 * np.maximum(blocks(reference), 0.25 * mean)
     z = (blocks(ours) - blocks(reference)) / np.sqrt(block_variance + floor ** 2)
     return 100 * (ours.mean() / mean - 1), 100 * sigma / mean, float((np.abs(z) < 4).mean())
@@ -89,7 +89,7 @@ def render(restage, exr_file, folder, name, samples):
         said = [f"{e.what}: {e.note}" for e in session.report.entries if e.fate != "kept"]
         picture = session.render(samples=samples, seed=7)
         color, error = (np.array(a, np.float64) for a in (picture.color, picture.std_error))
-    if color.shape[:2] != (height, width):  # a crop: the film is whole here
+    if color.shape[:2] != (height, width):  # a crop: our film is whole
         color, error = (a[y:y + height, x:x + width] for a in (color, error))
     luminance, sigma, share = compare(color, error @ WEIGHTS, halves)
     return {"name": name, "luminance": luminance, "sigma": sigma, "blocks": share, "said": said}

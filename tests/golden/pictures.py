@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws what docs/accuracy.md shows of the z-test: each picture beside the map of its 8x8 blocks.
+"""Draws the z-test pictures of docs/accuracy.md: each picture beside the map of its 8x8 blocks.
 
     pictures.py [--from DIR] [--out docs/images] [SCENE ...]
 DIR is what references.py wrote: <scene>.exr and <scene>.z.png. Writes accuracy-<scene>.png. A picture of a scene may only be
-shown where its licence allows (LICENSE.txt in its folder), with credit where it asks for it: SCENES says so.
+shown if its licence allows (LICENSE.txt in its folder), with credit if required: see SCENES.
 """
 import argparse
 import pathlib
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/scripts"))
 import exr_file  # noqa: E402
 
-# Scene: whose it is, and under what licence. docs/accuracy.md gives the credit.
+# Scene: its author and licence. docs/accuracy.md gives the credit.
 SCENES = {"coffee": "cekuhnen, CC-BY 3.0", "cornell-box": "Benedikt Bitterli, CC0", "material-testball": "Benedikt Bitterli, CC0",
           "veach-bidir": "Benedikt Bitterli, CC0"}
 BLOCK, GAP = 8, 8

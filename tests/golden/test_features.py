@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One-feature pbrt-v4 scenes against pbrt-v4's pictures: each agrees, or a line of its import report says what is approximated.
 
-Needs RESTAGE_CASES; without it tools/test says that this is left out; when it is set, a missing file fails. docs/pbrt.md has
+Needs RESTAGE_CASES; without it tools/test reports this as left out; if it is set, a missing file fails. docs/pbrt.md has
 the table.
 """
 import os

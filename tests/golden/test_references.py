@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Eleven public scenes against pbrt-v4's pictures of them, and pbrt-v3 files against v4 ones.
 
-Needs RESTAGE_SCENES and RESTAGE_REFERENCES; without the first, tools/test says that these are left out; when it is set, a
+Needs RESTAGE_SCENES and RESTAGE_REFERENCES; without the first, tools/test reports these as left out; if it is set, a
 missing file fails. Tolerances are for few samples; docs/accuracy.md has the figures at 256 samples and explains the exceptions.
 """
 import json
@@ -22,7 +22,7 @@ LIMITS = {name: (2.0, 95.0) for name in SCENES}
 LIMITS["coffee"] = (3.5, 93.0)       # saturated orange under a coat: RGB against spectra (docs/accuracy.md)
 LIMITS["cornell-box"] = (2.0, 88.0)  # the same, between red and green walls
 LIMITS["veach-bidir"] = (6.0, 85.0)  # light that is hard to find: noise that few samples do not show
-LIMITS["water-caustic"] = None       # path tracing cannot find this light: only that it renders is tested
+LIMITS["water-caustic"] = None       # path tracing cannot find this light: only tests that it renders
 
 pytestmark = pytest.mark.skipif("RESTAGE_SCENES" not in os.environ, reason="RESTAGE_SCENES is not set")
 
@@ -49,7 +49,7 @@ def test_v3_file_agrees_with_v4(name, tmp_path, monkeypatch):
     assert abs(row["luminance_percent"]) < V3_LIMITS.get(name, 5.0)
 
 
-# Where the v3 file is another picture than the v4 one, with the reason (docs/accuracy.md).
+# Scenes whose v3 file differs from the v4 one, with the reason (docs/accuracy.md).
 V3_LIMITS = {
     "coffee": 30.0,            # v3 substrate: no light is lost under the coat
     "material-testball": 60.0, # the v3 file has a plain grey floor where the v4 one has a checkerboard

@@ -176,7 +176,7 @@ TEST_CASE("raygen, miss, closest hit, any hit and callables work, with the struc
     device.silent();
 }
 
-TEST_CASE("instances move, vanish and come by rebuilding the Tlas alone", "[accel]") {
+TEST_CASE("instances move, vanish and appear by rebuilding only the Tlas", "[accel]") {
     if (no_ray_tracing()) SKIP("no device here traces rays");
     TestDevice device(true);
     Scene scene(device);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the material tests of this folder share: device, compiler, the plugins of this build, and check::BsdfLab with
-// exceptions in place of results, so that a test reads as what it computes.
+// Shared by the material tests of this folder: device, compiler, the plugins of this build, and check::BsdfLab with
+// exceptions in place of results, so that tests read as the formulas they compute.
 #pragma once
 
 #include "check/configs.hpp"
@@ -17,7 +17,7 @@ using check::Engine, check::uniform, check::unit, check::unit3, check::direction
 
 class Bench {
   public:
-    static Bench& get(); // made at first use; throws what is missing as a sentence
+    static Bench& get(); // created on first use; throws a message about what is missing
     gpu::Device& device() { return *device_; }
     const gpu::ShaderCompiler& compiler() { return *compiler_; }
     std::vector<plugin::MaterialEntry> materials() const { return registry_.materials(); }

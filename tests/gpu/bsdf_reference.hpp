@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // BSDF formulas in double precision, written from the papers in their textbook form (angles, tangents, complex numbers,
-// slope space) and not from the shaders, which rearrange them: what the GLSL is compared with.
+// slope space) and not from the shaders, which rearrange them: the references for the GLSL.
 #pragma once
 
 #include <algorithm>

@@ -10,7 +10,7 @@ using namespace restage;
 using namespace restage::gpu;
 using namespace restage::gpu::test;
 
-TEST_CASE("every kind of buffer takes and gives back bytes", "[buffer]") {
+TEST_CASE("every kind of buffer stores and returns bytes", "[buffer]") {
     TestDevice device;
     const BufferKind kind = GENERATE(BufferKind::device, BufferKind::host, BufferKind::readback);
     std::vector<std::uint8_t> bytes(100'003);
@@ -72,7 +72,7 @@ TEST_CASE("moved buffers keep their memory, and moved-from ones are empty", "[bu
     Buffer b = std::move(a);
     CHECK(b.address() == address);
     CHECK(b.name() == std::string("a"));
-    CHECK_FALSE(bool(a)); // NOLINT(bugprone-use-after-move): that is the question
+    CHECK_FALSE(bool(a)); // NOLINT(bugprone-use-after-move): the tested case
     CHECK(a.size() == 0);
     b = value(device->create_buffer(128, BufferKind::host, "b"));
     CHECK(b.size() == 128);

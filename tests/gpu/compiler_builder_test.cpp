@@ -37,7 +37,7 @@ void main() { push.dst.v = push.value + )" +
 
 } // namespace
 
-TEST_CASE("pipelines come out of the builder ready, each its own, while the device works", "[builder]") {
+TEST_CASE("the builder delivers finished, distinct pipelines while the device works", "[builder]") {
     TestDevice device;
     const ShaderCompiler compiler({});
     const Buffer out = value(device->create_buffer(4, BufferKind::readback, "out"));
@@ -63,7 +63,7 @@ TEST_CASE("pipelines come out of the builder ready, each its own, while the devi
     device.silent();
 }
 
-TEST_CASE("an error in a shader comes out of the future, and the builder goes on", "[builder]") {
+TEST_CASE("the future reports a shader error, and the builder goes on", "[builder]") {
     TestDevice device;
     const ShaderCompiler compiler({});
     PipelineBuilder builder(*device, compiler, 1);
@@ -76,7 +76,7 @@ TEST_CASE("an error in a shader comes out of the future, and the builder goes on
     device.silent();
 }
 
-TEST_CASE("a builder that is gone answers every request", "[builder]") {
+TEST_CASE("a destroyed builder answers every request", "[builder]") {
     TestDevice device;
     const ShaderCompiler compiler({});
     std::vector<std::future<Result<ComputePipeline>>> futures;
@@ -95,7 +95,7 @@ TEST_CASE("a builder that is gone answers every request", "[builder]") {
     device.silent();
 }
 
-TEST_CASE("a request that is told to stop before its turn is not built", "[builder]") {
+TEST_CASE("a request cancelled before its turn is not built", "[builder]") {
     TestDevice device;
     const ShaderCompiler compiler({});
     PipelineBuilder builder(*device, compiler, 1);

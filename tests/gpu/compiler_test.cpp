@@ -36,7 +36,7 @@ TEST_CASE("an error points at the line of the text itself", "[compiler]") {
     CHECK_THAT(error, StartsWith("wave.comp:4: "));
     CHECK_THAT(error, ContainsSubstring("'y' : undeclared identifier"));
     CHECK_THAT(error, !ContainsSubstring("No code generated"));
-    // Definitions come before the text and do not move its lines.
+    // Definitions come before the text and do not shift its lines.
     CHECK_THAT(error_of(compiler, {.name = "wave.comp",
                                    .text = head + "void main() {\n    float x = y;\n}\n",
                                    .defines = {{"A", "1"}, {"B", "2"}}}),
@@ -62,7 +62,7 @@ TEST_CASE("an error points at the included file, on disk and in memory, and line
                                    .text = head + "#include \"memory.glsl\"\nvoid main() {\n  w;\n}\n",
                                    .files = {{"memory.glsl", "int f() { return 1; }\nint g() { return 1; }\n"}}}),
                StartsWith("main:5: 'w'"));
-    // A file in memory may include one on disk; a macro's use is where it is reported.
+    // A file in memory may include one on disk; errors in a macro are reported at its use.
     CHECK_THAT(error_of(compiler,
                         {.name = "main",
                          .text = head + "#include \"memory.glsl\"\nvoid main() { }\n",
@@ -70,7 +70,7 @@ TEST_CASE("an error points at the included file, on disk and in memory, and line
                StartsWith("memory.glsl:2: 'hh'"));
 }
 
-TEST_CASE("what cannot be included is said where it is asked for, and only if that place is compiled", "[compiler]") {
+TEST_CASE("a failed include is reported at its line, and only if that line is compiled", "[compiler]") {
     const ShaderCompiler compiler({});
     CHECK_THAT(error_of(compiler, {.name = "main", .text = head + "#include \"nowhere.glsl\"\nvoid main() {}\n"}),
                StartsWith("main:3: ") && ContainsSubstring("nowhere.glsl"));
@@ -183,7 +183,7 @@ TEST_CASE("the files of a shader are listed, each once", "[compiler]") {
                                      std::filesystem::canonical(folder.path() / "b.glsl")});
 }
 
-TEST_CASE("the cache gives back what was compiled, and notices every change", "[compiler]") {
+TEST_CASE("the cache returns compiled code, and notices every change", "[compiler]") {
     const TemporaryFolder folder;
     folder.write("part.glsl", "#define N 1\n");
     const ShaderCompilerOptions options{.include_dirs = {folder.path()}, .cache_dir = folder.path() / "cache"};
@@ -257,7 +257,7 @@ TEST_CASE("many threads compile at once into one cache", "[compiler]") {
     CHECK(words[0] != words[1]);
 }
 
-TEST_CASE("a shader asks its device to keep NaN, once, and is a sound module then", "[compiler]") {
+TEST_CASE("a shader asks its device to preserve NaN, once, and stays a valid module", "[compiler]") {
     const ShaderCompiler compiler({});
     const auto spirv = compiler.compile({.name = "k", .text = head + "void main() {}\n"});
     REQUIRE(spirv);

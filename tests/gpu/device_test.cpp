@@ -13,7 +13,7 @@ using namespace restage;
 using namespace restage::gpu;
 using namespace restage::gpu::test;
 
-TEST_CASE("devices are listed, and what cannot be used says why", "[device]") {
+TEST_CASE("devices are listed, unusable ones with the reason", "[device]") {
     Log log;
     const auto devices = value(list_devices(log));
     REQUIRE_FALSE(devices.empty());
@@ -47,7 +47,7 @@ TEST_CASE("a device is selected by index or by part of its name", "[device]") {
     CHECK_FALSE(Device::create({.select = "99"}, log).has_value());
 }
 
-TEST_CASE("an extension that is not there is named", "[device]") {
+TEST_CASE("a missing extension is named", "[device]") {
     Log log([](LogLevel, std::string_view) {});
     const auto device = Device::create({.device_extensions = {"VK_RESTAGE_time_travel"}}, log);
     REQUIRE_FALSE(device.has_value());
@@ -59,7 +59,7 @@ TEST_CASE("an extension that is not there is named", "[device]") {
 
 namespace {
 
-// Scalar layout: a vec3 is 12 bytes, so this is what C++ makes of it.
+// Scalar layout: a vec3 is 12 bytes, the same as in C++.
 struct Particle {
     float position[3];
     float mass;
@@ -173,7 +173,7 @@ TEST_CASE("a list is recorded once and submitted often; barriers order dispatche
     }
     CHECK(std::equal(expected.begin(), expected.end(), data.span<std::uint32_t>().data()));
 
-    counts.span<std::uint32_t>()[0] = 2; // the host changes the count, nothing is recorded anew
+    counts.span<std::uint32_t>()[0] = 2; // the host changes the count, nothing is recorded again
     ok(device->submit_and_wait(list));
     step(count);
     step(128);
@@ -239,7 +239,7 @@ TEST_CASE("several threads record and submit", "[device][run]") {
     device.silent();
 }
 
-TEST_CASE("validation hears what is wrong", "[device]") {
+TEST_CASE("validation reports errors", "[device]") {
     Log quiet([](LogLevel, std::string_view) {});
     auto device = value(Device::create({.validation = true}, quiet));
     const Buffer a = value(device->create_buffer(256, BufferKind::device, "the buffer in question"));
@@ -253,7 +253,7 @@ TEST_CASE("validation hears what is wrong", "[device]") {
     CHECK(device->validation_messages().empty());
 }
 
-TEST_CASE("synchronization validation hears a missing barrier", "[device]") {
+TEST_CASE("synchronization validation reports a missing barrier", "[device]") {
     Log quiet([](LogLevel, std::string_view) {});
     auto device = value(Device::create({.validation = true}, quiet));
     const Buffer a = value(device->create_buffer(256, BufferKind::device, "a"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layered model by brute force: walks through the two interfaces and the medium, each event sampled by
-// its own probabilities, no next-event estimation, no MIS, no Russian roulette. Slow, and too simple to be wrong alike.
+// its own probabilities, no next-event estimation, no MIS, no Russian roulette. Slow, but too simple to err alike.
 #pragma once
 
 #include "gpu/bsdf_reference.hpp"

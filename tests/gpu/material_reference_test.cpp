@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GLSL of each closed-form material against the formula of its paper in double precision (bsdf_reference.hpp), at
-// random parameters and directions, both anywhere and where the material's own lobes are.
+// random parameters and directions, both anywhere and inside the material's own lobes.
 #include "gpu/bench.hpp"
 #include "gpu/bsdf_reference.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 V vec(const Vec3& v) { return ref::normalize({v[0], v[1], v[2]}); }
 V mirrored(V w) { return {w.x, w.y, -w.z}; }
 
-// A parameter set as a reference formula wants it.
+// A parameter set in the form of a reference formula.
 struct Params {
     const scene::ParamSet& set;
     const model::Material& table;
@@ -49,7 +49,7 @@ using Formula = std::function<double(const Params&, V wo, V wi, int channel)>; /
 struct Comparison {
     int compared = 0, bad = 0;
     double worst = 0;
-    std::ostringstream examples; // of what is bad
+    std::ostringstream examples; // of failures
 };
 
 // `prepare` draws the configurations; at least `least` values must have been compared.
@@ -80,7 +80,7 @@ void compare(const char* type, const Formula& formula, const std::function<void(
             c.worst = std::max(c.worst, error);
             // exp(-(tan/alpha)^2) at alpha 1e-3 in transmission: the rounding of wo + eta wi (and of 1/eta, seen from
             // inside) alone moves it by at most 2.9e-4 at eta 1.5, but 4.4e-3 at eta 1.05, where they nearly cancel
-            // (2e5 directions in float against double, D > 1e-3). A fused product would mend the first cause only.
+            // (2e5 directions in float against double, D > 1e-3). A fused product would fix the first cause only.
             if (!(error < 2.5e-3) && ++c.bad <= 3)
                 c.examples << "channel " << k << ": expected " << expected << " for wi " << wi[0] << ' ' << wi[1] << ' '
                            << wi[2] << "\n  " << describe(jobs[i], answers[i]) << "\n  "
@@ -97,13 +97,13 @@ void compare(const char* type, const Formula& formula, const std::function<void(
     CHECK(c.bad == 0);
 }
 
-// Roughnesses whose alpha is at least 0.02, so that single precision can hold what double precision says.
+// Roughnesses whose alpha is at least 0.02, so that single precision can match double precision.
 void rough(scene::ParamSet& set, Engine& e) {
     for (const char* id : {"uroughness", "vroughness", "roughness"})
         if (set.find(id)) set.set(id, scene::Value::number(uniform(e, 0.02f, 1.f)));
 }
 
-// Single scattering is what the papers' formulas say; the rest of it is multiscatter_test.cpp's.
+// The papers' formulas are single scattering; multiple scattering is tested in multiscatter_test.cpp.
 void single(scene::ParamSet& set) { set.set("multiscatter", scene::Value::boolean(false)); }
 
 // No index of 0: the complex formula has no value there.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // measured at MERL's full resolution: tabulated closed forms, read by the plugin and looked up by the GPU, against the
-// forms themselves in double precision; and what its samples are worth.
+// forms themselves in double precision; and the quality of its samples.
 #include "gpu/bench.hpp"
 #include "gpu/bsdf_reference.hpp"
 #include "merl_file.hpp"
@@ -105,7 +105,7 @@ TEST_CASE("measured: Lambert and Cook-Torrance tabulated as MERL does, against t
     CHECK(middle.most_of < 0.007);
     CHECK(middle.worst < 0.015);
     CHECK(low.most_of < 0.02);
-    // That it is the interpolation's: of second order.
+    // The error is the interpolation's: of second order.
     CHECK(coarse.median > 3 * middle.median);
     CHECK(coarse.median < 5 * middle.median);
 }

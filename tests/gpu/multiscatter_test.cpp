@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Energy compensation: what a rough white surface gives back with and without it, by integrating its samples, and what
-// the loss and its fitted mean (shaders/restage/v1/multiscatter.glsl) are worth over the whole range of roughness.
+// Energy compensation: what a rough white surface reflects with and without it, by integrating its samples, and how
+// accurate the loss and its fitted mean (shaders/restage/v1/multiscatter.glsl) are over the whole range of roughness.
 #include "gpu/bench.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -47,8 +47,8 @@ struct Case {
 
 } // namespace
 
-// A body that reflects all, under white fibres: the sheen's fitted albedo (shaders/restage/v1/sheen.glsl) says how much
-// of the body is left. Energy is lost where the two directions' shares differ, as KHR_materials_sheen has it.
+// A perfectly reflecting body under white fibres: the sheen's fitted albedo (shaders/restage/v1/sheen.glsl) says how
+// much of the body is left. Energy is lost where the two directions' shares differ, as in KHR_materials_sheen.
 TEST_CASE("sheen: a white body under white fibres neither gains nor loses much", "[materials][multiscatter]") {
     std::vector<scene::ParamSet> configs;
     const float roughness[] = {0.f, 0.3f, 0.6f, 1.f}, cosines[] = {1.f, 0.6f, 0.25f, 0.06f};
@@ -121,6 +121,6 @@ TEST_CASE("multiple scattering: the white furnace is white at every roughness", 
         INFO(c.type << (c.values.contains("distribution") ? " beckmann" : "") << ", worst " << worst << '\n'
                     << rows.str());
         CHECK(worst < c.tolerance);
-        CHECK(loss > 0.2); // there was something to give back
+        CHECK(loss > 0.2); // there was a loss to restore
     }
 }

@@ -19,7 +19,7 @@
 
 namespace restage::gpu::test {
 
-// Fails the test with the error's own words.
+// Fails the test with the error's message.
 template <class T>
 T value(Result<T> result) {
     if (!result) FAIL(result.error().message);
@@ -29,7 +29,7 @@ inline void ok(const Result<void>& result) {
     if (!result) FAIL(result.error().message);
 }
 
-// With files in it.
+// With these files in it.
 class TemporaryFolder : public restage::test::TemporaryFolder {
   public:
     std::filesystem::path write(const std::string& name, const std::string& text) const {
@@ -39,7 +39,7 @@ class TemporaryFolder : public restage::test::TemporaryFolder {
     }
 };
 
-// A device with validation. `silent()` at the end of a test: the layers had nothing to say.
+// A device with validation. `silent()` at the end of a test: the layers reported nothing.
 class TestDevice {
   public:
     explicit TestDevice(bool ray_tracing = false) {

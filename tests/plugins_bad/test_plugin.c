@@ -63,7 +63,7 @@ static const RestageMaterial1 material = {TABLE_SIZE,    0,      "velvet", "Velv
 #endif
 
 #if defined(TEST_TABLE_OF_NONE) || defined(TEST_TABLE_GREEDY)
-/* Asks for more than there is, reads past the end, and says nothing about it. */
+/* Requests more than exists and reads past the end, without reporting an error. */
 static int read_table(const char* param_id, const RestageTableFile1* file) {
     char byte;
     (void)param_id;
@@ -98,7 +98,7 @@ static int load(const char* path, const RestageSceneWriter1* out) {
 #elif defined(TEST_IMPORTER_HANGS)
     for (volatile int forever = 1; forever;)
         ;
-#elif defined(TEST_IMPORTER_EATS) /* as a careless one does, which does not look at what malloc gives */
+#elif defined(TEST_IMPORTER_EATS) /* like a careless plugin that ignores malloc's result */
     for (;;)
         memset(malloc(1 << 26), 1, 1 << 26);
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A rough metal, and the ways in which native code of a plugin can be wrong: built once for each BROKEN_* macro. */
+/* A rough metal, and the possible faults of a plugin's native code: built once for each BROKEN_* macro. */
 #include <restage/material.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #define TINT RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.9f, 0.9f, 0.9f, 0, "", "Multiplies what is reflected.")
 
 #if defined(BROKEN_COUNT_LIES)
-/* What follows two lines is no table line. */
+/* What follows two lines is not a table line. */
 #define WILD ((const char*)16)
 #define NOWHERE {sizeof(RestageParam), RESTAGE_FLOAT, 0, 0, 0, 0, 0, 1, {0}, WILD, WILD, WILD, NULL, WILD}
 static const RestageParam params[] = {ROUGHNESS, TINT, NOWHERE, NOWHERE};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rough metal (GGX, single scattering, visible normals), right as it stands; a macro broken_<fault> makes it wrong.
+// A rough metal (GGX, single scattering, visible normals), correct by itself; a macro broken_<fault> makes it wrong.
 #include <restage/v1/microfacet.glsl>
 
 vec2 broken_alpha(broken_Params m) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An importer, an exporter, a denoiser and a material with an inspector and a table, each right as it stands; a macro
+/* An importer, an exporter, a denoiser and a material with an inspector and a table, each correct by itself; a macro
  * NATIVE_* makes one wrong. tests/scripts/test_check_native.py gives them manifests. */
 #include <math.h>
 #include <restage/denoiser.h>
@@ -159,7 +159,7 @@ static int save(const char* path, const RestageSceneReader1* in, const RestageVa
         RestageInstance instance = {.size = sizeof instance};
         if (!in->instance(in->ctx, i, &instance)) {
 #if defined(NATIVE_EXPORTER_CRASHES)
-            *nowhere = 1; /* a hole is none of its */
+            *nowhere = 1; /* a null hole */
 #endif
             continue;
         }
@@ -306,7 +306,7 @@ static int read(const char* param, const RestageTableFile1* file) {
     words = file->append(file->ctx, 2);
     if (!words) return 0;
 #if defined(NATIVE_TABLE_CRASHES)
-    words[head[0] * 4096u] = head[1]; /* an index of the file, believed */
+    words[head[0] * 4096u] = head[1]; /* an index from the file, unchecked */
     *nowhere = (int)head[1];
 #endif
     words[0] = head[0], words[1] = head[1];

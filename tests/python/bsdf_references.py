@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The closed-form materials computed anew, in double precision, from the papers and not from our GLSL.
+"""The closed-form materials computed independently, in double precision, from the papers and not from our GLSL.
 
 Every function takes wo, wi (n, 3) and arrays of parameters (n,) or (n, 3) and returns f(wo, wi) |cos wi|, (n, 3).
-Where the GLSL rearranges a formula for single precision, this file has it as it is printed."""
+Where the GLSL rearranges a formula for single precision, this file has it as printed."""
 import math
 
 import numpy as np

@@ -13,7 +13,7 @@ sys.path.insert(0, str(PACKAGES))
 
 
 if not (PACKAGES / "restage").is_dir():
-    raise pytest.UsageError(f"{PACKAGES}/restage is not there: build the target restage_python_stub, or set RESTAGE_BIN")
+    raise pytest.UsageError(f"{PACKAGES}/restage is missing: build the target restage_python_stub, or set RESTAGE_BIN")
 
 
 @pytest.fixture

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""restage.Bsdf: shapes, broadcasting, and that its four functions agree, for whatever materials are loaded."""
+"""restage.Bsdf: shapes, broadcasting, and that its four functions agree, for all loaded materials."""
 import numpy as np
 import pytest
 
@@ -37,7 +37,7 @@ def test_directions_and_parameters_broadcast():
         diffuse.eval(sphere(5, 1), sphere(5, 2), sets[:2])
     with pytest.raises(ValueError, match="directions are arrays"):
         diffuse.eval(sphere(5, 1), sphere(4, 2))
-    with pytest.raises(restage.Error, match='"colour" is not one of a diffuse'):
+    with pytest.raises(restage.Error, match='"colour" does not exist in a diffuse'):
         diffuse.eval((0, 0, 1), (0, 0, 1), {"colour": 1})
     with pytest.raises(restage.Error, match="no material type"):
         restage.Bsdf("unobtainium")

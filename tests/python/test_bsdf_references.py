@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """eval of the closed-form materials, as the GPU computes it in single precision, against double precision from the papers:
-1e4 random configurations each, relative 2e-4. docs/references.md has what was measured.
+1e4 random configurations each, relative 2e-4. docs/references.md has the measurements.
 
 Single precision cannot keep 1e-4 where the value itself changes by more when directions and parameters change in their
 last digits (far out in the tail of a narrow lobe, at grazing angles). So the bound is 2e-4 |f| plus what the *reference*
@@ -39,7 +39,7 @@ def rough(rng):
 
 
 def params_of(**columns):
-    """One dict a row; what is one value for all rows stays it."""
+    """One dict a row; values common to all rows stay scalars."""
     def at(value, i):
         return value if isinstance(value, (str, bool)) else (tuple(map(float, value[i])) if value.ndim == 2 else float(value[i]))
     return [{key: at(value, i) for key, value in columns.items()} for i in range(N)]
@@ -167,7 +167,7 @@ def measure(name):
 @pytest.mark.parametrize("name", CASES)
 def test_eval_is_what_the_papers_say(name):
     relative, share, conditioned, lit = measure(name)
-    assert lit > 0.15, "many configurations must say something (light is transmitted to few directions)"
+    assert lit > 0.15, "many configurations must be non-zero (light is transmitted to few directions)"
     assert share.max() <= 1, f"worst error is {share.max():.2f} times its bound; 99.9 % below {np.quantile(relative, 0.999):.1e}"
     assert conditioned < 0.05, f"the conditioning term is an exception; {conditioned:.1%} needed it"
 

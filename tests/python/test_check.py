@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""restage.check: the program's conformance test, asked from Python. What it finds is tests/scripts/test_check_command.py's affair."""
+"""restage.check: the program's conformance test, called from Python. Its findings are tested in tests/scripts/test_check_command.py."""
 import pytest
 
 import restage
@@ -19,7 +19,7 @@ def test_a_folder_a_plugin_and_one_step():
     assert report.folder == str(plugin.folder) and "manifest" in steps and "energy" not in steps
 
 
-def test_what_cannot_be_checked_is_an_error(tmp_path):
+def test_an_uncheckable_plugin_is_an_error(tmp_path):
     with pytest.raises(restage.Error, match="nowhere"):
         restage.check(tmp_path / "nowhere", quick=True)
     (tmp_path / "plugin.json").write_text("{ not json")

@@ -11,7 +11,7 @@ import restage
 
 
 def snapshot(session, tmp_path, name):
-    """What the scene is, as the bytes of its export."""
+    """The scene, as the bytes of its export."""
     folder = tmp_path / name
     folder.mkdir()
     session.export(folder / "scene.pbrt", textures="absolute")
@@ -31,7 +31,7 @@ def test_things_are_found_by_name_position_and_pattern(demo):
     assert 'Material' in repr(oak) and '"Wall paint"' in repr(oak)
 
 
-def test_what_is_not_there_is_a_key_error_with_a_guess(demo):
+def test_a_missing_name_is_a_key_error_with_a_suggestion(demo):
     with pytest.raises(KeyError, match='no material called "Wall pain"; did you mean "Wall paint"'):
         demo.materials["Wall pain"]
     with pytest.raises(KeyError, match='did you mean "Chair"'):
@@ -120,13 +120,13 @@ def test_lights_are_switched_off(demo):
     assert not sun.hidden
 
 
-def test_parameters_are_held_to_their_table(demo):
+def test_parameters_are_checked_against_their_table(demo):
     paint = demo.materials["Wall paint"]
     paint["reflectance"] = (0.07, 0.17, 0.19)
     assert paint["reflectance"] == (0.07, 0.17, 0.19)
     paint["reflectance"] = 0.5
     assert paint["reflectance"] == (0.5, 0.5, 0.5)
-    with pytest.raises(restage.Error, match='"colour" is not one of a diffuse'):
+    with pytest.raises(restage.Error, match='"colour" does not exist in a diffuse'):
         paint["colour"] = 1
     with pytest.raises(restage.Error, match="out of its range"):
         paint["reflectance"] = (2, 0, 0)
@@ -142,7 +142,7 @@ def test_parameters_are_held_to_their_table(demo):
 
 
 def test_every_parameter_of_every_material_type_goes_in_and_out(demo):
-    """Over whatever plugins are loaded: a new one is tested without a new line here."""
+    """Over all loaded plugins: a new one is tested without a new line here."""
     types = restage.material_types()
     assert "diffuse" in types and "dielectric" in types
     other = demo.materials[0]
@@ -164,7 +164,7 @@ def test_material_types_and_assignment(demo):
     assert (metal["uroughness"], metal["vroughness"]) == (0.2, 0.05)
     assert demo.history[-1] == "Add Brushed brass"
     count = len(demo.materials)
-    with pytest.raises(restage.Error, match="is not one of a conductor"):
+    with pytest.raises(restage.Error, match="does not exist in a conductor"):
         demo.add_material("Half", "conductor", uroughness=0.2, nonsense=1)
     assert len(demo.materials) == count and demo.history[-1] == "Add Brushed brass", "nothing of it stays"
     table = demo.find("Table")
@@ -346,7 +346,7 @@ def test_progress_of_opening_can_stop_it(scenes):
         restage.open(scenes / "demo/demo.pbrt", progress=stop).close()
     except restage.Cancelled as stopped:
         assert isinstance(stopped, restage.Error) and "stopped on request" in str(stopped)
-        assert calls  # a machine that reads the scene in 50 ms never asks
+        assert calls  # a machine that reads the scene in 50 ms never calls it
 
 
 def test_plugins_and_a_folder_that_holds_none(tmp_path):
@@ -405,7 +405,7 @@ def test_everything_public_is_documented_and_in_the_stub():
 
 
 def test_the_engines_warnings_go_to_logging(caplog, tmp_path, scenes):
-    """A texture with a texel that is no number is mended, and the log says so."""
+    """A non-finite texel of a texture is replaced, and the log says so."""
     image = np.full((4, 4, 3), np.nan, np.float32)
     with restage.open(scenes / "cornell/cornell.pbrt") as session, caplog.at_level(logging.WARNING, "restage"):
         session.materials[0]["reflectance"] = session.add_texture(image, name="holes")

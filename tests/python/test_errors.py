@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A wrong argument is answered with one sentence: which, what it must be, what it is."""
+"""A wrong argument raises a one-sentence error: which, what it must be, what it is."""
 import inspect
 
 import numpy as np
@@ -38,7 +38,7 @@ def test_a_wrong_argument_is_one_sentence(cornell, call, says):
     assert str(wrong.value) == says and cornell.history == before
 
 
-def test_what_is_not_there_is_named_as_python_names_it(cornell):
+def test_missing_things_raise_pythons_usual_errors(cornell):
     with pytest.raises(KeyError, match='there is no object called "nobody"'):
         cornell.objects["nobody"]
     for index in (99, -99):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The data-set example: complete, the same again, resumable, and nothing stands in anything."""
+"""The data-set example: complete, the same again, resumable, and no objects overlap."""
 import json
 import pathlib
 import sys
@@ -34,7 +34,7 @@ def test_variations_are_complete_deterministic_and_resumable(tmp_path, capsys):
     before = (tmp_path / "a/0000.json").stat().st_mtime_ns
     capsys.readouterr()
     make(tmp_path / "a", 2)
-    assert "1 made, 1 were there" in capsys.readouterr().out
+    assert "1 made, 1 existed" in capsys.readouterr().out
     assert (tmp_path / "a/0000.json").stat().st_mtime_ns == before
     assert json.loads((tmp_path / "a/0001.json").read_text()) == second
     assert np.array_equal(np.load(tmp_path / "a/0001.npz")["label"], data["label"])
@@ -62,7 +62,7 @@ def test_boxes():
     assert example.overlaps(a, a + (1.005, 0, 0)) and not example.overlaps(a, a + (1.005, 0, 0), gap=0)
 
 
-def test_what_readme_shows_runs(tmp_path, monkeypatch):
+def test_the_readme_example_runs(tmp_path, monkeypatch):
     readme = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text()
     code = readme.split("```python\n")[1].split("```")[0]
     assert "restage.open" in code and "size=(640, 360), samples=64" in code

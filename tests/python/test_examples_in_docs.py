@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What docstrings and documents show of Python runs: blocks of code, and the calls within sentences."""
+"""The Python code in docstrings and documents runs: blocks of code, and calls within sentences."""
 import pathlib
 import re
 import shutil

@@ -26,7 +26,7 @@ def test_a_mesh_goes_in_and_comes_out_as_arrays(session):
         thing.vertices[0, 0] = 1
     kept = thing.vertices
     session.undo()
-    assert not thing.exists and np.array_equal(kept, positions)  # the array keeps what it shows
+    assert not thing.exists and np.array_equal(kept, positions)  # the array keeps its data alive
     own = session.add_mesh(positions, triangles, normals=np.tile([0, 0, 1], (4, 1)))
     assert own.material.type == "diffuse" and own.normals.shape == (4, 3)
     session.undo()
@@ -44,7 +44,7 @@ def test_a_mesh_goes_in_and_comes_out_as_arrays(session):
     ([[0, 0, 0]], [[0, 0, 0]], {"normals": [[0, 0, 1], [0, 0, 1]]}, "2 normals for 1 vertices"),
     ([[0, 0, 0]], [[0, 0, 0]], {"uvs": [[0, 0, 1]]}, "uvs are an array"),
 ])
-def test_what_is_no_mesh_is_refused(session, positions, triangles, more, says):
+def test_an_invalid_mesh_is_refused(session, positions, triangles, more, says):
     before = session.history
     with pytest.raises(restage.Error, match=says):
         session.add_mesh(positions, triangles, **more)
@@ -56,7 +56,7 @@ def test_new_cameras_and_groups(session):
     assert camera.position == (3, 2, 3) and camera.fov == 30 and session.history[-1] == "Add Corner"
     view = np.asarray(camera.transform)[:3, 2]
     assert np.allclose(view, -np.array([3, 2, 3]) / np.sqrt(22)) and session.camera != camera
-    with pytest.raises(restage.Error, match="where it looks from"):
+    with pytest.raises(restage.Error, match="the viewpoint"):
         session.add_camera((1, 1, 1), (1, 1, 1), name="Nowhere")
     assert "Nowhere" not in [c.name for c in session.cameras]
     session.undo()
@@ -70,7 +70,7 @@ def test_new_cameras_and_groups(session):
     assert pair.parent == trio and a.group == pair and c.group == trio and len(trio.objects) == 3
     inner = session.add_group(a, "Inner")  # part of a group: within it
     assert inner.parent == pair and a.group == inner
-    with pytest.raises(restage.Error, match="one object or more"):
+    with pytest.raises(restage.Error, match="at least one object"):
         session.add_group([])
 
 

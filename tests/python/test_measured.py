@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A material that looks up a file: what the picture and the report say of it, sound, missing, broken and changed."""
+"""A material that looks up a file: its picture and report if the file is valid, missing, broken and changed."""
 
 import os
 
@@ -41,10 +41,10 @@ def test_the_picture_follows_the_file(session, tmp_path, caplog):
     assert mean(session) == pytest.approx(0.7, abs=0.01)
     material["filename"] = write_lambert(tmp_path / "dark.binary", 0.2)
     assert mean(session) == pytest.approx(0.2, abs=0.01)
-    # Missing and broken: grey, said once, and the scene goes on.
+    # Missing and broken: grey, reported once, and the scene still renders.
     material["filename"] = tmp_path / "gone.binary"
     assert mean(session) == pytest.approx(0.5, abs=0.01)
-    assert "gone.binary: cannot be opened: No such file or directory; a grey one stands for it" in caplog.text
+    assert "gone.binary: cannot be opened: No such file or directory; shown as grey" in caplog.text
     (tmp_path / "text.binary").write_text("this is no table of doubles")
     material["filename"] = str(tmp_path / "text.binary")
     assert mean(session) == pytest.approx(0.5, abs=0.01)
@@ -52,12 +52,12 @@ def test_the_picture_follows_the_file(session, tmp_path, caplog):
     for expected in (0.5, 0.2, 0.7):
         session.undo()
         assert mean(session) == pytest.approx(expected, abs=0.01)
-    # What has changed is read anew with the next edit of a material.
+    # A changed file is read again with the next edit of a material.
     dark = write_lambert(tmp_path / "lambert.binary", 0.4)
     os.utime(dark, (dark.stat().st_atime, dark.stat().st_mtime + 2))
     material["tint"] = (1, 1, 0.999)
     assert mean(session) == pytest.approx(0.4, abs=0.01)
-    # Broken, mended, broken again: said each time, but not with each edit.
+    # Broken, fixed, broken again: reported each time, but not with each edit.
     caplog.clear()
     for n, (text, expected) in enumerate([("no table", 0.5), ("", 0.5), (None, 0.4), ("no table", 0.5)]):
         if text is None:
@@ -67,7 +67,7 @@ def test_the_picture_follows_the_file(session, tmp_path, caplog):
         os.utime(dark, (dark.stat().st_atime, dark.stat().st_mtime + 4 + 2 * n))
         material["tint"] = (1, 1, 0.998 - 0.001 * n)
         assert mean(session) == pytest.approx(expected, abs=0.01)
-    assert caplog.text.count("a grey one stands for it") == 2
+    assert caplog.text.count("shown as grey") == 2
     with pytest.raises(restage.Error, match="expected the path of a file, not 3"):
         material["filename"] = 3
     del material["filename"]

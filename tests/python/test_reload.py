@@ -20,7 +20,7 @@ Shape "disk" "float radius" 4
 """
 
 
-def test_a_material_is_loaded_anew(tmp_path):
+def test_a_material_is_reloaded(tmp_path):
     folder = tmp_path / "paint"
     folder.mkdir()
     glsl = folder / "paint.glsl"
@@ -34,7 +34,7 @@ def test_a_material_is_loaded_anew(tmp_path):
     manifest = {"id": "org.example.paint", "provides": ["restage.material/1"], "version": "1", "licence": "MIT", "needs": {"host": ">=0.2"}}
     (folder / "plugin.json").write_text(json.dumps({**manifest, "materials": [material]}))
     first = restage.load_plugins(folder)
-    assert [p.id for p in restage.load_plugins(folder)] == [p.id for p in first], "twice is once"
+    assert [p.id for p in restage.load_plugins(folder)] == [p.id for p in first], "a second call reloads nothing"
     (tmp_path / "scene.pbrt").write_text(SCENE)
     with restage.open(tmp_path / "scene.pbrt") as session:
 

@@ -59,7 +59,7 @@ def test_masks_are_what_ids_say(cornell):
         p.mask("wall")
 
 
-def test_a_seed_repeats_and_an_edit_is_seen(cornell):
+def test_a_seed_repeats_and_an_edit_shows(cornell):
     a = cornell.render(size=(32, 32), samples=4, seed=7).color.copy()
     assert np.array_equal(a, cornell.render(size=(32, 32), samples=4, seed=7).color)
     assert not np.array_equal(a, cornell.render(size=(32, 32), samples=4, seed=8).color)
@@ -67,8 +67,8 @@ def test_a_seed_repeats_and_an_edit_is_seen(cornell):
     cornell.objects[0].hidden = True
     assert not np.allclose(a, cornell.render(size=(32, 32), samples=4, seed=7).color)
     cornell.undo(), cornell.undo()
-    assert np.array_equal(a, cornell.render(size=(32, 32), samples=4, seed=7).color), "undo gives the very same picture"
-    assert cornell.render(size=(32, 32), samples=1).size == (32, 32) and cornell.size != (32, 32), "size is no edit"
+    assert np.array_equal(a, cornell.render(size=(32, 32), samples=4, seed=7).color), "undo gives the identical picture"
+    assert cornell.render(size=(32, 32), samples=1).size == (32, 32) and cornell.size != (32, 32), "size is not an edit"
     assert not np.allclose(a, cornell.render(size=(32, 32), samples=4, seed=7, max_depth=0).color)
 
 
@@ -92,7 +92,7 @@ def test_exposure_scales_colour_and_error_alike(cornell):
 
 def test_other_threads_run_while_one_renders(cornell):
     """If render() held the GIL, the counter would stand still."""
-    cornell.render(size=(32, 32), samples=1)  # shaders are there
+    cornell.render(size=(32, 32), samples=1)  # shaders are compiled
     stop, count = threading.Event(), [0]
 
     def tick():
@@ -123,7 +123,7 @@ def test_another_thread_may_edit_while_one_renders(cornell):
     assert len(cornell.history) == 20
 
 
-def test_progress_is_told_and_false_stops(cornell):
+def test_progress_is_reported_and_false_stops(cornell):
     told = []
     p = cornell.render(size=(64, 64), seconds=0.6, progress=lambda at: told.append((at.fraction, at.samples)))
     assert p.finished and len(told) >= 3 and told == sorted(told) and 0 <= told[0][0] <= told[-1][0] <= 1
@@ -143,7 +143,7 @@ def test_progress_is_told_and_false_stops(cornell):
 
 @pytest.fixture
 def interruptible():
-    """What is started in the background of a script ignores Ctrl-C, and its children do."""
+    """Background jobs of a script ignore Ctrl-C, and so do their children."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -167,7 +167,7 @@ def test_ctrl_c_is_a_keyboard_interrupt_at_once(cornell):
     assert cornell.render(size=(16, 16), samples=1).finished
 
 
-def test_a_material_that_shines_lights_the_scene_and_comes_back_from_pbrt(cornell, tmp_path):
+def test_an_emitting_material_lights_the_scene_and_comes_back_from_pbrt(cornell, tmp_path):
     def brightness(session):
         return float(session.render(size=(32, 32), samples=16, denoise=False).color.mean())
 
@@ -227,7 +227,7 @@ def test_denoising_and_saving(cornell, tmp_path):
     noisy = cornell.render(size=(64, 64), samples=4, denoise="fast")
     clean = cornell.render(size=(64, 64), samples=256)
     assert noisy.denoised.shape == (64, 64, 3)
-    def error(a):  # the lamp left out: it outshines the rest, and is seen without noise but for its edges
+    def error(a):  # the lamp left out: it outshines the rest, and is noise-free except for its edges
         return np.sqrt(np.mean((np.clip(a, 0, 1) - np.clip(clean.color, 0, 1)) ** 2))
     assert error(noisy.denoised) < 0.5 * error(noisy.color)
     assert clean.denoise("high") is clean and clean.denoised is not None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values that no picture can hold: refused with a sentence by whatever sets them, and the session goes on."""
+"""Values that cannot be rendered: refused with a message by every setter, and the session continues."""
 import math
 import os
 import subprocess
@@ -34,7 +34,7 @@ def setters():
     yield "parameter", [NAN, INF, -1, 2], lambda s, x: s.materials[0].__setitem__("reflectance", (x, 0.5, 0.5))
 
 
-def test_what_no_picture_can_hold_is_refused(cornell):
+def test_unrenderable_values_are_refused(cornell):
     light = cornell.add_light("spot", name="spot")
     before = cornell.render(size=(16, 16), samples=1).color.copy()
     steps = cornell.history
@@ -55,7 +55,7 @@ def test_what_no_picture_can_hold_is_refused(cornell):
 
 
 def test_absurd_but_finite_scenes_render(cornell):
-    """Lengths from 1e-12 to 1e12: nothing Embree asserts is ever reached, and the picture is a picture."""
+    """Lengths from 1e-12 to 1e12: no Embree assertion is reached, and the picture is valid."""
     import numpy as np
 
     for change in (lambda: cornell.objects[0].scale(1e-12), lambda: cornell.objects[1].scale(1e12),
@@ -98,7 +98,7 @@ FORKED = """
     ("picture.denoise('fast')", "session.render(size=(16, 16), samples=1)"),
     ("lab = restage.Bsdf('diffuse')", "lab.pdf((0, 0, 1), (0, 0, 1))"),
 ])
-def test_a_fork_of_a_process_that_rendered_is_told_so(extra, work, scenes):
+def test_a_fork_of_a_process_that_rendered_is_refused(extra, work, scenes):
     script = textwrap.dedent(FORKED).format(packages=str(restage.__path__[0].rsplit("/", 1)[0]), extra=extra, work=work,
                                             scene=str(scenes / "cornell/cornell.pbrt"))
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=300)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`pip install .`: a wheel is built and works in a fresh environment outside the clone. No network: the build backend is
-that of this Python's environment, and what was compiled for the build under test comes from the compiler cache."""
+that of this Python's environment, and the objects of the build under test come from the compiler cache."""
 import importlib.util
 import os
 import pathlib
@@ -32,7 +32,7 @@ def run(*command, **kwargs):
 
 @pytest.mark.skipif(importlib.util.find_spec("scikit_build_core") is None,
                     reason="scikit-build-core is not in this environment: pip install scikit-build-core")
-@pytest.mark.skipif(shutil.which("ccache") is None, reason="without ccache this would compile everything once more")
+@pytest.mark.skipif(shutil.which("ccache") is None, reason="without ccache this would recompile everything")
 def test_a_wheel_works_in_a_fresh_environment(cornell, program, tmp_path):
     cache = (program.parents[1] / "CMakeCache.txt").read_text()
     def of_build(name):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Do two pictures of one scene agree but for their noise? What the tests of agreement between tracers share.
+// Do two pictures of one scene agree up to noise? Shared by the tests of agreement between tracers.
 #pragma once
 
 #include "io/image_compare.hpp"
@@ -48,7 +48,7 @@ inline void check_independent(const render::FilmImage& a, const render::FilmImag
     CHECK(ma.value > 0); // a black picture agrees with anything
 }
 
-// Pictures from the same random numbers: paths are the same but for rounding. The share of pixels whose luminance is
+// Pictures from the same random numbers: paths are the same up to rounding. The share of pixels whose luminance is
 // within 0.1 % of each other.
 inline double share_alike(const render::FilmImage& a, const render::FilmImage& b) {
     const auto la = estimate(a).luminance, lb = estimate(b).luminance;

@@ -29,7 +29,7 @@ void check_agreement(const scene::Scene& scene, const Expected& expected = {}) {
     INFO("share of pixels alike with the same seed: " << alike);
     CHECK(alike >= expected.alike);
     if (expected.alike > 0)
-        CHECK(share_alike(vulkan.image, other.image) < 0.8 * expected.alike); // else the line above says nothing
+        CHECK(share_alike(vulkan.image, other.image) < 0.8 * expected.alike); // else the line above proves nothing
     // The same paths, so about as many rays: counted by the device here, by the CPU there.
     CHECK(std::abs(double(vulkan.stats.rays) / double(same.stats.rays) - 1) < 0.01);
     CHECK(std::abs(double(vulkan.stats.shadow_rays) / double(same.stats.shadow_rays) - 1) < 0.01);
@@ -106,7 +106,7 @@ void environment_image(SceneBuilder& b, scene::Mapping mapping) {
         ++b.scene.clock};
 }
 
-// The types of all material plugins there are but those that need something else (mixes, interfaces), which have scenes
+// The types of all material plugins except those that need something else (mixes, interfaces), which have scenes
 // of their own below.
 std::vector<const model::Material*> material_types() {
     std::vector<const model::Material*> types;
@@ -115,7 +115,7 @@ std::vector<const model::Material*> material_types() {
     return types;
 }
 
-// Two spheres of each type: behind with what its table says, in front with textures and roughness.
+// Two spheres of each type: behind with its table's defaults, in front with textures and roughness.
 void gallery(SceneBuilder& b, const std::vector<const model::Material*>& types) {
     b.set_film(64, 36);
     b.set_camera({0, -11, 4.5}, {0, 0.2, 0.7}, {0, 0, 1}, 30);
@@ -201,7 +201,7 @@ TEST_CASE("tracers agree: mixes and cut-outs") {
                   [&](auto& i) { i.alpha_texture = scaled; });
     edit_instance(b, b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, -0.3, 0)),
                   [&](auto& i) { i.alpha = 0.4f; });
-    edit_instance(b, b.instance(ball, gold, at(1.2, 2, 0.9, 0.9)), [&](auto& i) { i.alpha = 0; }); // is not there
+    edit_instance(b, b.instance(ball, gold, at(1.2, 2, 0.9, 0.9)), [&](auto& i) { i.alpha = 0; }); // does not exist
     b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, 1.5, 0)); // the same mesh, whole
     area_light(b, glm::vec3(6));
     b.environment(glm::vec3(0.4f, 0.5f, 0.7f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lamps whose surface is not all there: what shines and what is seen are two things. Closed forms, on both tracers.
+// Lamps with partly missing surfaces: emission and visibility differ. Closed forms, on both tracers.
 #include "render/agreement.hpp"
 #include "render/checks.hpp"
 
@@ -51,7 +51,7 @@ void check_radiance(const render::FilmImage& image, double expected, double wide
 
 } // namespace
 
-TEST_CASE("a lamp of alpha below 1 is sampled like any other, and shines by that share") {
+TEST_CASE("a lamp of alpha below 1 is sampled like any other, and emits that share") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     for (const float alpha : {1.f, 0.5f, 0.1f}) {
@@ -67,7 +67,7 @@ TEST_CASE("a lamp of alpha below 1 is sampled like any other, and shines by that
     check_radiance(render_image(*renderer, half.scene, 256), 0.25 * below_square(), 0.02);
 }
 
-TEST_CASE("a lamp that is not there shines when it says so, and is not seen") {
+TEST_CASE("a lamp of alpha 0 emits if it is declared to, and is invisible") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     Floor b;
@@ -75,7 +75,7 @@ TEST_CASE("a lamp that is not there shines when it says so, and is not seen") {
     CHECK(mean_luminance(render_image(*renderer, b.scene, 4)).value == 0);
     b.change([](scene::Instance& i) { i.emission->unseen = true; });
     check_radiance(render_image(*renderer, b.scene, 64), below_square(), 0.003);
-    // Holes shine as well; then it is what is left that is seen.
+    // Holes emit as well; only the rest is visible.
     b.change([](scene::Instance& i) { i.alpha = 1; });
     b.half_hole(1);
     check_radiance(render_image(*renderer, b.scene, 64), below_square(), 0.003);
@@ -101,7 +101,7 @@ TEST_CASE("alpha as a mask is opaque wherever it is above 0") {
     check_radiance(render_image(*renderer, b.scene, 64), 5, 0.1);
 }
 
-TEST_CASE("every strategy sees the same of a lamp with alpha") {
+TEST_CASE("every strategy finds the same light from a lamp with alpha") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Floor near_lamp(90);
     near_lamp.change([](scene::Instance& i) {
@@ -126,7 +126,7 @@ TEST_CASE("every strategy sees the same of a lamp with alpha") {
     }
 }
 
-TEST_CASE("a lamp without a surface shines, is seen, and hides nothing") {
+TEST_CASE("a lamp with a null surface emits, is visible, and hides nothing") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     Floor b;
@@ -150,7 +150,7 @@ TEST_CASE("a lamp without a surface shines, is seen, and hides nothing") {
     check_radiance(render_image(*renderer, b.scene, 256), 0.5, 0.01);
 }
 
-TEST_CASE("both tracers see the same lamps without a surface, behind one another and in media") {
+TEST_CASE("both tracers render the same lamps with null surfaces, behind one another and in media") {
     Floor b(60);
     b.scene.settings.value.max_depth = 4;
     b.environment(glm::vec3(0.2f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light transport against closed forms, within 3 standard errors (plus the rounding of floats where there is no noise).
+// Light transport against closed forms, within 3 standard errors (plus float rounding if there is no noise).
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
 
@@ -16,7 +16,7 @@ void check_mean(const render::FilmImage& image, double expected) {
     INFO("mean " << m.value << " +- " << m.std_error << ", expected " << expected << ", z "
                  << (m.value - expected) / std::max(m.std_error, 1e-12));
     CHECK(std::abs(m.value - expected) <= 3 * m.std_error + 2e-4 * std::abs(expected));
-    CHECK(m.std_error < 0.02 * std::abs(expected) + 1e-9); // else the first check says nothing
+    CHECK(m.std_error < 0.02 * std::abs(expected) + 1e-9); // else the first check proves nothing
 }
 
 // A camera high above the origin that sees a tiny patch of the plane z = 0.
@@ -85,7 +85,7 @@ TEST_CASE("distant light: irradiance times cosine") {
     check_mean(render_image(*make_renderer(tracer), b.scene, 16), 0.5 / pi * 3 * std::cos(pi / 4));
 }
 
-TEST_CASE("a light that is switched off lights nothing") {
+TEST_CASE("a light that is switched off emits nothing") {
     const auto tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;
     look_down(b);
@@ -155,7 +155,7 @@ TEST_CASE("a mirrored transform keeps the side that emits") {
     check_mean(render_image(*make_renderer(tracer), b.scene, 256), 2 * form);
 }
 
-TEST_CASE("a cut-out lamp shines with what is left of it, and one without a surface wholly") {
+TEST_CASE("a cut-out lamp emits from the rest of it, and a null surface wholly") {
     const auto tracer = GENERATE("embree", "vulkan");
     const std::string left = GENERATE("half of it by alpha", "half of it in a mix", "interface");
     CAPTURE(left);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Borders of media (`interface`): rays of all kinds pass them straight, and what lies between absorbs by closed form.
+// Borders of media (`interface`): rays of all kinds pass them straight, and the medium between absorbs by closed form.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -46,7 +46,7 @@ TEST_CASE("borders: camera rays through ink, nested and from within") {
         SceneBuilder b;
         look_down(b);
         b.environment(glm::vec3(1));
-        b.scene.settings.value.max_depth = 0; // borders are no bounces
+        b.scene.settings.value.max_depth = 0; // borders do not count as bounces
         fill(b);
         return std::move(b.scene);
     };
@@ -120,8 +120,8 @@ TEST_CASE("borders: shadow rays are absorbed, not stopped") {
     check_color(render_image(*renderer, b.scene, 4), 0.5 / pi * 2 * 0.5 * glm::exp(-1.6 * glm::dvec3(ink_sigma)), 2e-3);
 }
 
-TEST_CASE("borders: light sampling, BSDF sampling and both see one light through them") {
-    const std::string tracer = "embree"; // that the other agrees, agreement_test.cpp sees
+TEST_CASE("borders: light sampling, BSDF sampling and both agree on a light behind them") {
+    const std::string tracer = "embree"; // agreement_test.cpp checks that the other agrees
     std::vector<render::FilmImage> images;
     for (const auto strategy : {render::Strategy::mis, render::Strategy::light_only, render::Strategy::bsdf_only}) {
         render::RendererOptions options;
@@ -144,7 +144,7 @@ TEST_CASE("borders: light sampling, BSDF sampling and both see one light through
     check_same_mean(images[0], images[2]);
 }
 
-TEST_CASE("borders: of clear media change no sample, and surfaces that border nothing cost nothing") {
+TEST_CASE("borders: those of clear media change no sample, and surfaces that border nothing cost nothing") {
     const std::string tracer = "embree";
     const auto renderer = make_renderer(tracer);
     std::vector<render::FilmImage> images;
@@ -179,7 +179,7 @@ TEST_CASE("borders: of clear media change no sample, and surfaces that border no
     }
 }
 
-TEST_CASE("borders: a mix with a share of no surface lets that share pass") {
+TEST_CASE("borders: a mix with a share of null surface lets that share pass") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     const auto mix = [](SceneBuilder& b, scene::Id<scene::Material> first, scene::Id<scene::Material> second,

@@ -207,7 +207,7 @@ TEST_CASE("pixel filters: a constant stays itself, and a dot takes the filter's 
     }
 }
 
-TEST_CASE("camera: an orthographic one shows the world at its scale, wherever it is") {
+TEST_CASE("camera: an orthographic one shows the world at its scale, from any place") {
     const auto renderer = make_renderer("embree");
     const glm::dvec4 patch(-0.101, 0.253, -0.057, 0.212);
     struct Case {
@@ -221,7 +221,7 @@ TEST_CASE("camera: an orthographic one shows the world at its scale, wherever it
         for (const double distance : {0.5, 40.0}) {
             SceneBuilder b;
             b.set_film(c.size.x, c.size.y);
-            look_ahead(b, 13); // which does not matter
+            look_ahead(b, 13); // irrelevant here
             change_camera(b, [&](auto& camera) {
                 camera.projection = scene::Projection::orthographic;
                 if (c.explicit_window) camera.screen_window = glm::vec4(c.window);
@@ -320,7 +320,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     }
 }
 
-TEST_CASE("camera: what is projected to the film is seen there") {
+TEST_CASE("camera: points projected to the film are seen there") {
     for (const auto projection : {scene::Projection::perspective, scene::Projection::orthographic,
                                   scene::Projection::spherical, scene::Projection::spherical_equal_area}) {
         SceneBuilder b;

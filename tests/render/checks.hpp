@@ -9,7 +9,7 @@
 
 namespace restage::tests {
 
-// Within 3 standard errors, and `relative` for the rounding of floats; and known to 2 %, else the first says nothing.
+// Within 3 standard errors, and `relative` for the rounding of floats; and known to 2 %, else the first proves nothing.
 inline void check_mean(const render::FilmImage& image, double expected, double relative = 2e-4) {
     const Mean m = mean_luminance(image);
     INFO("mean " << m.value << " +- " << m.std_error << ", expected " << expected << ", z "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shaders are compiled when they are needed, on workers; an editor sees stand-ins meanwhile, a command waits.
+// Shaders are compiled on demand, on workers; an editor shows stand-ins meanwhile, a command waits.
 #include "base/file.hpp"
 #include "paths.hpp"
 #include "render/checks.hpp"
@@ -73,7 +73,7 @@ glm::vec3 centre(const render::FilmImage& image) { return image.color[image.widt
 
 } // namespace
 
-TEST_CASE("while a material compiles its place is held by its colour, and then the film starts again") {
+TEST_CASE("while a material compiles its colour stands in for it, and then the film restarts") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = editor(tracer, "stand_in_" + tracer);
     Ball b(red);
@@ -124,7 +124,7 @@ TEST_CASE("samples of a stand-in do not stay in the film") {
 }
 
 // The code arrives within a sample, after the sample has begun with the stand-in.
-TEST_CASE("a film that holds a stand-in's samples waits for what it stands for") {
+TEST_CASE("a film that holds a stand-in's samples waits for the real material") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto cache = empty_cache("late_" + tracer);
     Ball b(red);
@@ -154,7 +154,7 @@ TEST_CASE("a film that holds a stand-in's samples waits for what it stands for")
     check_equal(image, render_image(*make_renderer(tracer), b.scene, image.samples));
 }
 
-TEST_CASE("a material that one path in many samples meets is compiled all the same") {
+TEST_CASE("a material that only one path in many samples meets is compiled too") {
     const auto renderer = editor("embree", "rare");
     Ball b([](SceneBuilder& s) { return s.material("coateddiffuse"); });
     auto i = b.scene.instances[b.ball];
@@ -176,10 +176,10 @@ TEST_CASE("a material that one path in many samples meets is compiled all the sa
         trace(*renderer, 1);
         REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::minutes(3));
     }
-    CHECK(renderer->samples() == 1); // begun again, without the stand-in
+    CHECK(renderer->samples() == 1); // restarted, without the stand-in
 }
 
-TEST_CASE("an edit that is undone cancels what it wanted compiled") {
+TEST_CASE("an undone edit cancels its compilation") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = editor(tracer, "cancel_" + tracer);
     Ball b(red);
@@ -201,7 +201,7 @@ TEST_CASE("an edit that is undone cancels what it wanted compiled") {
     check_equal(before, renderer->image());
 }
 
-TEST_CASE("a command waits for its shaders, and stops waiting when told to") {
+TEST_CASE("a command waits for its shaders, and stops waiting on request") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer, {.cache_dir = empty_cache("wait_" + tracer)});
     Ball b([](SceneBuilder& s) { return s.material("coatedconductor"); });

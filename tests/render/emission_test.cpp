@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials that shine (restage/emission.h): as objects that do, with textures, and through edits.
+// Materials that emit (restage/emission.h): like emitting objects, with textures, and through edits.
 #include "paths.hpp"
 #include "render/checks.hpp"
 
@@ -59,7 +59,7 @@ double worst_difference(const render::FilmImage& a, const render::FilmImage& b) 
 
 } // namespace
 
-TEST_CASE("a material that shines is the light that an object's own emission is") {
+TEST_CASE("an emitting material gives the same light as an object's own emission") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const bool two_sided = GENERATE(false, true);
     Lamp own, by_material;
@@ -157,5 +157,6 @@ TEST_CASE("what a material emits can be edited, replaced by the object's own, an
     b.give(b.material("mix", mixed));
     CHECK(warnings.empty());
     CHECK(mean_luminance(render_image(*renderer, b.scene, 4)).value == 0);
-    CHECK(warnings == std::vector<std::string>{"material \"mix\": its share \"emissive\" does not shine within a mix"});
+    CHECK(warnings ==
+          std::vector<std::string>{"material \"mix\": its component \"emissive\" does not emit within a mix"});
 }

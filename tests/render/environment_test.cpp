@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies: interpolated between texels; a sun of one pixel is found, turns as pbrt's convention says, and is as bright in
+// Skies: interpolated between texels; a sun of one pixel is found, turns by pbrt's convention, and is equally bright in
 // both mappings.
 #include "render/checks.hpp"
 
@@ -47,7 +47,7 @@ struct Mapping {
         if (v < 0 || v > 1) v = v < 0 ? -v : 2 - v, u = 1 - u;
         return {u, v};
     }
-    // Integral of f(direction) over the solid angle, weighted by what interpolation gives a texel: a tent.
+    // Integral of f(direction) over the solid angle, weighted by a texel's interpolation weight: a tent.
     template <class F>
     double integrate_tent(std::uint32_t x, std::uint32_t y, F&& f) const {
         const int n = 64;
@@ -116,7 +116,7 @@ const Sun suns[] = {
 
 } // namespace
 
-TEST_CASE("a sun of one pixel in a dim sky is found, wherever it is turned") {
+TEST_CASE("a sun of one pixel in a dim sky is found, in any direction") {
     const std::string tracer = GENERATE("embree", "vulkan");
     for (const auto strategy : {render::Strategy::mis, render::Strategy::light_only}) {
         render::RendererOptions options;
@@ -216,7 +216,7 @@ TEST_CASE("one sky in both mappings gives one irradiance") {
     }
 }
 
-TEST_CASE("a sky that is hidden from the camera shines all the same, and mirrors show it") {
+TEST_CASE("a sky hidden from the camera still emits light, and mirrors show it") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     const auto picture = [&](bool hidden, bool floor, const char* type) {
@@ -225,7 +225,7 @@ TEST_CASE("a sky that is hidden from the camera shines all the same, and mirrors
         if (floor) {
             const auto quad = b.quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
             b.instance(quad, type == std::string("mirror") ? b.material("mirror", {}) : b.diffuse(0.8f, 0.8f, 0.8f));
-        } else { // beside the picture: a scene needs something in it
+        } else { // outside the picture: a scene needs some geometry
             b.instance(b.quad({20, 0, 0}, {21, 0, 0}, {21, 1, 0}, {20, 1, 0}), b.diffuse(0.5f, 0.5f, 0.5f));
         }
         b.scene.environment = {scene::Environment{.name = "sky", .hidden_from_camera = hidden}, ++b.scene.clock};

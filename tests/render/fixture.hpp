@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders small scenes on the test device with both tracers, and says how far a mean is from its closed form.
+// Renders small scenes on the test device with both tracers, and reports how far a mean is from its closed form.
 #pragma once
 
 #include "io/services.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// White furnaces: what loses no light cannot be seen in a constant white sky.
+// White furnaces: lossless objects are invisible in a constant white sky.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -92,7 +92,7 @@ TEST_CASE("furnace: every lossless material vanishes in a white sky") {
     f.check(render_image(*make_renderer(tracer), f.b.scene, 64));
 }
 
-TEST_CASE("furnace: nearly smooth glass and metal lose next to nothing") {
+TEST_CASE("furnace: nearly smooth glass and metal lose almost nothing") {
     const auto tracer = GENERATE("embree", "vulkan");
     Furnace f;
     auto glass = numbers({{"uroughness", 0.01f}, {"vroughness", 0.01f}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What guides the denoiser: albedo and normal of what mirrors and smooth glass show, ids and depth of what is hit
-// first.
+// The denoiser's guides: albedo and normal of what mirrors and smooth glass show, ids and depth of the first
+// hit.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>

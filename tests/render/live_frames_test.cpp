@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What somebody at the editor sees while they work: every picture that LiveView offers is recorded, and held against
-// what it must be. With denoising on none is noisy, none dark, none of another document, none older than one that was
-// shown before, and none half one scene and half another.
+// What a user of the editor sees while working: every picture that LiveView offers is recorded and checked against
+// what it must be. With denoising on none is noisy, dark, of another document, older than one shown before, or a
+// mixture of two scenes.
 #include "io/image_file.hpp"
 #include "paths.hpp"
 #include "render/fixture.hpp"
@@ -36,7 +36,7 @@ double mean(const Frame& frame) {
     return sum / double(frame.image.color.size());
 }
 
-// How far pixels of one flat surface are from the middle of their neighbours, in units of the mean: a gradient is none.
+// How far pixels of one flat surface are from the middle of their neighbours, in units of the mean: 0 for a gradient.
 double noise(const Frame& frame) {
     const render::FilmImage& image = frame.image;
     double sum = 0, n = 0;
@@ -53,7 +53,7 @@ double noise(const Frame& frame) {
     return n > 0 ? sum / n / std::max(mean(frame), 1e-9) : 0;
 }
 
-// With RESTAGE_FRAMES_DIR set, pictures are left there to be looked at.
+// With RESTAGE_FRAMES_DIR set, pictures are left there for inspection.
 void keep(const Frame& frame, const std::string& name) {
     const char* folder = std::getenv("RESTAGE_FRAMES_DIR");
     if (!folder) return;
@@ -63,7 +63,7 @@ void keep(const Frame& frame, const std::string& name) {
     CHECK(io::write_png((std::filesystem::path(folder) / (name + ".png")).string(), pixels, -1));
 }
 
-// Where the pixels are that `in` picks, across the picture, 0..1; -1 = there are none.
+// The horizontal place of the pixels that `in` picks, 0..1; -1 = none.
 double place(const Frame& frame, const std::function<bool(std::size_t)>& in) {
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < frame.image.color.size(); ++i)
@@ -116,13 +116,13 @@ class Recorder {
         self_ = this;
     }
     void look() {
-        if (!self_) return; // before `live` is
+        if (!self_) return; // before `live` exists
         const std::lock_guard lock(mutex_);
         const FramePtr now = live.best(true);
         if (now && (frames_.empty() || frames_.back() != now)) frames_.push_back(now);
         compiled_.insert(live.status().compiling);
     }
-    // That this was being compiled, when there was news.
+    // What was being compiled, at each notification.
     bool said(const std::string& type) {
         const std::lock_guard lock(mutex_);
         return compiled_.contains(type);
@@ -132,7 +132,7 @@ class Recorder {
         const std::lock_guard lock(mutex_);
         return frames_;
     }
-    // Until what is shown is like that.
+    // Until the shown picture satisfies this.
     FramePtr wait(const std::function<bool(const Frame&)>& done) {
         for (int i = 0; i < 160000; ++i) { // ctest's limit comes first
             if (const auto status = live.status(); status.state == ViewState::failed) FAIL(status.text);
@@ -170,7 +170,7 @@ constexpr ViewOptions view_options{.size = {240, 180}, .samples = 4};
 
 } // namespace
 
-TEST_CASE("live frames: what is shown of all that was made") {
+TEST_CASE("live frames: which of the rendered pictures are shown") {
     const auto frame = [](std::uint64_t request, std::uint64_t document, bool denoised, bool clay = false) {
         auto f = std::make_shared<Frame>();
         f->request = request;
@@ -195,14 +195,14 @@ TEST_CASE("live frames: what is shown of all that was made") {
     p.put(frame(2, 1, false));
     for (int i = 3; i < 100; ++i)
         p.put(frame(i, 1, false));
-    CHECK(p.best(true) == clean); // however late the next clean one is
+    CHECK(p.best(true) == clean); // no matter how late the next clean one is
     p.denoiser("it failed");
     CHECK(p.best(true)->request == 99);
     p.denoiser("");
     CHECK(p.best(true) == clean);
-    p.ask(1, false); // nobody denoises
+    p.ask(1, false); // denoising off
     CHECK(p.best(true)->request == 99);
-    p.ask(2, true); // another scene: nothing of the old one, also what comes late
+    p.ask(2, true); // another scene: nothing of the old one, not even late pictures
     CHECK_FALSE(p.best(true));
     CHECK_FALSE(p.best(false));
     p.put(frame(100, 1, true));
@@ -212,7 +212,7 @@ TEST_CASE("live frames: what is shown of all that was made") {
     CHECK(p.best(true)->request == 101);
 }
 
-TEST_CASE("live frames: ten things that people do, and every picture of them") {
+TEST_CASE("live frames: ten user actions, and every picture of them") {
     if (!can_denoise()) SKIP("no denoiser is installed");
     Recorder r;
     Room b;
@@ -264,7 +264,7 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
         }
         const FramePtr end = r.wait_clean(last);
         const auto frames = r.frames();
-        CHECK(frames.size() > first); // something was seen of it
+        CHECK(frames.size() > first); // it was shown at least once
         for (std::size_t i = first; i < frames.size(); ++i) {
             const Frame& f = *frames[i];
             INFO("picture " << i - first << " of request " << f.request << ", " << f.image.width << "x"
@@ -279,7 +279,7 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
             CHECK(mean(f) < 2 * std::max(mean(*end), mean(*frames[first - 1])));
         }
     }
-    // The test could fail: as traced, a picture of one sample is far above what was allowed.
+    // The test can fail: a raw picture of one sample is far above the limit.
     Recorder noisy;
     noisy.live.show(before, {.size = view_options.size, .denoise = false, .samples = 1});
     const auto one = noisy.wait([](const Frame& f) { return !f.clay; });
@@ -287,7 +287,7 @@ TEST_CASE("live frames: ten things that people do, and every picture of them") {
     CHECK(noise(*one) > 0.3);
 }
 
-TEST_CASE("live frames: while something is dragged no picture is a mixture of two scenes") {
+TEST_CASE("live frames: during a drag no picture is a mixture of two scenes") {
     if (!can_denoise()) SKIP("no denoiser is installed");
     Recorder r;
     Room b;
@@ -334,12 +334,12 @@ TEST_CASE("live frames: another document begins with clay, and nothing of the ol
     Room second;
     second.move_ball(1);
     second.set_camera({0, 1, -1.8}, {0, 0.9, 4}, {0, 1, 0}, 80);
-    // A type that no picture had yet: its shader is compiled.
+    // A type that no picture has used yet: its shader is compiled.
     second.scene.materials.set(second.red, scene::Material{.name = "wax", .type = "coateddiffuse"},
                                ++second.scene.clock);
     options = {.size = {120, 200}, .document = 2, .samples = 4};
     const auto asked = r.live.show(second.scene, options);
-    const FramePtr at_once = r.live.best(true); // what the very next frame of the window shows
+    const FramePtr at_once = r.live.best(true); // what the window's very next frame shows
     CHECK((!at_once || at_once->document == 2));
     r.wait([&](const Frame& f) { return f.request == asked && !f.clay && f.divider == 1; });
     const auto all = r.frames();
@@ -369,8 +369,8 @@ TEST_CASE("live frames: another document begins with clay, and nothing of the ol
     }
 }
 
-// Of a type that nothing had yet, in a document that is open: the shader is compiled while the picture goes on.
-TEST_CASE("live frames: a new type of material is seen in its colour at once, and the status says what compiles") {
+// A type not used before, in an open document: the shader is compiled while rendering continues.
+TEST_CASE("live frames: a new type of material shows its colour at once, and the status says what compiles") {
     const test::TemporaryFolder cache; // nothing is compiled yet
     Recorder r({.cache_dir = cache.path()});
     Room room;
@@ -382,7 +382,7 @@ TEST_CASE("live frames: a new type of material is seen in its colour at once, an
         wax.params.set("reflectance", scene::Value::color(0.05f, 0.8f, 0.05f));
         most_red = 0.4;
     }
-    SECTION("textured") { // what stands beside a texture is no colour
+    SECTION("textured") { // a texture's constant is not its colour
         const auto green = room.image(1, 1, 3, {0.05f, 0.8f, 0.05f});
         const auto texture = room.scene.textures.next();
         room.scene.textures.set(texture, scene::Texture{.name = "green", .type = "imagemap", .image = green},
@@ -430,12 +430,12 @@ TEST_CASE("live frames: a lost device is opened again, once") {
         const auto request = r.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 16});
         r.wait([&](const Frame& f) { return f.request == request && !f.clay && f.image.samples == 16; });
         CHECK(r.live.status().state != ViewState::failed);
-        // Edits go on.
+        // Edits continue.
         b.move_ball(1);
         const auto next = r.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 4});
         r.wait([&](const Frame& f) { return f.request == next && !f.clay && f.image.samples == 4; });
     }
-    // Lost again before there is anything: it is said, and not tried for ever.
+    // Lost again before any picture: it is reported, and not retried for ever.
     const auto fault = std::make_shared<gpu::DeviceFault>(1, 1000);
     Recorder r({.fault = fault});
     Room b;

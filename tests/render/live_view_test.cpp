@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LiveView: the newest scene wins, what shows nothing new restarts nothing, and targets end the work.
+// LiveView: the newest scene wins, invisible changes restart nothing, and targets end the work.
 #include "view/live_view.hpp"
 #include "paths.hpp"
 #include "render/fixture.hpp"
@@ -71,7 +71,7 @@ TEST_CASE("live view: a picture to its target, then another scene") {
     CHECK(std::abs(mean(*frame) - 1) < 0.02); // what was handed out stays as it was
 }
 
-TEST_CASE("live view: of many requests the last is shown in the end, and none is of a mixture") {
+TEST_CASE("live view: of many requests the last is shown in the end, and none is a mixture") {
     View view;
     Floor b;
     std::uint64_t last = view.live.show(b.scene, {.size = {320, 240}, .denoise = false, .samples = 1});
@@ -91,7 +91,7 @@ TEST_CASE("live view: of many requests the last is shown in the end, and none is
     CHECK(std::abs(mean(*view.live.frame()) - 40) < 1);
 }
 
-TEST_CASE("live view: what does not show goes on with the picture that is there") {
+TEST_CASE("live view: an invisible change continues the current picture") {
     View view;
     Floor b;
     const auto first = view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 6});
@@ -114,10 +114,10 @@ TEST_CASE("live view: what does not show goes on with the picture that is there"
     view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 12});
     REQUIRE(view.wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.samples == 12; }));
     CHECK(view.live.frame()->image.samples == 12);
-    CHECK(view.live.frame()->request == first); // it was not begun again
+    CHECK(view.live.frame()->request == first); // it was not restarted
 }
 
-TEST_CASE("live view: what shows begins again") {
+TEST_CASE("live view: a visible change restarts") {
     View view;
     Floor b;
     const auto ball = b.instance(b.sphere(8, 16), b.diffuse(0.5f, 0.1f, 0.1f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is not finite never reaches the film: it is counted under the name of the material type it came from.
+// Non-finite values never reach the film: they are counted under the name of the material type they came from.
 #include "base/file.hpp"
 #include "paths.hpp"
 #include "render/checks.hpp"
@@ -17,7 +17,7 @@ const model::Material bad_table{
     .prefix = "bad",
     .glsl_file = "bad.glsl",
     .params = {{.id = "mode", .label = "Mode", .type = model::ParamType::integer, .int_max = 8}}};
-// A white diffuse surface but for what the mode spoils.
+// A white diffuse surface except for what the mode spoils.
 const char* const bad_glsl = R"(
 #include <restage/v1/sampling.glsl>
 float bad_value(bad_Params m, int mode, float good) { return m.mode == mode ? uintBitsToFloat(0x7fc00000u) : good; }
@@ -40,7 +40,7 @@ bool all_finite(const render::FilmImage& image) {
 
 } // namespace
 
-TEST_CASE("what a material gives that is not finite is counted under its name") {
+TEST_CASE("a material's non-finite values are counted under its name") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto folder = restage::test::build_dir() / "test_cache/bad_material";
     std::filesystem::create_directories(folder);
@@ -106,7 +106,7 @@ TEST_CASE("a sky too bright for the film is left out, counted, and spoils no err
     }
 }
 
-TEST_CASE("a constant sky that no film can hold is refused with a sentence") {
+TEST_CASE("a constant sky that no film can hold is refused with a message") {
     const auto renderer = make_renderer("embree");
     SceneBuilder b;
     b.set_film(16, 16);
@@ -148,9 +148,9 @@ TEST_CASE("a texture with NaN in it spoils no picture, and the log names it") {
     REQUIRE(renderer->sync(b.scene));
     CHECK(warnings == std::vector<std::string>{
                                                 // once each
-                          "image \"image\": 3 of 6 values are not finite numbers; taken as 0",
-                          "environment \"sky\": 3 values of its image are negative or not finite; taken as 0"});
+                          "image \"image\": 3 of 6 values are not finite numbers; replaced by 0",
+                          "environment \"sky\": 3 values of its image are negative or not finite; replaced by 0"});
     REQUIRE(renderer->trace(4));
     CHECK(all_finite(renderer->image()));
-    CHECK(mean_luminance(renderer->image()).value > 0.1); // the other half of it is there
+    CHECK(mean_luminance(renderer->image()).value > 0.1); // the other half of it is intact
 }

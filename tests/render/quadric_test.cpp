@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spheres, disks and cylinders that are rendered as what they are: closed forms, furnaces, lamps by every strategy, and
+// Spheres, disks and cylinders rendered exactly: closed forms, furnaces, lamps by every strategy, and
 // fine triangles as an independent method. On both tracers.
 #include "scene/quadric.hpp"
 #include "render/agreement.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The shape's surface as a grid over its (u, v), which stands for it: exact, unless it is to be `triangles`.
+// The shape's surface as a grid over its (u, v), which represents it: exact, unless `triangles` is set.
 scene::Id<scene::Mesh> shape(SceneBuilder& b, const std::string& line, bool triangles = false, int rows = 12) {
     scene::Mesh mesh{.name = line, .primitive = line};
     const auto q = scene::quadric_of(mesh);
@@ -75,7 +75,7 @@ struct Spot : SceneBuilder {
 
 } // namespace
 
-TEST_CASE("quadrics: what a mesh stands for is read from its line") {
+TEST_CASE("quadrics: the shape behind a mesh is read from its line") {
     const auto read = [](const char* line) { return scene::quadric_of(scene::Mesh{.primitive = line}); };
     const auto ball = read("sphere \"float radius\" [ 2.5 ]");
     REQUIRE(ball);
@@ -127,7 +127,7 @@ TEST_CASE("quadrics: lamps shine by their closed forms") {
     check_radiance(seen("sphere \"float radius\" 3 \"float zmin\" 0", at({0, 0, 0})), 5, 2e-2); // a dome
 }
 
-TEST_CASE("quadrics: every strategy sees the same lamp, triangles too, however it is scaled") {
+TEST_CASE("quadrics: every strategy sees the same lamp, triangles too, at any scale") {
     const std::string tracer = GENERATE("embree", "vulkan");
     struct Case {
         const char* line;
@@ -153,7 +153,7 @@ TEST_CASE("quadrics: every strategy sees the same lamp, triangles too, however i
         };
         INFO(tracer << ": " << c.line);
         const auto mis = traced(render::Strategy::mis, 1, false);
-        // Means: a pixel's own error is not known where BSDF sampling finds the lamp once in a while.
+        // Means: a pixel's own error is unknown where BSDF sampling finds the lamp only rarely.
         const Mean a = mean_luminance(mis);
         const auto same = [&](const render::FilmImage& other, double slack, const char* what) {
             const Mean b = mean_luminance(other);
@@ -167,7 +167,7 @@ TEST_CASE("quadrics: every strategy sees the same lamp, triangles too, however i
     }
 }
 
-TEST_CASE("quadrics: alpha is a choice of its own where a ray enters and where it leaves") {
+TEST_CASE("quadrics: alpha is decided separately where a ray enters and where it leaves") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     {
@@ -194,7 +194,7 @@ TEST_CASE("quadrics: alpha is a choice of its own where a ray enters and where i
     }
 }
 
-TEST_CASE("quadrics: no ray that leaves one meets it again") {
+TEST_CASE("quadrics: no ray that leaves one hits it again") {
     // In a sky of 1 a white convex thing is as bright as the sky, in every sample; so is smooth glass.
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
@@ -279,10 +279,10 @@ TEST_CASE("quadrics: both tracers see the same, with uv, cut-outs, pieces and me
     const auto a = trace_scene("embree", b.scene, 64, 1), c = trace_scene("vulkan", b.scene, 64, 1),
                other = trace_scene("vulkan", b.scene, 64, 2);
     check_independent(a.image, other.image);
-    CHECK(share_alike(a.image, c.image) > 0.5); // paths are the same but for choices of cut-outs
+    CHECK(share_alike(a.image, c.image) > 0.5); // paths are the same except for cut-out decisions
 }
 
-TEST_CASE("quadrics: the limb of a large sphere is where the closed form has it") {
+TEST_CASE("quadrics: the limb of a large sphere matches the closed form") {
     // The share of the picture that a ball of radius 1000 covers, seen from 2 above it, at its horizon.
     const auto renderer = make_renderer("embree");
     SceneBuilder b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material whose plugin is loaded anew while it is rendered: the picture follows, a version that does not compile
+// A material whose plugin is reloaded while it is rendered: the picture follows, a version that does not compile
 // changes nothing, and nothing of the old versions stays.
 #include "base/file.hpp"
 #include "io/services.hpp"
@@ -19,7 +19,7 @@ using namespace restage::tests;
 
 namespace {
 
-// A diffuse material whose colour stands in its GLSL, or in its parameter.
+// A diffuse material whose colour is in its GLSL, or in its parameter.
 std::string glsl(const std::string& color) {
     std::string text = read_file(restage::test::source_dir() / "tests/data/paint.glsl").value();
     for (std::size_t at = 0; (at = text.find("COLOR", at)) != std::string::npos; at += color.size())
@@ -83,7 +83,7 @@ bool near(glm::vec3 a, glm::vec3 b) { return glm::length(a - b) < 1e-3f; }
 
 } // namespace
 
-TEST_CASE("the judge takes every material that is shipped", "[reload]") {
+TEST_CASE("the reload check accepts every shipped material", "[reload]") {
     Paint paint;
     const auto judge = render::material_judge(restage::test::source_dir() / "shaders");
     for (const plugin::MaterialEntry& entry : paint.registry.materials()) {
@@ -92,7 +92,7 @@ TEST_CASE("the judge takes every material that is shipped", "[reload]") {
     }
 }
 
-TEST_CASE("an edited plugin is seen by who renders with it", "[reload]") {
+TEST_CASE("an edited plugin reaches a running renderer", "[reload]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Paint paint;
     Wall wall;
@@ -100,11 +100,11 @@ TEST_CASE("an edited plugin is seen by who renders with it", "[reload]") {
     CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f)));
 
     paint.write("vec3(0.9, 0.1, m.gray)", one);
-    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f))); // nobody has looked yet
+    CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f))); // not picked up yet
     REQUIRE(paint.registry.reload_changed().size() == 1);
     CHECK(near(color_of(*renderer, wall.scene), {0.9f, 0.1f, 0.5f}));
 
-    // Values live in the scene: they survive, also when the table has another shape afterwards.
+    // Values live in the scene: they survive even a changed table.
     auto m = wall.scene.materials[wall.paint];
     m.params.set("gray", scene::Value::number(0.25f));
     wall.scene.materials.set(wall.paint, m, ++wall.scene.clock);
@@ -125,7 +125,7 @@ TEST_CASE("a version that does not compile changes nothing, and the error names 
     CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring((paint.folder / "paint.glsl").string() + ":4:"));
     CHECK_THAT(news[0].error, Catch::Matchers::ContainsSubstring("grey"));
     CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.5f)));
-    // Also for who begins only now: what is on disk is not looked at.
+    // Also for a new renderer: the version on disk is not used.
     const auto another = paint.renderer(tracer, false);
     CHECK(near(color_of(*another, wall.scene), glm::vec3(0.5f)));
     paint.write("vec3(1) - vec3(0.1)", one);
@@ -158,7 +158,7 @@ TEST_CASE("a table of a hundred parameters: a texture is read in the line that h
     CHECK(near(color_of(*renderer, wall.scene), {0.25f, 0.75f, 0.25f}));
 }
 
-TEST_CASE("while an editor renders, the version before goes on until the new one is compiled", "[reload]") {
+TEST_CASE("while an editor renders, the previous version stays until the new one is compiled", "[reload]") {
     Paint paint;
     Wall wall;
     const auto renderer = paint.renderer("embree", true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer follows a scene: what an edit touches is what changes, and a new scene keeps nothing of the old one.
+// The renderer follows a scene: only what an edit touches changes, and a new scene keeps nothing of the old one.
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
 
@@ -47,7 +47,7 @@ TEST_CASE("a new scene keeps nothing of the old one") {
     check_equal(before, render_image(*renderer, many.scene, 4));
 }
 
-TEST_CASE("an edited scene looks as if it had always been so") {
+TEST_CASE("an edited scene renders like the same scene built from scratch") {
     const auto tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     auto b = balls(3);

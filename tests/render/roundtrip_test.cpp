@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edit -> picture -> file -> picture: what the Session changes, the exporter writes and the importer reads back is the
+// Edit -> picture -> file -> picture: a scene edited by the Session, exported and imported again is the
 // same scene and the same picture; undone to the start, the export is the same bytes.
 #include "base/file.hpp"
 #include "document/session.hpp"
@@ -77,7 +77,7 @@ TEST_CASE("edits of the bundled scene survive export and import, in structure an
         const auto again = io::import_scene(file, plugins().registry);
         if (!again) FAIL(again.error().message);
         if (std::string(version) == "v3")
-            continue; // v3 cannot say all of v4: what it loses is in the report; that it loads is what holds
+            continue; // v3 cannot express all of v4: losses are in the report; it only has to load
         for (const auto& line : io::structural_differences(session.scene(), again->scene, plugins().registry))
             FAIL_CHECK(line);
         const auto here = trace_scene("embree", small(session.scene()), 64, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers and what is drawn with them: Owen-scrambled Sobol pairs, alias tables, the light table, maps of the
-// sphere. Each shader function is held to its definition.
+// Random numbers and their uses: Owen-scrambled Sobol pairs, alias tables, the light table, maps of the
+// sphere. Each shader function is checked against its definition.
 #include "render/alias_table.hpp"
 #include "render/kernel_lab.hpp"
 #include "render/light_table.hpp"
@@ -80,7 +80,7 @@ TEST_CASE("sampler: every elementary interval of the first 2^k samples holds one
     }
 }
 
-TEST_CASE("sampler: pairs and pixels do not know of each other") {
+TEST_CASE("sampler: pairs and pixels are independent") {
     // Chi-square of 8x8 cells of (a coordinate of one sequence, a coordinate of another), 63 degrees of freedom each.
     // 512 points of each; 200 couples. Stratified sequences may be more even than random ones, never less.
     constexpr std::uint32_t count = 512, couples = 200;
@@ -111,7 +111,7 @@ TEST_CASE("sampler: pairs and pixels do not know of each other") {
     CHECK(worst < 63 + 7 * std::sqrt(2 * 63.0));
 }
 
-TEST_CASE("alias table: what it draws is its pmf, whatever the weights") {
+TEST_CASE("alias table: it draws its pmf, for any weights") {
     std::mt19937 random(3);
     for (const std::size_t n : {1u, 2u, 7u, 1000u}) {
         std::vector<double> weights(n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where shadow rays end: what lies close before a lamp shades it, and no lamp shades itself.
+// Where shadow rays end: objects close to a lamp shade it, and no lamp shades itself.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -35,11 +35,11 @@ TEST_CASE("a lid before a lamp at 1e-5 of the distance shades it") {
                 const auto image = render_image(*renderer, b.scene, 16);
                 INFO(tracer << ", scale " << scale << (tilted ? ", tilted" : "") << (two_sided ? ", two-sided" : ""));
                 CHECK(mean_luminance(image).value == 0);
-                CHECK(renderer->stats().shadow_rays > 1000); // else nothing was asked
+                CHECK(renderer->stats().shadow_rays > 1000); // else nothing was tested
             }
 }
 
-TEST_CASE("no lamp shades itself, however grazing and far") {
+TEST_CASE("no lamp shades itself, at grazing angles or far away") {
     const std::string tracer = GENERATE("embree", "vulkan");
     render::RendererOptions options;
     options.strategy = render::Strategy::light_only;

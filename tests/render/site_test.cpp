@@ -100,7 +100,7 @@ TEST_CASE("uv and their changes, and lengths in the object's space, follow the s
     CHECK(glm::length(at(dots.image(by_normal.scene, tracer), 48, 32) - glm::vec3(0.5f, 0.5f, 1.f)) < 1e-5f);
 }
 
-TEST_CASE("world positions are the scene's wherever the camera was at first, and objects keep their number", "[site]") {
+TEST_CASE("world positions are the scene's for any initial camera, and objects keep their number", "[site]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Dots dots;
     const Wall wall("world", glm::dmat4(1), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same picture wherever a scene lies and however large it is; no light through walls, no surface in its own shadow.
+// The same picture for any position and scale of a scene; no light through walls, no surface in its own shadow.
 #include "render/agreement.hpp"
 #include "render/checks.hpp"
 
@@ -65,14 +65,14 @@ TEST_CASE("a scene scaled and moved gives the same picture") {
     }
 }
 
-TEST_CASE("a closed box is black inside, whatever shines outside") {
+TEST_CASE("a closed box is black inside, for any light outside") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     struct Case {
         const char* name;
         double scale;
         glm::dvec3 move;
-        float reach = 1; // walls end so many times as far out as the room needs
+        float reach = 1; // walls extend this many times beyond the room
         int allowed =
             0; // pixels with light, of 1024, where floats cannot say on which side of the next wall a point is
         int fan = 0; // each wall a fan of so many grazing triangles about a point near its border
@@ -132,12 +132,12 @@ TEST_CASE("a closed box is black inside, whatever shines outside") {
         const auto lit = std::ranges::count_if(image.color, [](const glm::vec3& v) { return v != glm::vec3(0); });
         INFO(tracer << ", " << c.name << ": " << lit << " of " << image.color.size() << " pixels lit");
         CHECK(lit <= c.allowed);
-        CHECK(renderer->stats().shadow_rays > 100000); // else nothing was asked
+        CHECK(renderer->stats().shadow_rays > 100000); // else nothing was tested
         renderer->reset_stats();
     }
 }
 
-TEST_CASE("convex things are not in their own shadow") {
+TEST_CASE("convex objects do not shadow themselves") {
     // Albedo 1 under a white sky, one bounce, light found by BSDF sampling alone: each sample is exactly 1 unless its
     // ray hits the surface it left.
     const std::string tracer = GENERATE("embree", "vulkan");
@@ -214,7 +214,7 @@ TEST_CASE("tangents do not depend on the unit of uv or of the world") {
     CHECK(share_alike(base, render(1e-7f, 1e-4)) > 0.95);
 }
 
-TEST_CASE("roughness that goes to nothing joins the smooth surface") {
+TEST_CASE("vanishing roughness converges to the smooth surface") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const std::string type = GENERATE("conductor", "dielectric");
     const auto renderer = make_renderer(tracer);

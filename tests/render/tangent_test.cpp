@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Normal maps against n.l: with the mesh's tangents (glTF), where uv are mirrored and where the object is, and without
-// tangents as pbrt has them; both tracers.
+// tangents as in pbrt; both tracers.
 #include "render/checks.hpp"
 
 #include <array>
@@ -70,7 +70,7 @@ double expected(const glm::vec3& u, const glm::vec3& v, glm::dvec3 lamp) {
 
 } // namespace
 
-TEST_CASE("a normal map leans to where its picture says, however uv lie") {
+TEST_CASE("a normal map leans as its picture says, for any uv layout") {
     const std::string tracer = GENERATE("embree", "vulkan");
     for (const Quad& quad : quads) {
         INFO(tracer << ", u along " << quad.u.x << " " << quad.u.y << ", v along " << quad.v.x << " " << quad.v.y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light transport: every strategy has the same mean, depth means what pbrt means by it, spots fall off, media absorb.
+// Light transport: every strategy has the same mean, depth has pbrt's meaning, spots fall off, media absorb.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -32,7 +32,7 @@ TEST_CASE("spot light: smooth falloff between its two cones") {
     }
 }
 
-TEST_CASE("max_depth: 0 shows what shines, each step adds a bounce") {
+TEST_CASE("max_depth: 0 shows emitters, each step adds a bounce") {
     const auto tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     SceneBuilder b;
@@ -133,7 +133,7 @@ TEST_CASE("media: Beer and Lambert") {
     }
 }
 
-TEST_CASE("reverse_orientation and mirroring turn the side that shines, two-sided lamps do not care") {
+TEST_CASE("reverse_orientation and mirroring flip the emitting side, two-sided lamps ignore them") {
     const auto tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     SceneBuilder b;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the EXR files that Restage writes (one part, scan lines, ZIP), with nothing but zlib and NumPy: a second opinion on
-what is in them, not a general reader. After the "OpenEXR File Layout" document."""
+"""Reads the EXR files that Restage writes (one part, scan lines, ZIP), with only zlib and NumPy: a second opinion on
+their contents, not a general reader. After the "OpenEXR File Layout" document."""
 import struct
 import zlib
 

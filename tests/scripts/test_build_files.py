@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whoever lacks a library is told to run tools/setup, and what was not built does not stop an installation."""
+"""A missing library's error names tools/setup, and parts that were not built do not stop an installation."""
 
 import pathlib
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bundled scenes are whole: every file they name is there and sound, and the generator still writes them."""
+"""The bundled scenes are complete: every file they name exists and is valid, and the generator still writes them."""
 
 import importlib
 import pathlib
@@ -39,7 +39,7 @@ def test_every_named_thing_exists(path):
         assert set(re.findall(use, whole)) == set(re.findall(definition, whole))
 
 
-def test_no_file_lies_about_unused():
+def test_no_file_is_unused():
     for folder in ("geometry", "textures"):
         text = "".join(p.read_text() for p in (SCENES / "demo").glob("*.pbrt"))
         for path in (SCENES / "demo" / folder).iterdir():
@@ -69,8 +69,8 @@ NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 
 
 def assert_same(folder, anew):
-    """Equal but for rounding: a unit of the sixth digit in texts, and of the last bit of a float (2^-23) in meshes,
-    where 1e-9 stands for what doubles lose (1e-16 a step, times the metres, over the shortest edges of 1e-4 m)."""
+    """Equal up to rounding: a unit of the sixth digit in texts, and of the last bit of a float (2^-23) in meshes,
+    where 1e-9 allows for the loss of doubles (1e-16 a step, times the metres, over the shortest edges of 1e-4 m)."""
     for name in ("demo.pbrt", "objects.pbrt", "materials.pbrt"):
         ours, theirs = (p.read_text() for p in (folder / name, anew / name))
         assert NUMBER.sub("#", ours) == NUMBER.sub("#", theirs), name
@@ -89,8 +89,8 @@ def test_generator_writes_the_same_scene(tmp_path):
 
 
 @pytest.mark.parametrize("seed", range(2))
-def test_no_shape_hangs_on_the_last_bits_of_a_library(seed, tmp_path, monkeypatch):
-    """Sines, powers and lengths wrong by up to 4 units in the last place, as among processors and libraries."""
+def test_no_shape_depends_on_the_last_bits_of_a_library(seed, tmp_path, monkeypatch):
+    """Sines, powers and lengths wrong by up to 4 ulp, as between processors and libraries."""
     monkeypatch.syspath_prepend(ROOT / "tools")
     generator = importlib.import_module("make_demo_scene")
     random = np.random.default_rng(seed)

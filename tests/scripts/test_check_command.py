@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`restage check`: every plugin of ours passes, and plugins that are wrong in one way each are caught, with the right words."""
+"""`restage check`: every shipped plugin passes, and plugins with one fault each are caught, with the right message."""
 import json
 import os
 import pathlib
@@ -14,7 +14,7 @@ RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/resta
 BROKEN = RESTAGE.parent.parent / "tests/plugins_broken"
 
 
-ADDED = {  # faults that are a line more
+ADDED = {  # faults that are an extra line
     "prefix": "float helper(float x) { return x; }",
     "binding": "layout(binding = 0) uniform sampler2D broken_picture;",
     "library": '#include "lib/microfacet.glsl"',
@@ -58,7 +58,7 @@ def broken(folder, library="sound", fault=None, **manifest):
 
 
 def failures(folder, *args):
-    """Exit code, and of each failed step what was said."""
+    """Exit code, and the text of each failed step."""
     done = check(folder, "--quick", "--json", "-", *args)
     assert done.stdout, done.stderr
     steps = json.loads(done.stdout)[0]["steps"]
@@ -77,19 +77,19 @@ def test_there_are_plugins():
 
 
 def test_the_rough_metal_without_a_fault_passes(tmp_path):
-    """The control of the tests below: what they find is the fault, not the rest."""
+    """The control of the tests below: they find the fault, nothing else."""
     code, failed = failures(broken(tmp_path / "plugin"))
     assert failed == {} and code == 0
 
 
 @pytest.mark.parametrize("fault, step, says", [
-    ("pdf_factor", "chi-square", ["samples do not fall as pdf says", "Jacobian"]),
+    ("pdf_factor", "chi-square", ["samples do not follow pdf", "Jacobian"]),
     ("pdf_factor", "integral", ["pdf integrates to"]),
     ("missing_cosine", "reciprocity", ["f(wo, wi) is", "lacks the factor |cos wi|"]),
     ("grazing_gain", "energy", ["times the light that arrives leaves", "shadowing"]),
     ("nan_at_alpha_0", "sound", ["nan", "roughness=0"]),
     ("non_reciprocal", "reciprocity", ["f(wo, wi) is", "NONRECIPROCAL"]),
-    ("back_side", "chi-square", ["samples do not fall as pdf says", "back side"]),
+    ("back_side", "chi-square", ["samples do not follow pdf", "back side"]),
     ("prefix", "names", ["broken.glsl:1: \"helper\" does not start with the plugin's prefix \"broken_\""]),
     ("binding", "glsl", ["broken.glsl:1: \"layout\": a plugin's GLSL has no bindings"]),
     ("library", "glsl", ["broken.glsl:1: cannot include \"lib/microfacet.glsl\": write <restage/v1/microfacet.glsl>"]),
@@ -123,7 +123,7 @@ def test_code_for_any_number_of_wavelengths_passes(tmp_path):
 
 @pytest.mark.parametrize("library, step, says", [
     ("small_size", "load", ["16 bytes", "rebuild it with this SDK"]),
-    ("count_lies", "load", ["crashed: SIGSEGV", "lies about its size, its count or its pointers"]),
+    ("count_lies", "load", ["crashed: SIGSEGV", "misstates its size, its count or its pointers"]),
     ("crashes", "load", ["crashed: SIGSEGV", "init()"]),
     ("exits", "load", ["ended the program (exit code 3)", "never calls exit()"]),
     ("leaks", "reload", ["memory grew by", "shutdown() does not free"]),
@@ -137,7 +137,7 @@ def test_a_fault_in_native_code_is_found(tmp_path, library, step, says):
 
 @pytest.mark.parametrize("taken", [False, True])
 def test_a_parameter_that_a_pbrt_file_cannot_give_back_is_found(tmp_path, taken):
-    """One whose id is the word that names the plugin there; any other is the control."""
+    """A parameter whose id is the keyword that names the plugin in pbrt files; any other is the control."""
     (tmp_path / "grey.glsl").write_text("""#include <restage/v1/sampling.glsl>
 Spectrum grey_eval(grey_Params m, vec3 wo, vec3 wi) { return Spectrum(same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI * m.%s : 0.0); }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? abs(wi.z) * INV_PI : 0.0; }
@@ -165,7 +165,7 @@ def test_an_endless_loop_in_native_code_is_ended(tmp_path):
     assert code == 1 and "no answer from the plugin within 1 s" in failed["load"]
 
 
-def test_what_a_plugin_prints_is_not_taken_for_a_report(tmp_path):
+def test_a_plugins_output_is_not_mistaken_for_a_report(tmp_path):
     code, failed = failures(broken(tmp_path / "plugin", "talks"), "--only", "reload")
     assert code == 0 and failed == {}
 
@@ -182,7 +182,7 @@ def test_a_crash_of_one_does_not_keep_others_from_being_checked(tmp_path):
 
 
 def test_a_declared_exception_has_its_limit(tmp_path):
-    """The gain without shadowing: let through where the manifest says so, with its reason; not beyond."""
+    """The gain without shadowing: accepted up to the manifest's limit, with its reason; not beyond."""
     for limit, passes in ((1e9, True), (1.01, False)):
         folder = broken(tmp_path / "plugin", fault="grazing_gain",
                         exceptions=[{"step": "energy", "limit": limit, "why": "as in a paper"}])
@@ -191,7 +191,7 @@ def test_a_declared_exception_has_its_limit(tmp_path):
         assert ("as in a paper" in done.stdout) == passes
 
 
-def test_a_failure_names_what_replays_it(tmp_path):
+def test_a_failure_names_the_command_that_replays_it(tmp_path):
     folder = broken(tmp_path / "plugin", fault="non_reciprocal")
     texts = []
     for seed in (7, 7, 8):
@@ -201,10 +201,10 @@ def test_a_failure_names_what_replays_it(tmp_path):
     assert texts[0] == texts[1] != texts[2]
 
 
-def test_what_is_not_there_is_said(tmp_path):
+def test_missing_things_are_reported(tmp_path):
     (tmp_path / "empty").mkdir()
     for name, says in (("nosuchplugin", "no plugin has this id"), (tmp_path / "empty", "no plugin.json in this folder")):
         done = check(name, "--quick")
         assert done.returncode == 1 and says in done.stderr
     done = check("mirror", "--quick", "--only", "nosuchstep")
-    assert done.returncode == 2 and '--only: "nosuchstep" is none of' in done.stderr
+    assert done.returncode == 2 and '--only: "nosuchstep" is not one of' in done.stderr

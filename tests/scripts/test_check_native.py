@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`restage check` runs what a plugin promises in native code: load, save, run, draw and read, with anything."""
+"""`restage check` runs a plugin's native code: load, save, run, draw and read, with arbitrary input."""
 import json
 import os
 import pathlib
@@ -67,7 +67,7 @@ def test_a_sound_inspector_and_reader_pass(step, tmp_path):
     ("importer_crashes", "read", ["crashed: SIGSEGV", "load() of its two.tri", "a bug in load()"]),
     ("importer_silent", "read", ["returns 0, and error() was not called"]),
     ("importer_leaks", "read", ["files were left open"]),
-    ("importer_varies", "read", ["two.tri twice gives two different scenes"]),
+    ("importer_varies", "read", ["two.tri twice gives different scenes"]),
     ("importer_sure", "probe", ["answers 1000, which is not in 0..100"]),
     ("importer_denies", "probe", ["probe() of its own two.tri answers 0"]),
     ("importer_cut", "cut", ["crashed: SIGSEGV", "bytes of its two.tri", "a bug in load()"]),
@@ -89,7 +89,7 @@ def test_a_sound_inspector_and_reader_pass(step, tmp_path):
     ("denoiser_darkens", "denoise", ["% in the mean"]),
     ("denoiser_varies", "robust", ["twice"]),
     ("denoiser_deaf", "robust", ["of progress(), run() returns 1"]),
-    ("exporter_crashes", "write", ["crashed: SIGSEGV", "save() of a scene with something of everything", "a bug in save()"]),
+    ("exporter_crashes", "write", ["crashed: SIGSEGV", "save() of a scene with every feature", "a bug in save()"]),
     ("exporter_varies", "write", ["saving twice gives different bytes, first in scene.names"]),
     ("denoiser_size", "sizes", ["1x1 pixels with guides: refused: only 96x64"]),
     ("denoiser_nan", "robust", ["nan in some pixels"]),
@@ -97,10 +97,10 @@ def test_a_sound_inspector_and_reader_pass(step, tmp_path):
     ("denoiser_overruns", "denoise", ["writes behind the end of its output"]),
     ("inspector_range", "inspector", ["set() of \"share\": 2.000000 is out of its range"]),
     ("inspector_crashes", "inspector", ["crashed: SIGSEGV", "draw() number", "a bug in draw()"]),
-    ("inspector_group", "inspector", ["a group that is open"]),
+    ("inspector_group", "inspector", ["an open group"]),
     ("table_crashes", "tables", ["crashed: SIGSEGV", "read() of noise", "a bug in read()"]),
 ])
-def test_what_breaks_a_promise_is_found(case, step, says, tmp_path):
+def test_a_broken_promise_is_found(case, step, says, tmp_path):
     code, steps = steps_of(folder_of(tmp_path / "plugin", case), "--only", step)
     assert code == 1 and steps[step]["verdict"] == "fail", steps
     for words in says:
@@ -130,8 +130,8 @@ def test_without_a_vulkan_driver_it_is_not_the_plugin_that_fails(tmp_path):
     assert "this machine cannot run it" in done.stderr
 
 
-def test_a_denoiser_of_somebody_else_is_used_when_it_is_named_and_the_file_says_so(tmp_path):
-    """Before: whichever came first on the path stood in for the program's own, and the file said "oidn high"."""
+def test_a_third_party_denoiser_is_used_if_named_and_the_file_says_so(tmp_path):
+    """Regression: the first one on the path replaced the program's own, and the file said "oidn high"."""
     folder_of(tmp_path / "plugin", "denoiser_sound")
     cornell = ROOT / "scenes/cornell/cornell.pbrt"
     for name, extra, label in (("own", ["--denoise"], "oidn high"), ("type", ["--denoiser", "copy"], "copy high"),

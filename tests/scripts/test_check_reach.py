@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`restage check` finds light that sampling never reaches, directions that are none and undeclared anisotropy, and does not
-fail a stochastic material that is right."""
+"""`restage check` finds light that sampling never reaches, invalid directions and undeclared anisotropy, and does not
+fail a correct stochastic material."""
 import json
 import os
 import pathlib
@@ -11,7 +11,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESTAGE = pathlib.Path(os.environ.get("RESTAGE_BIN", str(ROOT / "build/bin/restage"))).resolve()
 
-# Lambert's reflection; $NAME stands for what a case changes.
+# Lambert's reflection; $NAME is replaced by each case.
 LAMBERT = """#include <restage/v1/sampling.glsl>
 Spectrum grey_eval(grey_Params m, vec3 wo, vec3 wi) { return $EVAL; }
 float grey_pdf(grey_Params m, vec3 wo, vec3 wi) { return same_hemisphere(wo, wi) ? cosine_hemisphere_pdf(abs_cos(wi)) : 0.0; }
@@ -29,8 +29,8 @@ Spectrum grey_albedo(grey_Params m, vec3 wo) { return Spectrum(0.5 * m.share); }
 """
 PLAIN = "Spectrum(same_hemisphere(wo, wi) ? 0.5 * m.share * INV_PI * abs_cos(wi) : 0.0)"
 
-# A rough pane whose lobe transmits and whose share varies from look to look; the sharp lobe is what a coarse sum of pdf
-# gets wrong. $PDF multiplies the density that it states.
+# A rough pane whose lobe transmits and whose share varies between evaluations; a coarse sum of pdf gets the sharp lobe
+# wrong. $PDF multiplies the density that it states.
 STOCHASTIC = """#include <restage/v1/sampling.glsl>
 #include <restage/v1/microfacet.glsl>
 #include <restage/v1/rng.glsl>
@@ -87,7 +87,7 @@ def check(folder, *args):
     ({"EVAL": "Spectrum(0.5 * m.share * INV_PI * abs_cos(wi))"}, "reach", ["transmitted 0.0000", "BSDF and light sampling"]),
     ({"EVAL": PLAIN.replace("0.5 *", "0.5 * (1.0 + 0.8 * wi.x * wo.x) *")}, "isotropy", ["TANGENT is not declared"]),
     ({"EXTRA": "if (u.x > 0.999) return BsdfSample(vec3(0.0 / (u.x - u.x)), Spectrum(1), pdf, BSDF_REFLECT, 1.0);"}, "chi-square",
-     ["have a direction that is none"]),
+     ["have an invalid direction"]),
 ])
 def test_what_sampling_does_not_reach_is_found(fault, step, says, tmp_path):
     fault = {"EVAL": PLAIN, "EXTRA": "", **(fault or {})}
@@ -111,4 +111,4 @@ def test_a_sharp_lobe_of_a_stochastic_material_is_integrated_with_its_error(fact
         figures = {f["name"]: f["value"] for f in step["figures"]}
         assert 0.6 < figures["largest integral of pdf"] < 0.7  # the largest of many estimates
     else:
-        assert "it is no density" in step["text"]
+        assert "not a density" in step["text"]

@@ -33,7 +33,7 @@ def test_help_and_version_go_to_stdout_and_succeed():
 
 @pytest.mark.parametrize("args", [[], ["render"], ["render", "--nonsense"], ["nosuchcommand"],
                                   ["render", "a", "-o", "b.png", "--spp", "0"], ["render", "a", "-o", "b.png", "--spp", "4", "--time", "3"]])
-def test_what_is_not_understood_is_a_usage_error(args):
+def test_an_unknown_command_line_is_a_usage_error(args):
     done = restage(*args)
     assert done.returncode == 2 and done.stderr and not done.stdout
 
@@ -49,7 +49,7 @@ def test_what_is_not_understood_is_a_usage_error(args):
     (["convert", "-", "x.pbrt"], "-: a scene on stdin is read by `restage render` only"),
     (["convert", CORNELL, "x.unknownformat"], "unknownformat"),
     (["convert", CORNELL, "x.pbrt", "--set", "version=v9"], "v9"),
-    (["convert", CORNELL, "x"], "no extension that says the format"),
+    (["convert", CORNELL, "x"], "no extension to tell the format by"),
     (["convert", CORNELL, "x.png"], "a scene becomes a picture with `restage render`"),
     (["convert", CORNELL, "x.pbrt", "--exposure", 1], "--exposure is for pictures"),
     (["render", CORNELL, "-o", "x.png", "--format", "gltf"], "--format is for a scene on stdin"),
@@ -57,12 +57,12 @@ def test_what_is_not_understood_is_a_usage_error(args):
     (["render", CORNELL, "-o", "x.png", "--statistics", "no/x.json"], "--statistics: no/x.json: there is no folder no"),
     (["render", CORNELL, "-o", "gif:-"], "-o gif:-: stdout takes exr:-, png:-"),
     (["edit", "nowhere.pbrt"], "nowhere.pbrt: cannot be opened"),
-    (["compare", CORNELL, "x.png"], "one is a scene, the other is none"),
-    (["compare", CORNELL, CORNELL, "--diff", "d.png"], "of two scenes only what differs is said"),
+    (["compare", CORNELL, "x.png"], "one is a scene, the other is not"),
+    (["compare", CORNELL, CORNELL, "--diff", "d.png"], "of two scenes only the differences are listed"),
     (["check", "diffuse", "--only", "manifest", "--json", "no/x.json"], "--json: no/x.json: there is no folder no"),
     (["check", "diffuse", "--only", "manifest", "--json", "x", "--junit", "x"], "both would be written to x"),
 ])
-def test_what_cannot_be_done_says_why(args, says, tmp_path):
+def test_a_failure_says_why(args, says, tmp_path):
     done = restage(*args, cwd=tmp_path)
     assert done.returncode == 1 and says in done.stderr and not done.stdout
     assert not list(tmp_path.iterdir()), "a failed command leaves nothing behind"
@@ -109,14 +109,14 @@ def test_the_error_of_luminance_is_less_than_the_sum_of_its_channels_errors(tmp_
     layers = exr_file.read(out)
     r, g, b, y = (layers[f"stderr.{c}"].astype(float) for c in "RGBY")
     luminance = 0.2126 * layers["R"] + 0.7152 * layers["G"] + 0.0722 * layers["B"]
-    sum_of_errors = 0.2126 * r + 0.7152 * g + 0.0722 * b # what it would be if all channels were wrong together
+    sum_of_errors = 0.2126 * r + 0.7152 * g + 0.0722 * b # what it would be with fully correlated channels
     rounding = 1e-6 + 1e-4 * luminance # sums of squares are floats
     assert y.min() >= 0 and y.max() > 0
     assert np.all(y <= sum_of_errors + rounding)
-    # Of three independent lights, each pixel chooses one a sample: the channels are wrong each in its own way.
+    # Each pixel chooses one of three independent lights per sample: the channels' errors differ.
     noisy = sum_of_errors > np.median(sum_of_errors)
     assert np.median(y[noisy] / sum_of_errors[noisy]) < 0.95
-    # Not less than what is left if the other channels happened to take away from green's error all they can.
+    # At least what remains if the other channels cancel as much of green's error as they can.
     assert np.all(y >= 0.7152 * g - 0.2126 * r - 0.0722 * b - rounding)
 
 
@@ -130,13 +130,13 @@ def test_targets_of_time_and_error(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
-def test_one_signal_writes_what_is_there(tmp_path, name):
+def test_one_signal_writes_the_picture_so_far(tmp_path, name):
     """Ctrl-C; a batch system's time limit, `timeout`; a terminal that is closed."""
     out = tmp_path / "long.exr"
     process = subprocess.Popen([RESTAGE, "-v", "render", str(CORNELL), "-o", str(out), "--size", "64x64", "--spp", "10000000"],
                                stderr=subprocess.PIPE, text=True)
     log = ""
-    while "tracer:" not in log:  # the renderer is there: what follows can be stopped
+    while "tracer:" not in log:  # the renderer exists: from here on it can be stopped
         line = process.stderr.readline()
         assert line, log
         log += line
@@ -148,18 +148,18 @@ def test_one_signal_writes_what_is_there(tmp_path, name):
 
 
 def test_a_lost_device_is_opened_again_once(tmp_path):
-    """RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES: the driver stops at so many submissions, so often."""
+    """RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES: the driver stops after AFTER submissions, TIMES times."""
     arguments = ["render", CORNELL, "--size", "48x48", "--spp", 8, "--tracer", "embree", "-o"]
     plain = restage(*arguments, tmp_path / "plain.exr")
     assert plain.returncode == 0 and "driver stopped" not in plain.stderr
     once = restage(*arguments, tmp_path / "once.exr", env={**os.environ, "RESTAGE_TEST_DEVICE_LOST": "10,1"})
     assert once.returncode == 0, once.stderr
-    assert once.stderr.count("the graphics driver stopped (VK_ERROR_DEVICE_LOST); it is started again") == 1
+    assert once.stderr.count("the graphics driver stopped (VK_ERROR_DEVICE_LOST); it is restarted") == 1
     same = restage("compare", tmp_path / "plain.exr", tmp_path / "once.exr")
     assert same.returncode == 0, same.stdout + same.stderr
     again = restage(*arguments, tmp_path / "again.exr", env={**os.environ, "RESTAGE_TEST_DEVICE_LOST": "10,9"})
     assert again.returncode == 1 and "VK_ERROR_DEVICE_LOST" in again.stderr and not (tmp_path / "again.exr").exists()
-    assert again.stderr.count("it is started again") == 1
+    assert again.stderr.count("it is restarted") == 1
 
 
 def test_info_as_json_counts_and_reports():
@@ -169,7 +169,7 @@ def test_info_as_json_counts_and_reports():
     assert info["objects"] >= 6 and info["lights"]["area"] >= 1 and info["report_counts"]["dropped"] == 0
 
 
-def test_plugins_lists_all_of_ours_and_a_stranger_with_its_reason(tmp_path):
+def test_plugins_lists_the_shipped_ones_and_a_refused_one_with_its_reason(tmp_path):
     bad = tmp_path / "material-bad"
     bad.mkdir()
     (bad / "plugin.json").write_text("{ this is no JSON")
@@ -239,7 +239,7 @@ def test_a_region_is_part_of_the_picture_and_equal_renders_are_equal_files(tmp_p
 def test_one_sample_has_no_error_and_unknown_layers_and_denoisers_are_refused(tmp_path):
     common = ["render", CORNELL, "-o", tmp_path / "one.exr", "--size", "16x16", "--spp", 1]
     done = restage(*common)
-    assert done.returncode == 0 and "error not known with one sample" in done.stderr and "e+3" not in done.stderr
+    assert done.returncode == 0 and "error unknown with one sample" in done.stderr and "e+3" not in done.stderr
     for extra, says in ((["--aov", "foo"], "there are stderr, albedo, normal, depth and id"),
                         (["--denoiser", "nosuch"], 'there is no denoiser "nosuch"; there are')):
         done = restage(*common, *extra)
@@ -257,7 +257,7 @@ def test_a_picture_becomes_another_format_and_compare_has_a_verdict(tmp_path):
     assert restage("convert", tmp_path / "a.exr", tmp_path / "bright.exr", "--exposure", 2).returncode == 0
     brighter = json.loads(restage("compare", tmp_path / "bright.exr", tmp_path / "a.exr", "--json").stdout)
     assert brighter["luminance_a"] == pytest.approx(4 * brighter["luminance_b"], rel=1e-5)
-    # Another picture, with both errors known: the z-test is the exit code; a share of blocks may be asked for instead.
+    # Another picture, with both errors known: the z-test is the exit code; a share of blocks may replace it.
     assert restage("render", CORNELL, "-o", tmp_path / "dark.exr", "--size", "32x32", "--spp", 4, "--max-depth", 1).returncode == 0
     done = restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--json")
     assert done.returncode == 1 and "the z-test fails" in done.stderr and not json.loads(done.stdout)["passes"]
@@ -278,7 +278,7 @@ def test_set_changes_the_scene_that_is_rendered(tmp_path):
     assert done.returncode == 1 and '--set: "White.gloss": material "White" has type, reflectance' in done.stderr
 
 
-def test_a_render_goes_on_and_parts_are_merged(tmp_path):
+def test_a_render_is_resumed_and_parts_are_merged(tmp_path):
     common = ["render", CORNELL, "--size", "32x24", "--seed", 5]
     for name, extra in (("whole", ["--spp", 6]), ("first", ["--spp", 2]), ("rest", ["--spp", 4, "--first-sample", 2])):
         done = restage(*common, "-o", tmp_path / f"{name}.exr", *extra)
@@ -300,7 +300,7 @@ def test_a_render_goes_on_and_parts_are_merged(tmp_path):
 
 
 def test_scenes_from_stdin_and_pictures_to_stdout(tmp_path):
-    """Also with paths of the scene's own, which are relative to the current folder."""
+    """Also with the scene's own paths, which are relative to the current folder."""
     (tmp_path / "part.pbrt").write_text('Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]\nShape "sphere"\n')
     scene = ('LookAt 0 0 5 0 0 0 0 1 0\nCamera "perspective"\nFilm "rgb" "integer xresolution" 16 "integer yresolution" 12\n'
              'WorldBegin\nLightSource "infinite"\nInclude "part.pbrt"\n')
@@ -327,7 +327,7 @@ def test_frames_are_one_scene_file_each(tmp_path):
     assert done.returncode == 0, done.stderr
     for frame, grey in (("08", 0.2), ("09", 0.4), ("10", 0.6)):
         assert exr_file.read(tmp_path / f"out-{frame}.exr")["R"][0, 0] == pytest.approx(grey, rel=1e-3)
-    for frames, output, says in (("8-", "o-#.exr", "frames are numbers and ranges"), ("8-10", "o.exr", "written over by each frame"),
+    for frames, output, says in (("8-", "o-#.exr", "frames are numbers and ranges"), ("8-10", "o.exr", "overwritten by each frame"),
                                  ("10-8", "o-#.exr", "frames are numbers and ranges")):
         done = restage("render", "shot.###.pbrt", "--frames", frames, "-o", output, cwd=tmp_path)
         assert done.returncode == 1 and says in done.stderr
@@ -349,11 +349,11 @@ def test_a_scene_without_light_says_so_and_can_be_lit(tmp_path):
     (tmp_path / "dark.pbrt").write_text(DARK)
     out = tmp_path / "dark.pfm"
     done = restage("render", tmp_path / "dark.pbrt", "-o", out, "--spp", 1)
-    assert done.returncode == 0 and "nothing shines in this scene" in done.stderr and "--studio" in done.stderr
+    assert done.returncode == 0 and "nothing emits light in this scene" in done.stderr and "--studio" in done.stderr
     black = np.frombuffer(out.read_bytes()[-32 * 16 * 12:], "<f4")
     assert black.max() == 0
     done = restage("render", tmp_path / "dark.pbrt", "-o", out, "--spp", 1, "--studio")
-    assert done.returncode == 0 and "nothing shines" not in done.stderr
+    assert done.returncode == 0 and "nothing emits" not in done.stderr
     assert np.frombuffer(out.read_bytes()[-32 * 16 * 12:], "<f4").reshape(16, 32, 3)[8, 16].mean() > 0.1
     assert "--studio" in restage("info", tmp_path / "dark.pbrt").stdout
 
@@ -378,16 +378,16 @@ def test_a_camera_is_chosen_by_name_or_number(tmp_path):
     (["more.pbrt"], '"more.pbrt" is one argument too many'),
     (["--size", ""], "--size: the value is empty"), (["--camera", ""], "--camera: the value is empty"),
     (["--statistics", ""], "--statistics: the value is empty"), (["--frames", ""], "--frames: the value is empty"),
-    (["--error", "nan"], "nan is not a finite number"), (["--exposure", "inf"], "inf is no number from -64 to 64"),
+    (["--error", "nan"], "nan is not a finite number"), (["--exposure", "inf"], "inf is out of range: it must be from -64 to 64"),
     (["--clamp-direct", "nan"], "nan is not a finite number"),
-    (["--time", 0], "--time: 0 is no number above 0"), (["--clamp-direct", -1], "-1 is no number of 0 or more"),
-    (["--spp", -1], "--spp: -1 is no number from 1 to 16777216"), (["--seed", -1], '--seed: "-1" is no whole number from 0 to 4294967295'),
-    (["--threads", 100000], "--threads: 100000 is no number from 0 to 1024"), (["--tracer", "foo"], '--tracer: "foo" is none of embree,vulkan'),
+    (["--time", 0], "--time: 0 is out of range: it must be above 0"), (["--clamp-direct", -1], "-1 is out of range: it must be 0 or more"),
+    (["--spp", -1], "--spp: -1 is out of range: it must be from 1 to 16777216"), (["--seed", -1], '--seed: "-1" is not a whole number from 0 to 4294967295'),
+    (["--threads", 100000], "--threads: 100000 is out of range: it must be from 0 to 1024"), (["--tracer", "foo"], '--tracer: "foo" is not one of embree,vulkan'),
     (["--set"], "--set takes a value"), (["--exposure"], "--exposure takes a value"), (["--size", "8x8", "--size", "9x9"], "--size is given more than once"),
-    (["--isolate-memory", "nan"], "nan is not a finite number"), (["--exposure", 65], "--exposure: 65 is no number from -64 to 64"),
-    (["--crop", 0, 1, 0], "--crop takes 4 values, and got 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is no number"),
+    (["--isolate-memory", "nan"], "nan is not a finite number"), (["--exposure", 65], "--exposure: 65 is out of range: it must be from -64 to 64"),
+    (["--crop", 0, 1, 0], "--crop takes 4 values, and got 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is not a number"),
 ])
-def test_wrong_values_of_options_are_sentences(extra, says, tmp_path):
+def test_wrong_values_of_options_are_explained(extra, says, tmp_path):
     done = restage("render", CORNELL, "-o", tmp_path / "x.png", *extra)
     assert done.returncode == 2 and says in done.stderr and "restage render --help" in done.stderr
     assert not list(tmp_path.iterdir())
@@ -399,21 +399,21 @@ def test_a_file_that_would_be_written_twice_is_refused(tmp_path):
         assert done.returncode == 1 and "x.png would be written twice" in done.stderr and not list(tmp_path.iterdir())
 
 
-def test_what_cannot_be_resumed_is_told_before_rendering(tmp_path):
+def test_an_impossible_resume_is_reported_before_rendering(tmp_path):
     common = ["--spp", 1, "--size", "16x12"]
     assert restage("render", CORNELL, "-o", "a.exr", *common, cwd=tmp_path).returncode == 0
     for scene, extra, says in ((CORNELL, ["--size", "20x12"], "has 16x12 pixels, not 20x12; say --size 16x12"),
                                (CORNELL, ["--region", 0, 0, 8, 12], "has 16x12 pixels, not 8x12; say the --size and the --crop or --region"),
                                (CORNELL, ["--size", "20x12", "--crop", 0, 0.5, 0, 1], "has 16x12 pixels, not 10x12; say the --size and the"),
-                               (CORNELL, ["--set", "White.reflectance=0.1"], 'is of another render: its changes is "", not "White.reflectance=0.1"'),
+                               (CORNELL, ["--set", "White.reflectance=0.1"], 'is from another render: its changes is "", not "White.reflectance=0.1"'),
                                (ROOT / "scenes/spheres/spheres.pbrt", [], 'its scene is "cornell.pbrt", not "spheres.pbrt"')):
         size = [] if "--size" in extra else ["--size", "16x12"]
         done = restage("render", scene, "-o", "r.exr", "--resume", "a.exr", "--spp", "16777216", *size, *extra, cwd=tmp_path)
         assert done.returncode == 1 and says in done.stderr and not (tmp_path / "r.exr").exists()
 
 
-def test_nothing_is_written_over_what_is_read_or_is_no_file(tmp_path):
-    """Inputs of the same command, pipes, devices; and what a link leads to is written, not put in the link's place."""
+def test_inputs_and_non_files_are_never_overwritten(tmp_path):
+    """Inputs of the same command, pipes, devices; a link's target is written, the link is not replaced."""
     for name, seed in (("a", 1), ("b", 2)):
         assert restage("render", CORNELL, "-o", tmp_path / f"{name}.exr", "--size", "16x12", "--spp", 2, "--seed", seed).returncode == 0
     assert restage("convert", "a.exr", "a.PNG", cwd=tmp_path).returncode == 0 # as cameras name them
@@ -431,20 +431,20 @@ def test_nothing_is_written_over_what_is_read_or_is_no_file(tmp_path):
     for args, says in (
             (["compare", "a.png", "b.exr", "--diff", "./a.png"], "would be written over a picture that is compared"),
             (["compare", "a.exr", "b.exr", "--diff", "d.png", "--z-map", "d.png"], "d.png would be written twice"),
-            (["compare", "a.exr", "--reference-halves", "b.exr", "./b.exr"], "b.exr twice: the noise would be none"),
+            (["compare", "a.exr", "--reference-halves", "b.exr", "./b.exr"], "b.exr twice: there would be no noise"),
             (["compare", "a.exr", "b.exr", "--diff", "d.jpg"], "end its name with .png"),
             (["compare", "a.png", "b.exr", "--diff", "d.png", "--z-map", "z.png"], "--z-map: no z-test"),
-            (["convert", "a.exr", "./a.exr"], "is the file that is read"),
+            (["convert", "a.exr", "./a.exr"], "is the input file"),
             (["convert", "a.exr", "x.png", "--strict"], "are for scenes"),
-            (["convert", "a.exr", "fifo.png"], "no file that can be replaced"),
-            (["convert", "a.exr", "null.png"], "no file that can be replaced"),
-            (["merge", "a.exr", "b.exr", "-o", "fifo.png"], "no file that can be replaced"),
-            (["check", "diffuse", "--only", "sizes"], "no plugin that was checked is of a kind that takes this step")):
+            (["convert", "a.exr", "fifo.png"], "file that can be replaced"),
+            (["convert", "a.exr", "null.png"], "file that can be replaced"),
+            (["merge", "a.exr", "b.exr", "-o", "fifo.png"], "file that can be replaced"),
+            (["check", "diffuse", "--only", "sizes"], "this step applies to none of the plugins that were checked")):
         done = restage(*args, cwd=tmp_path)
         assert done.returncode == 1 and says in done.stderr, (args, done.stderr)
     assert files() == before
     done = restage("convert", "a.exr", "link.png", cwd=tmp_path)
-    assert done.returncode == 0 and "the layers albedo, depth, id, normal, stderr of a.exr are not in it" in done.stderr
+    assert done.returncode == 0 and "lacks the layers albedo, depth, id, normal, stderr of a.exr" in done.stderr
     assert (tmp_path / "link.png").is_symlink() and (tmp_path / "elsewhere/x.png").read_bytes().startswith(b"\x89PNG")
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What ARCHITECTURE.md promises of "to add X, touch Y": a new layer of the film, tracer or kind of thing is named where
-it is said to be, and nowhere else."""
+"""What ARCHITECTURE.md promises of "to add X, touch Y": a new layer of the film, tracer or kind of thing is named in
+the documented places, and nowhere else."""
 import pathlib
 import re
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the process around us has set must not matter: a locale with decimal commas, and children that somebody starts at
-any moment. And what a shader compiler may assume: that there is no NaN, unless its bits are asked."""
+"""The host process's state must not matter: a locale with decimal commas, and child processes started at
+any moment. Nor what a shader compiler may assume: that there is no NaN, unless its bits are tested."""
 
 import pathlib
 import re
@@ -19,8 +19,8 @@ def found(pattern, paths):
     return hits
 
 
-def test_no_number_is_read_or_written_as_the_locale_says():
-    """from_chars, to_chars and fmt do not ask it. printf may say numbers without a fraction."""
+def test_no_number_is_read_or_written_by_the_locale():
+    """from_chars, to_chars and fmt ignore it. printf may print integers."""
     assert found(r"\b(?:strto(?:d|f|ld)|ato[f]|sto(?:d|f|ld))\s*\([^;]*;", NATIVE) == []
     assert found(r"\bsscanf\s*\([^;]*%l?[aefg][^;]*;", NATIVE) == []
     calls = [hit for hit in found(r"printf\s*\([^;]*;", NATIVE) if re.search(r"%[-+ #0-9*]*(?:\.[0-9*]+)?l?[aefgEFG]", hit)]
@@ -33,7 +33,7 @@ def test_descriptors_are_closed_in_children():
     assert [hit for hit in found(r"::open(?:at)?\s*\([^;]*O_[^;]*;", NATIVE) if "O_CLOEXEC" not in hit] == []
 
 
-def test_shaders_ask_the_bits_of_what_may_be_no_number():
+def test_shaders_test_the_bits_of_possible_nans():
     """Without SignedZeroInfNanPreserve, isnan(x) is false and !(x > 0.0) is x <= 0.0 (see shaders/restage/v1/numbers.glsl)."""
     assert found(r"\bis(?:nan|inf)\s*\(", SHADERS) == []
     assert found(r"!\((?:[^()&|]|\([^()]*\))*[<>]=?[^()&|]*\)", SHADERS) == []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""--isolate: scenes are read in a process of their own. What they hold is the same; what goes wrong there is a sentence."""
+"""--isolate: scenes are read in a process of their own. Their contents are the same; failures there become messages."""
 
 import json
 import os
@@ -35,7 +35,7 @@ def test_an_isolated_scene_is_the_same(tmp_path):
     assert same.returncode == 0, same.stdout
 
 
-def test_what_is_wrong_with_a_file_is_said_as_ever(tmp_path):
+def test_errors_in_a_file_are_reported_as_usual(tmp_path):
     broken = tmp_path / "broken.pbrt"
     broken.write_text('WorldBegin\nShape "sphere" "float radius" [ 1\n')
     plain, isolated = run("info", broken), run("--isolate", "info", broken)
@@ -51,7 +51,7 @@ def test_what_is_wrong_with_a_file_is_said_as_ever(tmp_path):
         ("importer_eats", ["--isolate-memory", "1.5"], "reading it ended with SIGSEGV"),
     ],
 )
-def test_an_importer_that_misbehaves_ends_itself_alone(tmp_path, case, limits, said):
+def test_a_misbehaving_importer_ends_only_itself(tmp_path, case, limits, said):
     folder = tmp_path / "plugins" / "test"
     folder.mkdir(parents=True)
     shutil.copy(RESTAGE.parents[1] / "tests" / "plugins_bad" / f"{case}.so", folder / "test.so")
@@ -62,13 +62,13 @@ def test_an_importer_that_misbehaves_ends_itself_alone(tmp_path, case, limits, s
     env = {"XDG_DATA_HOME": str(tmp_path / "data")}
     done = run("--plugin-path", tmp_path / "plugins", "--isolate", *limits, "info", scene, env=env)
     assert done.returncode == 1, done
-    assert said in done.stderr and "nothing of it was taken" in done.stderr
-    if case == "importer_crashes":  # and is known from now on
+    assert said in done.stderr and "nothing was imported" in done.stderr
+    if case == "importer_crashes":  # and is remembered from now on
         listed = run("--plugin-path", tmp_path / "plugins", "plugins", env=env).stdout
         assert f"it crashed (SIGABRT) while it read {scene}" in listed
 
 
-def test_pipes_and_deep_nesting_are_sentences(tmp_path):
+def test_pipes_and_deep_nesting_are_explained(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "deep.gltf").write_text('{"asset": {"version": "2.0"}, "extras": ' + "[" * 20000 + "]" * 20000 + "}")
     (tmp_path / "image.pbrt").write_text(
@@ -86,7 +86,7 @@ def test_pipes_and_deep_nesting_are_sentences(tmp_path):
 
 
 def test_pictures_are_decoded_by_the_child(tmp_path):
-    """An isolated scene has the pixels, and what a picture costs is the child's: a limit of memory ends it alone."""
+    """An isolated scene has the pixels, and the child pays for decoding: a memory limit ends only the child."""
     png = Path(__file__).resolve().parents[1] / "data" / "images" / "rgb8.png"
     (tmp_path / "a.pbrt").write_text(
         f'WorldBegin\nTexture "t" "spectrum" "imagemap" "string filename" "{png}"\n'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who may include whom: every #include of the engine, the program and the plugins is held to the link lists of CMake."""
+"""Include rules: every #include of the engine, the program and the plugins is checked against CMake's link lists."""
 import pathlib
 import re
 
@@ -19,7 +19,7 @@ def declared(module):
 
 
 def visible(module):
-    """What the module may include: itself, its dependencies and theirs."""
+    """The modules it may include: itself, its dependencies and theirs."""
     seen, todo = {module}, declared(module)
     while todo:
         name = todo.pop()

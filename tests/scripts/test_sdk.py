@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The SDK as a stranger meets it: Restage is installed, plugins are written by `restage new-plugin`, built outside of the
-tree against what was installed, checked and rendered. And what plugins that crash do to the program: little."""
+"""The SDK from a third party's view: Restage is installed, plugins are written by `restage new-plugin`, built outside of the
+tree against what was installed, checked and rendered. And a crashing plugin does the program little harm."""
 
 import json
 import os
@@ -61,7 +61,7 @@ def test_plugins_from_the_templates(installed, tmp_path):
         assert "velours" in done.stdout
         pictures[language] = picture(restage, plugin, folder / "scene.pbrt", home / "ball.png")
     assert pictures["json"] == pictures["c"] == pictures["cpp"]
-    # The material itself is seen, with its parameters, not a placeholder.
+    # The material itself is visible, with its parameters, not a placeholder.
     scene = tmp_path / "json" / "velours" / "scene.pbrt"
     info = json.loads(run(restage, "--plugin-path", tmp_path / "json", "info", scene, "--json").stdout)
     assert info["materials"]["velours"] == 1 and not info["materials_without_plugin"]
@@ -78,12 +78,12 @@ def test_new_plugin_refuses(installed, tmp_path):
 
     for name in ("Velvet", "9x", "a-b", "float", "x_", "a__b", "material"):
         assert "cannot be the name of a material" in said(name)
-    assert 'there is a material "diffuse" already' in said("diffuse")
+    assert 'the material "diffuse" exists already' in said("diffuse")
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").write_text("mine")
-    assert "is there already, and not empty" in said("velours", "--folder", "full")
+    assert "exists already and is not empty" in said("velours", "--folder", "full")
     assert (tmp_path / "full" / "file").read_text() == "mine"
-    assert "full/file: is there already, and no folder" in said("velours", "--folder", "full/file")
+    assert "full/file: exists already and is not a folder" in said("velours", "--folder", "full/file")
     assert "--label: quotes, backslashes" in said("velours", "--label", 'So "soft"')
     assert '"nonsense" is not in reverse-DNS form' in said("velours", "--id", "nonsense")
     assert 'there is an importer "pbrt" already' in said("pbrt", "--kind", "importer")
@@ -96,7 +96,7 @@ def test_new_plugin_refuses(installed, tmp_path):
 
 
 def test_the_tutorial(installed, tmp_path):
-    """docs/plugins.md, literally: what it says to type is typed, and what it says happens happens."""
+    """docs/plugins.md, literally: types what the page says, and checks that it happens."""
     restage = installed / "bin" / "restage"
     text = (SOURCE / "docs" / "plugins.md").read_text()
     text, _, _ = text.partition("\n## The other kinds\n")
@@ -133,7 +133,7 @@ def test_the_tutorial(installed, tmp_path):
     (plugin / "silk.dat").unlink()
     (plugin / "silk.dat").write_bytes(bytes(3))
     failed = run(restage, "check", plugin, "--quick", "--only", "params", ok=False)
-    assert failed.returncode == 1 and "silk.dat: is no list of floats" in failed.stdout
+    assert failed.returncode == 1 and "silk.dat: is not a list of floats" in failed.stdout
     # A texture.
     texture = tmp_path / "stripes"
     texture.mkdir()

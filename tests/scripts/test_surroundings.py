@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Folders that a user may lack: a temporary folder that forbids execution or is missing, an unwritable cache, no home. The
-work is done without, and what is lost is said in one line each. A file in a folder's place stops root as well."""
+program works without them, and reports each loss in one line. A file in a folder's place stops root as well."""
 
 import os
 import pathlib
@@ -48,7 +48,7 @@ def render(tmp_path, **options):
 def test_rendering_without_home_and_cache(tmp_path):
     nothing = {name: None for name in ("HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_RUNTIME_DIR")}
     done = render(tmp_path, env=nothing)
-    assert len(said(done, "compiled anew at each start")) == 1, done.stderr
+    assert len(said(done, "recompiled at each start")) == 1, done.stderr
 
 
 def test_rendering_with_a_cache_and_a_data_folder_that_cannot_be_made(tmp_path, blocked):
@@ -56,7 +56,7 @@ def test_rendering_with_a_cache_and_a_data_folder_that_cannot_be_made(tmp_path, 
     usual = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "restage" / "mesa"
     kept = os.environ.get("MESA_SHADER_CACHE_DIR", str(usual if usual.is_dir() else tmp_path))
     done = render(tmp_path, env={"XDG_CACHE_HOME": blocked, "XDG_DATA_HOME": blocked, "MESA_SHADER_CACHE_DIR": kept})
-    assert len(said(done, "compiled anew at each start")) == 1, done.stderr
+    assert len(said(done, "recompiled at each start")) == 1, done.stderr
     assert len(said(done, str(blocked))) == 1, done.stderr
 
 

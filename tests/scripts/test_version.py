@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The version stands in CMakeLists.txt alone; everything else asks for it."""
+"""The version is in CMakeLists.txt only; everything else reads it from there."""
 
 import json
 import os

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is chosen by its picture or its number: balls of materials, skies, the steps of drags; and where dialogs are.
+// Choices by picture or number: balls of materials, skies, the steps of drags; and where dialogs are.
 #include "headless.hpp"
 #include "render/renderer.hpp"
 
@@ -54,7 +54,7 @@ Look look_of(const render::FilmImage& image) {
 
 } // namespace
 
-TEST_CASE("balls show what a material is: a texture is not black, a metal neither white nor flat", "[ui]") {
+TEST_CASE("balls show the material: a texture is not black, a metal neither white nor flat", "[ui]") {
     Headless h("spheres/spheres.pbrt");
     render::RendererOptions options = h.editor().options().renderer;
     options.stand_ins = false;
@@ -82,7 +82,7 @@ TEST_CASE("balls show what a material is: a texture is not black, a metal neithe
     CHECK(silver.spread.y > 0.05); // the studio in it
 }
 
-TEST_CASE("a sky is chosen by its thumbnail, and no map of a surface is among them", "[ui]") {
+TEST_CASE("a sky is chosen by its thumbnail, and surface maps are not listed", "[ui]") {
     test::TemporaryFolder folder;
     write_pfm(folder.path() / "noon.pfm", 64, 32);
     write_pfm(folder.path() / "wall_bump.pfm", 64, 32);
@@ -91,7 +91,7 @@ TEST_CASE("a sky is chosen by its thumbnail, and no map of a surface is among th
     std::ofstream(folder.path() / "assets.json") << R"({"folders": ["."]})";
     Headless h("demo/demo.pbrt", 1, {1500, 1000}, folder.path());
     h.play("sky", [&](ImGuiTestContext* ctx) {
-        h.focus(ctx, "Log"); // the assets are known, whether their panel was seen or not
+        h.focus(ctx, "Log"); // the assets are known, whether their panel was shown or not
         h.editor().panel_state->assets.loaded = false;
         h.editor().panel_state->assets.entries.clear();
         h.focus(ctx, "Scene");
@@ -151,7 +151,7 @@ TEST_CASE("the steps of drags are set in the toolbar, used and remembered", "[ui
     CHECK((kept.snap_move == 0.3f && kept.snap_angle == 10));
 }
 
-TEST_CASE("the note at the picture's corner is of the picture that is shown", "[ui]") {
+TEST_CASE("the note at the picture's corner describes the shown picture", "[ui]") {
     view::Frame shown{.divider = 4, .denoised = true};
     shown.image.width = 160;
     shown.image.height = 90;

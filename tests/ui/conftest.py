@@ -26,7 +26,7 @@ def desk(tmp_path_factory):
 
 @pytest.fixture
 def launch(desk, binary, tmp_path):
-    """launch(*arguments) starts an editor with a folder of its own for what it remembers; it ends with the test."""
+    """launch(*arguments) starts an editor with its own settings folder; it ends with the test."""
     running = []
 
     def start(*arguments, config=None, **more):

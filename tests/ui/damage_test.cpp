@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damage: what is said to differ does, and what differs is said to.
+// Damage: reported differences are real, and real differences are reported.
 #include "editor/damage.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -21,7 +21,7 @@ class Frames {
         io.DisplaySize = {400, 300};
     }
     ~Frames() { ImGui::DestroyContext(); }
-    // What differs once this was drawn. Textures count as uploaded afterwards.
+    // The damage after drawing this. Textures count as uploaded afterwards.
     ImRect draw(const std::function<void()>& content) {
         ImGui::NewFrame();
         ImGui::SetNextWindowPos({10, 20});
@@ -54,7 +54,7 @@ bool nothing(const ImRect& rect) { return rect.Min.x >= rect.Max.x || rect.Min.y
 
 } // namespace
 
-TEST_CASE("damage: all of the first frame, nothing of one that is like the last") {
+TEST_CASE("damage: all of the first frame, nothing of an identical next one") {
     Frames frames;
     const ImRect all = frames.text("0");
     CHECK((all.Min.x == 0 && all.Min.y == 0 && all.Max.x == 400 && all.Max.y == 300));
@@ -74,7 +74,7 @@ TEST_CASE("damage: a text that changes, within its window") {
     CHECK(nothing(frames.text("1")));
 }
 
-TEST_CASE("damage: what appears or goes leaves its place to be drawn again") {
+TEST_CASE("damage: appearing and vanishing items damage their place") {
     Frames frames;
     frames.settle();
     const auto with_square = [&](float x) {

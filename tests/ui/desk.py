@@ -60,7 +60,7 @@ class Editor:
     def __init__(self, desk, binary, *arguments, config, probe, environment=None, size=(1280, 720), hint=False):
         self.desk, self.probe, self.size = desk, pathlib.Path(probe), size
         preferences = pathlib.Path(config) / "preferences.json"
-        if not hint and not preferences.exists():  # the hint of a first start lies over the picture
+        if not hint and not preferences.exists():  # the first-start hint covers the picture
             preferences.parent.mkdir(parents=True, exist_ok=True)
             preferences.write_text('{"hint_seen": true}')
         self.probe.unlink(missing_ok=True)
@@ -70,11 +70,11 @@ class Editor:
              *map(str, arguments)], env={**desk.environment, **(environment or {})}, stdout=self.log, stderr=self.log)
         self.wait(lambda s: True, "the editor to start", 60)
 
-    # --- what it says of itself ---
+    # --- the editor's own state ---
     def state(self):
         for _ in range(100):
             try:
-                return {"marks": {}, **json.loads(self.probe.read_text())}  # nothing is placed in the first frames
+                return {"marks": {}, **json.loads(self.probe.read_text())}  # marks are missing in the first frames
             except (FileNotFoundError, json.JSONDecodeError):
                 assert self.process.poll() is None, "the editor ended: " + self.output()
                 time.sleep(0.05)
@@ -104,7 +104,7 @@ class Editor:
         return state
 
     def settled(self, samples=4, seconds=90):
-        """Waits until a whole picture of the newest scene is there, with so many samples, and denoised."""
+        """Waits for a full picture of the newest scene, with this many samples, and denoised."""
         return self.wait(lambda s: not s["opening"] and s["view"]["state"] in (2, 3) and s["view"]["divider"] == 1
                          and s["view"]["samples"] >= samples and s["view"]["current"] and not s["view"]["compiling"]
                          and s["view"]["denoised_samples"] >= samples, "a whole picture", seconds)
@@ -115,7 +115,7 @@ class Editor:
         if isinstance(where, str):
             rectangle = None
             while rectangle != (now := self.wait(lambda s: where in s["marks"], f"'{where}' to be on screen", 10)["marks"][where]):
-                rectangle = now  # dialogs find their size in their first frames
+                rectangle = now  # dialogs settle their size in their first frames
                 time.sleep(0.15)
             x0, y0, x1, y1 = rectangle
             return int((x0 + x1) / 2), int((y0 + y1) / 2)
@@ -125,7 +125,7 @@ class Editor:
         return where
 
     def reveal(self, mark):
-        """Scrolls the panel at the right down until this mark is inside of the window."""
+        """Scrolls the panel at the right down until this mark is inside the window."""
         for _ in range(30):
             x, y = self.point(mark)
             if y < self.size[1] - 24:

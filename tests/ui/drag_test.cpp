@@ -11,7 +11,7 @@ namespace {
 
 struct Drag {
     const char* name;
-    const char* mark; // where it is taken up
+    const char* mark; // where the drag starts
     ImGuiKeyChord keys = 0;
     ImVec2 by{40, 25}; // [pixel]
     enum class End { release, escape, right_click } end = End::release;
@@ -38,7 +38,7 @@ void play(ImGuiTestContext* ctx, Headless& h, const Drag& drag) {
 
 } // namespace
 
-TEST_CASE("a drag keeps to the floor, copies, goes in steps, lifts and is cancelled, however it is taken up", "[ui]") {
+TEST_CASE("a drag keeps to the floor, copies, goes in steps, lifts and is cancelled, however it is started", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.select("Chair frame");
     const auto id = h.editor().selection.active();
@@ -54,7 +54,7 @@ TEST_CASE("a drag keeps to the floor, copies, goes in steps, lifts and is cancel
             const auto check = [&](const char* what, bool holds) {
                 IM_CHECK_SILENT_RETV(holds, (ctx->LogError("%s: %s", mark, what), void()));
             };
-            // A click is no drag.
+            // A click is not a drag.
             const ImVec4 r = h.find(ctx, mark);
             ctx->MouseMoveToPos({(r.x + r.z) / 2, (r.y + r.w) / 2});
             ctx->MouseClick();
@@ -101,7 +101,7 @@ TEST_CASE("a drag keeps to the floor, copies, goes in steps, lifts and is cancel
                     check("not cancelled", h.step() == 0 && moved(id) == glm::dvec3(0));
                     check("a cancelled copy stayed", h.scene().instances.live() == objects);
                     check("nothing is selected", h.editor().selection.contains(id));
-                    // What could be redone still can.
+                    // The redo history is kept.
                     check("the redo is gone", h.editor().session().history().size() == 1);
                 }
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights as things that are edited, the clipboard, the outliner's keys, what a let-go image goes onto, fonts, layout.
+// Editing lights, the clipboard, the outliner's keys, the target of a dropped image, fonts, layout.
 #include "headless.hpp"
 
 #include "editor/actions.hpp"
@@ -33,7 +33,7 @@ void run(Headless& h, ImGuiTestContext* ctx, const char* action) {
     ctx->Yield(3);
 }
 
-// For what a thread does first, however long that takes on a busy machine.
+// For work that a thread does first, no matter how long on a busy machine.
 void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (!there() && std::chrono::steady_clock::now() < limit) {
@@ -42,7 +42,7 @@ void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
     }
 }
 
-// As OpenType has it, with a character map and nothing else: one segment (format 4), or one group (format 12).
+// An OpenType file with only a character map: one segment (format 4), or one group (format 12).
 std::string font_of(char32_t first, char32_t last, bool groups) {
     std::string out;
     const auto put = [&](std::uint32_t n, int bytes) {
@@ -187,7 +187,7 @@ TEST_CASE("the outliner's rows are gone through with arrows, and fit beside thei
     });
 }
 
-TEST_CASE("menus say what would be undone, the first group is Group, keys have their signs", "[ui]") {
+TEST_CASE("menus name the step to undo, the first group is Group, keys show their signs", "[ui]") {
     Headless h("cornell/cornell.pbrt");
     h.play("labels", [&](ImGuiTestContext* ctx) {
         const editor::Action& undo = *editor::find_action("edit.undo");
@@ -220,7 +220,7 @@ TEST_CASE("menus say what would be undone, the first group is Group, keys have t
     });
 }
 
-TEST_CASE("an image that is let go asks whether one object or all that share the material are meant", "[ui]") {
+TEST_CASE("a dropped image asks whether to change one object or all that share the material", "[ui]") {
     test::TemporaryFolder folder;
     const auto file = folder.path() / "red.tga";
     std::ofstream(file, std::ios::binary)
@@ -265,7 +265,7 @@ TEST_CASE("the layout is reset, and leaves a small window its picture", "[ui]") 
     });
 }
 
-TEST_CASE("what no font has is said, and fonts are asked what they have", "[ui]") {
+TEST_CASE("missing glyphs are reported, and fonts' character maps are read", "[ui]") {
     test::TemporaryFolder folder;
     const auto korean = folder.path() / "a.ttf", chinese = folder.path() / "b.otf";
     std::ofstream(korean, std::ios::binary) << font_of(0xac00, 0xd7a3, true);

@@ -56,7 +56,7 @@ class Headless {
         editor_ = std::make_unique<editor::Editor>(
             registry_, log_, notices_,
             editor::EditorOptions{.renderer = renderer, .wake = [] {}, .config_dir = config});
-        editor_->view.resolution = 0.02f; // the picture is no matter here
+        editor_->view.resolution = 0.02f; // the picture does not matter here
         editor_->open(restage::test::source_dir() / "scenes" / scene);
         const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(120);
         while (editor_->opening().running() && std::chrono::steady_clock::now() < limit) {
@@ -81,7 +81,7 @@ class Headless {
     Log& log() { return log_; }
     std::size_t step() const { return editor_->session().history().position(); }
 
-    // Plays what a user does. Fails the test case when a check in it fails.
+    // Plays user actions. Fails the test case if a check in it fails.
     void play(const char* name, const std::function<void(ImGuiTestContext*)>& user) {
         ImGuiTest* test = IM_REGISTER_TEST(engine_, "editor", name);
         test->TestFunc = user;
@@ -93,13 +93,13 @@ class Headless {
     }
 
     // --- inside play() ---------------------------------------------------------------------------------------------
-    // The widget of that mark, scrolled to where it is seen; waits a moment for it to be drawn.
+    // The widget of that mark, scrolled into view; waits a moment for it to be drawn.
     ImVec4 find(ImGuiTestContext* ctx, const std::string& mark) {
         for (int i = 0; i < 30 && !editor_->find_mark(mark); ++i)
             ctx->Yield();
         const auto* now = editor_->find_mark(mark);
         IM_CHECK_SILENT_RETV(now, (ctx->LogError("there is no \"%s\"", mark.c_str()), ImVec4()));
-        editor::Marks::Mark found = *now; // marks are made anew each frame
+        editor::Marks::Mark found = *now; // marks are rebuilt each frame
         if (found.item && ctx->ItemInfo(found.item, ImGuiTestOpFlags_NoError).ID) { // else something is over it
             ctx->ItemMakeVisible(found.item, ImGuiTestOpFlags_NoError);
             ctx->Yield(2);
@@ -107,7 +107,7 @@ class Headless {
         }
         return {found.x0, found.y0, found.x1, found.y1};
     }
-    // The same, for what comes with the first picture: however long that takes on a busy machine.
+    // The same, for widgets that come with the first picture: no matter how long on a busy machine.
     void wait_for(ImGuiTestContext* ctx, const std::string& mark) {
         const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(5);
         while (!editor_->find_mark(mark) && std::chrono::steady_clock::now() < limit) {

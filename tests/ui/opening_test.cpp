@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening another scene: from the first frame that has its outliner on, nothing of the picture before it is seen.
+// Opening another scene: from the first frame with its outliner on, nothing of the previous picture is visible.
 #include "headless.hpp"
 
 using namespace restage;
 using namespace restage::tests;
 
-TEST_CASE("editor: a scene that is opened never shows the one before it") {
+TEST_CASE("editor: an opened scene never shows the previous one") {
     Headless h("cornell/cornell.pbrt");
     editor::Editor& e = h.editor();
     h.play("open another scene", [&](ImGuiTestContext* ctx) {

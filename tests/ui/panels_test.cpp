@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every panel and every kind of widget: what a drag or a click changes, that it is one step of the history, and that
-// undo brings back what was there.
+// undo restores the previous state.
 #include "headless.hpp"
 
 #include "editor/panels/panels.hpp"
@@ -10,7 +10,7 @@ using tests::Headless;
 
 namespace {
 
-// A drag of each of these is one step, and undo takes it back.
+// A drag of each of these is one step, and undo reverts it.
 void drags_are_steps(Headless& h, ImGuiTestContext* ctx, std::initializer_list<const char*> marks, float pixels = 25) {
     for (const char* mark : marks) {
         const std::size_t before = h.step();
@@ -149,7 +149,7 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         h.click(ctx, "lights.Spot light");
         h.focus(ctx, "Inspector");
         drags_are_steps(h, ctx, {"light.strength", "light.position", "light.azimuth", "light.cone"});
-        drags_are_steps(h, ctx, {"light.elevation"}, -25); // it shines straight down: there is no higher
+        drags_are_steps(h, ctx, {"light.elevation"}, -25); // it shines straight down: the highest elevation
         h.click(ctx, "light.remove");
         IM_CHECK(h.scene().lights.live() == lights + 2);
         h.focus(ctx, "Scene");
@@ -161,7 +161,7 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         const bool roulette = h.scene().settings.value.russian_roulette;
         h.click(ctx, "render.roulette");
         IM_CHECK(h.scene().settings.value.russian_roulette != roulette);
-        const std::size_t before = h.step(); // those of this machine are no steps
+        const std::size_t before = h.step(); // settings of this machine are not steps
         h.drag(ctx, "render.error");
         IM_CHECK(h.editor().view.error > 0);
         IM_CHECK(h.step() == before);
@@ -237,7 +237,7 @@ TEST_CASE("log, report, convergence, assets and help answer", "[ui]") {
         h.focus(ctx, "Log");
         h.click(ctx, "log.info");
         IM_CHECK(!h.editor().panel_state->log.info);
-        IM_CHECK(!h.editor().panel_state->log.details); // what only developers want is not shown unless asked for
+        IM_CHECK(!h.editor().panel_state->log.details); // developers' lines are hidden by default
         h.click(ctx, "log.details");
         IM_CHECK(h.editor().panel_state->log.details);
         h.click(ctx, "log.copy");

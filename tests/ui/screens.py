@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A screenshot of every panel and dialog of the editor, in the states that matter, to be looked at by somebody:
+"""A screenshot of every panel and dialog of the editor, in the states that matter, for visual inspection:
 
     RESTAGE_BIN=build/bin/restage build/venv/bin/python tests/ui/screens.py OUT [--size 1600x1000] [--scale 2] [STATE ...]
 
 Without states all of them; `--list` names them. Widgets are found by their marks (desk.py), so it is a test of those, too:
-it ends with 1 when a state could not be reached."""
+it exits with 1 if a state could not be reached."""
 import argparse
 import os
 import pathlib
@@ -21,7 +21,7 @@ from desk import Desk, Editor
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DEMO = ROOT / "scenes/demo/demo.pbrt"
-# Things an importer cannot keep, and a file that is not there.
+# Things an importer cannot keep, and a missing file.
 TROUBLED = """LookAt 0 1 4  0 0.5 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 640 "integer yresolution" 360
@@ -56,13 +56,13 @@ class Screens:
 
     # --- reaching states ---
     def start(self, *arguments, config="config", fresh=False, settle=True, hint=False, recover=False):
-        """An editor with these arguments; the one that runs, when it has them already."""
+        """An editor with these arguments; reuses the running one if it has them."""
         key = (config, *map(str, arguments))
         if not fresh and self.opened == key and self.editor.process.poll() is None:
             return self.editor
         self.stop()
         place = self.folder / config
-        if not recover:  # what editors left that were killed here
+        if not recover:  # recovery files of editors killed here
             shutil.rmtree(place / "recovery", ignore_errors=True)
         self.editor = Editor(self.desk, self.binary, "--scale", self.scale, *arguments, config=place,
                              probe=self.folder / "probe.json", size=self.size, hint=hint)
@@ -82,7 +82,7 @@ class Screens:
         self.rest()
 
     def rest(self):
-        """The mouse where it hovers over nothing."""
+        """Moves the mouse to an empty place."""
         self.editor.move((self.size[0] - 3, 3))
         time.sleep(0.3)
 
@@ -119,7 +119,7 @@ class Screens:
         self.rest()
 
     def calm(self):
-        """Whatever the state before left open or pressed."""
+        """Closes and releases whatever the previous state left open or pressed."""
         if not self.editor or self.editor.process.poll() is not None:
             return
         self.rest()
@@ -146,7 +146,7 @@ class Screens:
                 time.sleep(0.7)  # what a click opened appears in the next frames
                 self.shoot(name)
                 print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
-            except Exception:  # the others are of interest all the same
+            except Exception:  # go on with the others
                 traceback.print_exc()
                 self.failed.append(name)
                 self.shoot(name + ".failed")

@@ -65,7 +65,7 @@ def test_save_undo_across_it_reopen_and_revert(editor, tmp_path):
 
     editor.key("ctrl+z")
     assert editor.wait(lambda s: s["counts"]["hidden"] == 0, "undo across the save")["modified"]
-    editor.key("ctrl+s")  # no question any more
+    editor.key("ctrl+s")  # no question this time
     editor.wait(lambda s: not s["modified"], "the second save")
     assert "instances" not in json.loads(project.read_text())
     change(editor)
@@ -76,7 +76,7 @@ def test_save_undo_across_it_reopen_and_revert(editor, tmp_path):
     editor.wait(lambda s: s["counts"]["hidden"] == 0 and not s["modified"] and s["history"]["size"] == 0, "the file again")
 
 
-def test_nothing_unsaved_is_left_without_asking(editor, tmp_path):
+def test_unsaved_work_is_never_discarded_without_asking(editor, tmp_path):
     change(editor)
     editor.key("ctrl+q")
     modal(editor, "Unsaved changes")
@@ -142,7 +142,7 @@ def test_export_is_the_same_scene_again(editor, tmp_path):
     type_path(editor, tmp_path / "out.pbrt")
     modal(editor, "Exported")
     editor.key("Escape")
-    assert editor.state()["modified"], "an export is no save"
+    assert editor.state()["modified"], "an export does not count as a save"
     editor.key("ctrl+z")
     drop(editor, tmp_path / "out.pbrt", ("picture", 0.5, 0.5))
     state = editor.wait(lambda s: s["path"].endswith("out.pbrt"), "the exported file to be open", 60)
@@ -180,7 +180,7 @@ def test_the_live_picture_and_a_final_one(editor, tmp_path):
     assert png_size(tmp_path / "final.png") == (400, 400)
 
 
-def test_what_cannot_be_written_is_a_question_and_no_note_that_fades(editor, tmp_path):
+def test_a_failed_write_is_a_question_not_a_fading_notice(editor, tmp_path):
     change(editor)
     editor.key("ctrl+s")
     modal(editor, "Save as")
@@ -191,7 +191,7 @@ def test_what_cannot_be_written_is_a_question_and_no_note_that_fades(editor, tmp
     type_path(editor, tmp_path / "saved.restage")
     editor.wait(lambda s: s["path"] == str(tmp_path / "saved.restage") and not s["modified"], "it to be saved elsewhere")
 
-    # A final picture whose folder has gone meanwhile is kept, and written again.
+    # A final picture whose folder vanished meanwhile is kept, and written elsewhere.
     editor.settled()
     gone = tmp_path / "gone"
     gone.mkdir()

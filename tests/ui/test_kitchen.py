@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The main job on a real scene, with a real mouse and real keys: open the kitchen, pick, drag, copy, delete, change a
 material, drop a texture, give it a sky and turn it, undo all, redo all, save, reopen, export, re-import. Each step on the
-document and on the picture: changed where it must, and elsewhere not beyond noise."""
+document and on the picture: changed where it must, and elsewhere only by noise."""
 import json
 import os
 import pathlib
@@ -31,7 +31,7 @@ def difference(a, b):
 
 
 def same(a, b):
-    """But for noise. The pictures have few samples: single blocks may differ, nine of ten must not."""
+    """Up to noise. The pictures have few samples: single blocks may differ, nine of ten must not."""
     d = difference(a, b)
     return np.percentile(d, 90) < 0.06 and d.mean() < 0.03, f"90 % of blocks differ by less than {np.percentile(d, 90):.3f}, mean {d.mean():.3f}"
 
@@ -43,7 +43,7 @@ class Kitchen:
         self.editor = editor
 
     def picture(self, deselect=True, samples=SAMPLES):
-        """Without selection and what else lies over it, and with the mouse away."""
+        """The picture without selection and other overlays, and with the mouse away."""
         if deselect:
             self.editor.key("Escape")
             self.editor.wait(lambda s: not s["selection"], "nothing selected")
@@ -113,7 +113,7 @@ def restage(binary, *arguments, codes=(0,)):
 
 def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     scene = pathlib.Path(SCENES) / "kitchen/scene.pbrt"
-    assert scene.exists(), f"{scene} is missing, and RESTAGE_SCENES says it is there"
+    assert scene.exists(), f"{scene} is missing, though RESTAGE_SCENES is set"
     write_checks(tmp_path / "checks.tga")
     write_sky(tmp_path / "redblue.pfm")
     config = tmp_path / "config"
@@ -195,7 +195,7 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     editor.drag("asset.redblue", WORKTOP)
     state = kitchen.step(7, "the sky")
     assert state["sky"] == "redblue"
-    editor.key("Home")  # looks from there, which is no change
+    editor.key("Home")  # looks from there, which changes nothing
     editor.wait(lambda s: s["views"]["apart"] and s["camera"] != opened["camera"], "all of it framed")
     editor.key("ctrl+shift+Home")
     kitchen.step(8, "the camera there")
@@ -247,7 +247,7 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     assert infos[1]["report_counts"]["dropped"] == 0
     assert infos[1]["lights"] == {**infos[0]["lights"], "environment": "image"}
 
-    # Reopened and re-imported: the picture that was left.
+    # Reopened and re-imported: the same picture as before.
     for path in (project, exported):
         editor.key("ctrl+o")
         editor.wait(lambda s: s["modal"] == "Open", "the question which")

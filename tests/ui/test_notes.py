@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the editor says when something is missing: light, folders to write to. And a camera without perspective."""
+"""What the editor reports if something is missing: light, folders to write to. And a camera without perspective."""
 import numpy as np
 
 BALL = """LookAt 0 0 5  0 0 0  0 1 0
@@ -35,14 +35,14 @@ def test_a_scene_without_light_offers_the_studio(launch, tmp_path):
     editor.wait(lambda s: s["history"]["position"] == 0 and "viewport.studio" in s["marks"], "the offer again", 60)
 
 
-def test_folders_that_cannot_be_written_are_said_once(launch, tmp_path):
+def test_unwritable_folders_are_reported_once(launch, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
     nowhere = str(blocked / "below")
     names = ("HOME", "TMPDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME")
     editor = launch(scene(tmp_path), environment=dict.fromkeys(names, nowhere), config=blocked / "config", hint=True)
     state = editor.settled(samples=1)
-    for words in "compiled anew", "will not be kept":
+    for words in "recompiled", "will not be kept":
         assert len([line for line in state["log"] if words in line]) == 1, words
 
 
@@ -83,4 +83,4 @@ def test_the_wheel_zooms_through_an_orthographic_camera(launch, tmp_path):
     editor.move((2, 2))
     ratio = 0.88 ** -6
     editor.wait(lambda s: s["view"]["current"] and abs(area() / before / ratio - 1) < 0.1, "a larger ball", 60)
-    assert editor.state()["history"]["position"] == 0, "looking around is no change"
+    assert editor.state()["history"]["position"] == 0, "looking around changes nothing"

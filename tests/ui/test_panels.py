@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What goes from panels into the picture and back, with a real mouse: materials picked and assets dragged there, missing
+"""Transfers between panels and the picture, with a real mouse: materials picked and assets dragged there, missing
 images found again in the file browser, objects dragged between groups; and the hint of a first start."""
 import json
 import pathlib
@@ -38,7 +38,7 @@ def tab(editor, name):
 
 
 def outlined(editor):
-    """The pixels of the picture that have the colour of what is hovered, as rows and columns; outlines are thin lines."""
+    """The pixels of the picture in the hover colour, as rows and columns; outlines are thin lines."""
     return np.nonzero(np.abs(editor.picture() - HOVER).max(2) < 0.02)
 
 
@@ -50,14 +50,14 @@ def test_the_eyedropper_takes_a_material_from_the_picture(editor):
     assert floor not in {part["material"] for part in chair}
     tab(editor, "Inspector")
     editor.click("material.pick")
-    editor.key("Escape")  # given up: nothing changes, and the chair is still selected
+    editor.key("Escape")  # cancelled: nothing changes, and the chair is still selected
     assert names(editor.state()) == ["Chair cushion", "Chair frame"]
     before = editor.picture()
     editor.click("material.pick")
     editor.click(FLOOR)
     state = editor.wait(lambda s: s["history"]["position"] == 1, "the material")
     assert {part["material"] for part in state["selection"]} == {floor}
-    assert names(state) == ["Chair cushion", "Chair frame"], "a pick is no selection"
+    assert names(state) == ["Chair cushion", "Chair frame"], "a pick does not select"
     editor.settled()
     assert difference(before, editor.picture()).max() > 0.15
 
@@ -101,7 +101,7 @@ def test_assets_are_dragged_into_the_picture(editor):
         search(asset)
         editor.drag("asset." + asset, where)
 
-    # While it is held, what it would go onto is outlined, and its material named beside the mouse.
+    # While it is held, its target is outlined, and the target's material named beside the mouse.
     search("oak")
     editor.move("asset.oak")
     editor.desk.xdotool("mousedown", 1)
@@ -134,7 +134,7 @@ def test_assets_are_dragged_into_the_picture(editor):
     assert abs(state["selection"][0]["position"][2]) < 0.2, "it does not lie on the floor"
 
     drag("floor-planks", "outliner.search")  # nothing there takes images
-    drag("sky", ("picture", 0.5, 0.5))  # skies are skies, whatever is under the mouse
+    drag("sky", ("picture", 0.5, 0.5))  # skies are skies, no matter what is under the mouse
     state = editor.wait(lambda s: s["history"]["position"] == 3, "the sky", 60)
     assert state["history"]["labels"][2].startswith("Sky") and state["sky"] == "sky"
     for _ in range(3):

@@ -53,7 +53,7 @@ def test_a_metal_is_chosen_by_its_name(launch, tmp_path):
     assert state["material"]["k"]["value"][0] == pytest.approx(4.4437)
     editor.wait(lambda _: np.ptp(ball(editor)) < np.ptp(copper) / 4, "silver, which is not", 60)
     assert ball(editor).mean() > copper.mean()
-    # By its colour: the optical constants give way to one parameter.
+    # By its colour: one parameter replaces the optical constants.
     editor.click("material.ui.combo.0")
     editor.click("material.ui.combo.0.By its colour")
     editor.wait(lambda s: s["material"]["use_reflectance"]["value"][0] == 1, "the colour")
@@ -65,7 +65,7 @@ def test_a_metal_is_chosen_by_its_name(launch, tmp_path):
 
 
 def test_a_plugin_is_checked_from_its_panel(launch, tmp_path):
-    """It loses light though it says it does not; mended on disk, it passes."""
+    """It loses light though declared lossless; fixed on disk, it passes."""
     plugin = tmp_path / "paint"
     plugin.mkdir()
     glsl = plugin / "paint.glsl"
@@ -81,12 +81,12 @@ def test_a_plugin_is_checked_from_its_panel(launch, tmp_path):
     editor.click("plugins.check.org.example.paint")
     editor.wait(lambda s: any("org.example.paint: FAILED" in line for line in s["log"]), "the verdict", 120)
     glsl.write_text(PAINT.replace("COLOR", "m.tint"))
-    editor.wait(lambda s: any("was loaded anew" in line for line in s["log"]), "the mended one")
+    editor.wait(lambda s: any("was reloaded" in line for line in s["log"]), "the fixed one")
     editor.click("plugins.check.org.example.paint")
     editor.wait(lambda s: any("org.example.paint: passed" in line for line in s["log"]), "the other verdict", 120)
 
 
-def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
+def test_a_material_is_edited_on_disk_while_it_is_shown(launch, tmp_path):
     plugin = tmp_path / "paint"
     plugin.mkdir()
     params = [{"id": "tint", "label": "Tint", "type": "color", "default": [0.9, 0.2, 0.2]}]
@@ -117,12 +117,12 @@ def test_a_material_is_edited_on_disk_while_it_is_seen(launch, tmp_path):
     glsl.write_text(PAINT.replace("COLOR", "m.tint.bgr.grb"))  # the colours change places
     until(lambda c: c[0] > 1.5 * c[1], "the edited GLSL")
     red = ball(editor)
-    # What does not compile changes nothing, and says where.
+    # A compile error changes nothing, and is reported with its place.
     glsl.write_text(PAINT.replace("COLOR", "m.tinted"))
     editor.wait(lambda s: "paint.glsl:4:" in editor.output(), "the error", 30)
     editor.settled()
     assert np.abs(ball(editor) - red).max() < 0.05
-    # Another table: the value lives in the scene, and is there.
+    # Another table: the value lives in the scene, and survives.
     manifest["materials"][0]["params"] = [{"id": "gloss", "label": "Gloss", "type": "float", "default": 0.5}] + params
     (plugin / "plugin.json").write_text(json.dumps(manifest))
     glsl.write_text(PAINT.replace("COLOR", "m.tint"))
@@ -189,7 +189,7 @@ def choose_denoiser(editor, name):
 
 
 def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
-    """Built-in by default; a plugin's by its name, at once and after a restart; one that is gone is said to be."""
+    """Built-in by default; a plugin's by its name, at once and after a restart; a missing one is reported."""
     plugin = tmp_path / "copier"
     plugin.mkdir()
     shutil.copy(binary.resolve().parent.parent / "tests/plugins_broken/denoiser_sound.so", plugin / "copier.so")
@@ -202,7 +202,7 @@ def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
     editor.wait(by("oidn"), "the built-in denoiser")
     choose_denoiser(editor, "copy")
     editor.wait(by("copy"), "the plugin's")
-    assert not editor.state()["modified"], "it is no part of the document"
+    assert not editor.state()["modified"], "it is not part of the document"
     editor.kill()
     editor = launch("--plugin-path", plugin, file)
     editor.wait(by("copy"), "the plugin's, after a restart", 90)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work is not lost when the editor is: it is killed in mid-edit, and started again."""
+"""Work survives a lost editor: it is killed in mid-edit, and restarted."""
 import ctypes
 import pathlib
 import signal
@@ -77,7 +77,7 @@ def test_later_offers_again_and_discard_does_not(launch, tmp_path):
     first.wait(lambda s: s["counts"]["instances"] == 1, "a new scene")
     hide_all(first)
     written_aside(first)
-    # Of a living process nothing is offered.
+    # Nothing is offered from a living process.
     neighbour = launch(config=config)
     assert neighbour.state()["modal"] == ""
     neighbour.close()
@@ -96,7 +96,7 @@ def test_later_offers_again_and_discard_does_not(launch, tmp_path):
 
 
 def unsaved(launch, config):
-    """An editor whose first edit was written aside soon, and whose second one is only in memory."""
+    """An editor whose first edit was autosaved soon, and whose second one is only in memory."""
     editor = launch(CORNELL, "--autosave", 3600, config=config)
     editor.wait(lambda s: s["counts"]["instances"] > 0 and not s["opening"], "the scene")
     hidden = hide_all(editor)["counts"]["hidden"]
@@ -136,7 +136,7 @@ def test_ended_by_a_signal_with_nothing_to_save_leaves_nothing(launch, tmp_path)
     assert not (config / "recovery").exists() or list((config / "recovery").iterdir()) == []
 
 
-def test_a_display_that_is_gone_loses_nothing(binary, tmp_path):
+def test_a_lost_display_loses_nothing(binary, tmp_path):
     """The X server is killed, as at a crash of the desktop."""
     own = Desk(tmp_path / "screen")
     running = []
@@ -176,7 +176,7 @@ def ask_to_close(display, window):
     x.XCloseDisplay(server)
 
 
-def test_a_close_request_writes_aside_before_it_is_answered(launch, desk, tmp_path):
+def test_a_close_request_autosaves_before_it_is_answered(launch, desk, tmp_path):
     """A desktop whose session ends asks windows to close, and does not wait long."""
     editor, aside, before, hidden = unsaved(launch, tmp_path / "config")
     found = subprocess.run(["xdotool", "search", "--name", "Restage"], env=desk.environment, check=True, capture_output=True, text=True)

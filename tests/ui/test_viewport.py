@@ -71,7 +71,7 @@ def test_a_chair_is_picked_moved_copied_and_deleted_and_all_is_undone_and_redone
     editor.key("Escape")
     editor.move(SKY)
     editor.settled()
-    # The same picture again, but for noise (and for the outline that is gone).
+    # The same picture again, up to noise (and without the outline).
     assert np.percentile(difference(before, editor.picture()), 90) < 0.08
     for expected in (1, 2, 3):
         editor.key("ctrl+y")
@@ -100,7 +100,7 @@ def test_a_drag_with_shift_leaves_the_original_and_one_with_alt_lifts(editor):
     assert moved[2] > 0.05 and np.allclose(moved[:2], 0, atol=1e-6) and state["counts"]["instances"] == 119, moved
 
 
-def test_alt_orbits_wherever_it_begins_and_lifts_what_slides_already(editor):
+def test_alt_orbits_from_anywhere_and_lifts_during_a_slide(editor):
     editor.click(CHAIR)
     start = editor.wait(lambda s: s["selection"], "a selection")
     rail = ("picture", 0.66, 0.735)  # of its back, beside the handles
@@ -153,7 +153,7 @@ def test_orbit_pan_zoom_and_back(editor):
 
 
 def test_looking_around_does_not_eat_undo(editor):
-    """An object is hidden, then somebody zooms: undo shows the object, and does not zoom back."""
+    """An object is hidden, then the user zooms: undo shows the object, and does not zoom back."""
     editor.click(CHAIR)
     editor.wait(lambda s: s["selection"], "a selection")
     editor.key("h")
@@ -165,7 +165,7 @@ def test_looking_around_does_not_eat_undo(editor):
     assert state["camera"] == zoomed["camera"] and not state["modified"]
 
 
-def test_an_unlocked_camera_goes_along_and_each_move_is_a_step(editor):
+def test_an_unlocked_camera_follows_and_each_move_is_a_step(editor):
     eye = editor.state()["camera"]
     editor.click("menu.view")
     editor.click("view.lock_camera")
@@ -179,7 +179,7 @@ def test_an_unlocked_camera_goes_along_and_each_move_is_a_step(editor):
 
 
 def test_quick_keys_are_all_done_in_order(editor):
-    """Forty of undo and redo, faster than frames; of what a frame holds each counts."""
+    """Forty undos and redos, faster than frames; each key of a frame counts."""
     editor.click(CHAIR)
     editor.wait(lambda s: s["selection"], "a selection")
     for steps in range(5):
@@ -205,7 +205,7 @@ def test_a_click_on_the_same_place_picks_what_is_behind(editor):
     assert names(editor.wait(lambda s: s["selection"], "a selection")) == first, "nothing is before it"
 
 
-def test_what_is_selected_slides_over_the_floor_and_with_shift_a_copy_does(editor):
+def test_the_selection_slides_over_the_floor_and_with_shift_a_copy_does(editor):
     editor.click(CHAIR)
     start = editor.wait(lambda s: s["selection"], "a selection")["selection"]
     rail, there = ("picture", 0.66, 0.735), ("picture", 0.76, 0.775)  # of its back, beside the handles
@@ -223,14 +223,14 @@ def test_what_is_selected_slides_over_the_floor_and_with_shift_a_copy_does(edito
 
 def test_a_box_to_the_right_picks_what_is_inside_and_to_the_left_what_it_touches(editor):
     editor.key("q")
-    upper, lower = ("picture", 0.53, 0.70), ("picture", 0.80, 0.92)  # the chair but for the ends of its legs
+    upper, lower = ("picture", 0.53, 0.70), ("picture", 0.80, 0.92)  # the chair except for the ends of its legs
     editor.drag(upper, lower)
     assert "Chair frame" not in names(editor.state())
     editor.drag(lower, upper)
     editor.wait(lambda s: {"Chair cushion", "Chair frame"} <= set(names(s)), "the chair")
 
 
-def test_a_box_picks_all_that_is_seen_in_it(editor):
+def test_a_box_picks_everything_visible_in_it(editor):
     editor.key("q")  # no handles
     editor.drag(("picture", 0.02, 0.02), ("picture", 0.98, 0.98))
     state = editor.wait(lambda s: len(s["selection"]) > 50, "many objects")
@@ -239,7 +239,7 @@ def test_a_box_picks_all_that_is_seen_in_it(editor):
     editor.wait(lambda s: not s["selection"], "an empty selection")
 
 
-def test_what_is_shown_restarts_nothing(editor):
+def test_view_settings_restart_nothing(editor):
     request = editor.state()["view"]["request"]
     editor.key("n")            # denoising off
     editor.key("v")            # overlays off
@@ -262,8 +262,8 @@ def test_the_validation_layers_are_silent(launch):
     assert not [line for line in editor.state()["log"] if "alidation" in line][:3]
 
 
-def test_what_is_drawn_again_in_parts_is_what_is_drawn_at_once(editor):
-    """Menus, tips, handles and panels come and go; afterwards the window has the pixels of one drawn anew."""
+def test_partial_redraws_equal_a_full_redraw(editor):
+    """Menus, tips, handles and panels come and go; afterwards the window's pixels equal a full redraw."""
     editor.click(CHAIR)
     editor.wait(lambda s: s["selection"], "a selection")
     for menu in ("menu.edit", "menu.panels"):

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run by hand: the edit of the thesis this project follows, with a real mouse and real keys under Xvfb. "Country Kitchen"
 becomes another kitchen (island gone, table longer, chairs, places and the lamp cloned, walls repainted), and then the same
-room in other materials. Nothing is done but pointing, dragging, keys and typed numbers; where a person looks whether a thing
-is where it shall be, the script reads the editor's own account of it (--probe).
+room in other materials. Nothing is done but pointing, dragging, keys and typed numbers; where a person checks whether a thing
+is in place, the script reads the editor's own account of it (--probe).
 
     build/venv/bin/python tests/ui/thesis.py RESTAGE SCENES/kitchen/scene.pbrt OUT
 
-writes before.png, kitchen.png and materials.png (what `restage render` makes of the projects, denoised), the projects, and
+writes before.png, kitchen.png and materials.png (the projects by `restage render`, denoised), the projects, and
 prints the gestures, how long the script took, and how long a person would, by the keystroke-level model (S. Card, T. Moran,
 A. Newell, "The keystroke-level model for user performance time with interactive systems", CACM 23(7), 1980)."""
 import pathlib
@@ -28,7 +28,7 @@ LOOK = 2.0  # ours: seeing what a drag did before the next one
 
 
 class Hand:
-    """An Editor's mouse and keys that count gestures and what they would cost a person."""
+    """An Editor's mouse and keys that count gestures and the time they would take a person."""
 
     def __init__(self, editor):
         self.e, self.gestures, self.seconds, self.on_keys = editor, [], 0.0, False
@@ -45,7 +45,7 @@ class Hand:
         return sorted(item["name"] for item in self.state()["selection"])
 
     def click(self, where, expect=None, keys=()):
-        """`expect`: the material of what is picked."""
+        """`expect`: the material of the picked object."""
         before = self.state()["selection"]
         self.e.click(where, keys=keys)
         self.note(f"{'+'.join([*keys, 'click'])} {expect or where}", POINT + 2 * BUTTON + KEY * len(keys))
@@ -67,7 +67,7 @@ class Hand:
 
     def pull(self, start, toward, good, keys=(), what="drag"):
         """Drags from a point in a direction on the screen (pixels) until good(state) is 0 or has changed its sign, then back in smaller
-        steps: what a hand and an eye do. `good` is positive as long as it has to go on."""
+        steps, like hand and eye. `good` is positive until it is done."""
         at = np.array(self.e.point(start), float)
         step = np.array(toward, float)
         before = self.steps()

@@ -76,7 +76,7 @@ TEST_CASE("name.field=value changes a scene", "[assign]") {
 
 namespace {
 
-// What a film holds of samples x_1 .. x_n of one pixel, in all channels.
+// The film's values for samples x_1 .. x_n of one pixel, in all channels.
 render::FilmImage film_of(const std::vector<double>& samples) {
     double sum = 0, square = 0;
     for (const double x : samples)
@@ -113,7 +113,7 @@ TEST_CASE("Parts of a picture, put together, are the picture", "[merge]") {
     CHECK(merged->instance_id[0] == 3); // of the earliest sample
     CHECK_FALSE(view::merge_films({}));
 
-    // The same through files, with the exposure in their numbers; and what does not belong together.
+    // The same through files, with the exposure baked in; and parts that do not belong together.
     const TemporaryFolder folder;
     const auto write = [&](const char* name, const render::FilmImage& film, const char* ranges, const char* scene) {
         const std::string path = (folder.path() / name).string();
@@ -144,7 +144,7 @@ TEST_CASE("Parts of a picture, put together, are the picture", "[merge]") {
     CHECK(view::merge_pictures(apart)->metadata.at("restage:ranges") == "4:3+5,5:0+3");
     const std::string bare = (folder.path() / "bare.exr").string();
     REQUIRE(view::write_picture(bare, {.film = a, .denoised = {}}, {.aovs = "none"}));
-    CHECK_THAT(view::read_picture(bare).error().message, ContainsSubstring("how many samples"));
+    CHECK_THAT(view::read_picture(bare).error().message, ContainsSubstring("number of samples"));
     REQUIRE(view::write_picture(bare, {.film = a, .denoised = {}},
                                 {.aovs = "depth", .metadata = {{"restage:ranges", "0:0+3"}}}));
     CHECK_THAT(view::read_picture(bare).error().message, ContainsSubstring("no layer \"stderr\""));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base: the hash against published values, files that are whole or absent, loops that cover each index once.
+// base: the hash against published values, files that are complete or absent, loops that cover each index once.
 #include "base/file.hpp"
 #include "base/jobs.hpp"
 #include "base/json.hpp"
@@ -81,7 +81,7 @@ TEST_CASE("file errors name the file and the reason", "[base]") {
     CHECK(files_in(folder) == 0);
 }
 
-TEST_CASE("writing replaces no pipe and no device, and what a link leads to instead of the link", "[base]") {
+TEST_CASE("writing replaces no pipe or device, and a link's target instead of the link", "[base]") {
     const test::TemporaryFolder folder;
     REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
     CHECK(write_file_atomic(folder / "pipe", "x").error().message ==
@@ -102,22 +102,22 @@ TEST_CASE("writing replaces no pipe and no device, and what a link leads to inst
     CHECK(read_file(folder / "dangling").value() == "x");
 }
 
-TEST_CASE("what is no regular file is refused at once, and so is what is too large", "[base]") {
+TEST_CASE("non-regular and oversized files are refused at once", "[base]") {
     const test::TemporaryFolder folder;
     const fs::path pipe = folder / "pipe.png";
-    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0); // nobody writes into it: opening it would wait for ever
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0); // it has no writer: opening it would block for ever
     CHECK(read_file(pipe).error().message == pipe.string() + ": is a pipe, not a regular file");
     CHECK(read_file("/dev/zero").error().message == "/dev/zero: is a device, not a regular file");
     REQUIRE(write_file_atomic(folder / "five", "12345"));
     CHECK(read_file(folder / "five", 5).value() == "12345");
     CHECK(read_file(folder / "five", 4).error().message.find("has 5 bytes, more than the 4") != std::string::npos);
-    CHECK_FALSE(read_file("/proc/self/status", 10)); // says that it has none
+    CHECK_FALSE(read_file("/proc/self/status", 10)); // reports no size
     REQUIRE(write_file_atomic(folder / "sparse", ""));
-    fs::resize_file(folder / "sparse", std::uintmax_t{1} << 40); // takes no room on the disk
+    fs::resize_file(folder / "sparse", std::uintmax_t{1} << 40); // sparse
     CHECK_FALSE(read_file(folder / "sparse"));
 }
 
-TEST_CASE("JSON that is nested too deep is refused with its place, whatever its strings say", "[base]") {
+TEST_CASE("JSON that is nested too deep is refused with its place, whatever its strings hold", "[base]") {
     const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
     CHECK(parse_json<nlohmann::json>(nested(most_json_depth)));
     const auto deep = parse_json<nlohmann::json>("\n " + nested(20000));
@@ -134,14 +134,14 @@ TEST_CASE("files without a size are read to their end", "[base]") {
     CHECK(status->find("VmPeak") != std::string::npos);
 }
 
-TEST_CASE("the program knows its own place", "[base]") {
+TEST_CASE("the program finds its own path", "[base]") {
     const auto path = executable_path();
     REQUIRE(path);
     CHECK(fs::is_regular_file(*path));
     CHECK(executable_dir().value() == path->parent_path());
 }
 
-TEST_CASE("parallel_for visits each index once, whatever the grain", "[base]") {
+TEST_CASE("parallel_for visits each index once, for any grain", "[base]") {
     for (const unsigned threads : {1u, 2u, 5u}) {
         Jobs jobs(threads);
         CHECK(jobs.threads() == threads);

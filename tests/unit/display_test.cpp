@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outlines of what is selected, from the picture's instance ids.
+// Outlines of the selection, from the picture's instance ids.
 #include "view/display.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -20,7 +20,7 @@ render::FilmImage ids(std::uint32_t width, std::vector<std::uint32_t> values) {
 
 } // namespace
 
-TEST_CASE("outlines: a ring outside of what is marked, the selected before the hovered") {
+TEST_CASE("outlines: a ring around marked objects, selected before hovered") {
     const auto image = ids(6, {0, 0, 0, 0, 0, 0, //
                                0, 1, 1, 2, 7, 0, //
                                0, 0, 0, 0, 0, 0});
@@ -40,7 +40,7 @@ TEST_CASE("outlines: thicker ones, up to the picture's edge") {
     CHECK(rgba == std::vector<std::uint32_t>{0, chosen, chosen, 0, 0});
 }
 
-TEST_CASE("outlines: none where nothing marked is seen") {
+TEST_CASE("outlines: none if nothing marked is visible") {
     std::vector<std::uint32_t> rgba{1, 2, 3};
     const std::uint8_t marks[] = {0, 2};
     CHECK_FALSE(view::to_outlines(ids(2, {0, 3, 3, 0}), marks, 2, {hover, chosen}, rgba));

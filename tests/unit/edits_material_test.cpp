@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// edits_material: another type keeps what fits, one of one's own leaves the others alone, images are shared. And the
+// edits_material: another type keeps what fits, a unique copy leaves the others alone, images are shared. And the
 // colour temperature that light widgets use.
 #include "scene/color_temperature.hpp"
 #include "scene/edits.hpp"
@@ -46,7 +46,7 @@ Material switched(const Material& material, ParamTable before, ParamTable after)
 
 } // namespace
 
-TEST_CASE("another type of material keeps what both have", "[scene][materials]") {
+TEST_CASE("another type of material keeps the common values", "[scene][materials]") {
     Material m{.name = "paint", .type = "matte"};
     m.params.set("reflectance", Value::color(0.8f, 0.1f, 0.2f));
     m.params.set("uroughness", Value::number(0.4f));
@@ -63,7 +63,7 @@ TEST_CASE("another type of material keeps what both have", "[scene][materials]")
     CHECK(after.params.color("reflectance", {}) == std::array{0.8f, 0.1f, 0.2f}); // and back again
 }
 
-TEST_CASE("a default colour goes on to the new type; what was set there stays", "[scene][materials]") {
+TEST_CASE("a default colour carries over to the new type; values set there stay", "[scene][materials]") {
     CHECK(switched({.name = "m", .type = "matte"}, matte, gloss).params.color("kd", {}) ==
           std::array{0.5f, 0.5f, 0.5f});
     Material m{.name = "m", .type = "matte"};
@@ -79,7 +79,7 @@ TEST_CASE("a texture stays only where the new type takes one", "[scene][material
     CHECK(switched(m, {}, gloss).params.texture("kd") == Id<Texture>{1});
 }
 
-TEST_CASE("make_unique copies a material for some of those who share it", "[scene][materials]") {
+TEST_CASE("make_unique copies a material for some of the objects that share it", "[scene][materials]") {
     Scene scene;
     const auto oak = add(scene, Material{.name = "oak", .type = "diffuse"});
     const auto steel = add(scene, Material{.name = "steel", .type = "conductor"});
@@ -102,7 +102,7 @@ TEST_CASE("make_unique copies a material for some of those who share it", "[scen
     CHECK_FALSE(make_unique(scene, std::array{a}, Id<Material>{99}));
 }
 
-TEST_CASE("an image for a parameter is shared with whoever shows it already", "[scene][materials]") {
+TEST_CASE("an image for a parameter is shared with textures that already show it", "[scene][materials]") {
     Scene scene;
     const auto oak = add(scene, Material{.name = "oak", .type = "diffuse"});
     const auto walnut = add(scene, Material{.name = "walnut", .type = "diffuse"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials that shine (restage/emission.h): what is refused, what their values come to, and pbrt files there and back.
+// Materials that emit (restage/emission.h): refusals, resulting values, and pbrt files there and back.
 #include "scene/emission.hpp"
 #include "paths.hpp"
 
@@ -35,7 +35,7 @@ const std::string sphere_of_emissive =
 
 } // namespace
 
-TEST_CASE("a manifest says by which parameters a material shines", "[emission]") {
+TEST_CASE("a manifest names the parameters by which a material emits", "[emission]") {
     test::PluginFolder folder;
     folder.add("p", json_with(R"({"radiance": "light", "scale": "strength", "two_sided": "both"})"), nullptr);
     plugin::Registry registry(folder.log);
@@ -59,7 +59,7 @@ TEST_CASE("a manifest says by which parameters a material shines", "[emission]")
     params.set("light", texture);
     e = emission_of(*entry->table, params);
     REQUIRE(e);
-    CHECK(e->radiance == glm::vec3(4)); // the texture stands for the colour, not for the scale
+    CHECK(e->radiance == glm::vec3(4)); // the texture replaces the colour, not the scale
     CHECK(e->texture.value == 7);
     for (const float dark : {0.f, -1.f, std::numeric_limits<float>::infinity()}) {
         params.set("strength", Value::number(dark));
@@ -67,22 +67,22 @@ TEST_CASE("a manifest says by which parameters a material shines", "[emission]")
     }
 }
 
-TEST_CASE("an emission that its material does not bear out is refused", "[emission]") {
+TEST_CASE("an emission that does not match its material is refused", "[emission]") {
     test::PluginFolder folder;
     const auto refused = [&](const char* emission) { return folder.refusal_of(json_with(emission), nullptr); };
     CHECK_THAT(refused("{}"), ContainsSubstring("\"radiance\" is missing"));
     CHECK_THAT(refused("[]"), ContainsSubstring("must be an object"));
     CHECK_THAT(refused(R"({"radiance": "light", "power": "strength"})"), ContainsSubstring("\"power\" is unknown"));
     CHECK_THAT(refused(R"({"radiance": "strength"})"),
-               ContainsSubstring("its radiance \"strength\" is no parameter of type COLOR"));
+               ContainsSubstring("its radiance \"strength\" is not a parameter of type COLOR"));
     CHECK_THAT(refused(R"({"radiance": "light", "scale": "brightness"})"),
-               ContainsSubstring("its scale \"brightness\" is no parameter of type FLOAT"));
+               ContainsSubstring("its scale \"brightness\" is not a parameter of type FLOAT"));
     CHECK_THAT(refused(R"({"radiance": "light", "scale": "pattern"})"), ContainsSubstring("only the radiance may"));
     CHECK_THAT(refused(R"({"radiance": "light", "two_sided": "strength"})"),
-               ContainsSubstring("its two_sided \"strength\" is no parameter of type BOOL"));
+               ContainsSubstring("its two_sided \"strength\" is not a parameter of type BOOL"));
 }
 
-TEST_CASE("pbrt gets an area light for a material that shines, and gives the material back", "[emission][pbrt]") {
+TEST_CASE("pbrt gets an area light for an emitting material, and returns the material", "[emission][pbrt]") {
     Plugins plugins;
     Folder folder;
     document::Session session{plugins.registry};
@@ -99,7 +99,7 @@ TEST_CASE("pbrt gets an area light for a material that shines, and gives the mat
         CHECK(e->two_sided);
     };
     expect({8, 4, 2});
-    // edited: else the material is written back as the text that it came as
+    // edited: else the material is written back verbatim
     REQUIRE(session.set_param(session.scene().instances[{1}].material, "scale", Value::number(6)));
     for (const char* v : {"v4", "v3"}) {
         INFO(v);
@@ -137,7 +137,7 @@ TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[em
     CHECK(session.scene().materials[ball->material].type == "diffuse");
 }
 
-TEST_CASE("a texture that shines is written to pbrt as its mean", "[emission][pbrt]") {
+TEST_CASE("an emissive texture is written to pbrt as its mean", "[emission][pbrt]") {
     Plugins plugins;
     Folder folder;
     document::Session session{plugins.registry};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights with a picture (goniometric, projection): written in the words of either version of pbrt, with their pictures.
+// Lights with a picture (goniometric, projection): written in either version's syntax, with their pictures.
 #include "export_scene.hpp"
 #include "io/image_file.hpp"
 #include "io/import.hpp"
@@ -114,7 +114,7 @@ TEST_CASE("a goniometric light of pbrt-v4 keeps its power in pbrt-v3", "[export]
     CHECK(value != t.text.npos);
 }
 
-TEST_CASE("a projection light is written in the words of the other version", "[export]") {
+TEST_CASE("a projection light is written in the other version's syntax", "[export]") {
     Trip t;
     write_picture(t.in.file("slide.pfm"), 4, 2, [](auto x, auto y) { return glm::vec3(x, y, 1); });
     const Scene scene =
@@ -135,10 +135,10 @@ TEST_CASE("a projection light is written in the words of the other version", "[e
                                             "\"string mapname\""));
     CHECK(back.picture("projection light.pfm").values[1] == 0);
     for (const auto& entry : back.report.entries)
-        CHECK_THAT(entry.what, !ContainsSubstring("light")); // v4's sampler is none of v3's
+        CHECK_THAT(entry.what, !ContainsSubstring("light")); // v4's sampler does not exist in v3
 }
 
-TEST_CASE("a projection light of pbrt-v4 keeps its power, and its angle that pbrt-v3 sets otherwise", "[export]") {
+TEST_CASE("a projection light of pbrt-v4 keeps its power, and its angle, which pbrt-v3 sets differently", "[export]") {
     Trip t;
     write_picture(t.in.file("slide.pfm"), 2, 2, [](auto, auto) { return glm::vec3(1); });
     t.export_as(t.import_text(false,
@@ -151,7 +151,7 @@ TEST_CASE("a projection light of pbrt-v4 keeps its power, and its angle that pbr
     const auto at = t.text.find("\"rgb I\" [ ");
     REQUIRE(at != t.text.npos);
     double intensity = 0;
-    std::from_chars(t.text.data() + at + 10, t.text.data() + t.text.size(), intensity); // whatever the locale says
+    std::from_chars(t.text.data() + at + 10, t.text.data() + t.text.size(), intensity); // in any locale
     CHECK_THAT(intensity, WithinAbs(wanted, wanted * 1e-4));
     CHECK_THAT(t.text, ContainsSubstring("\"float fov\" [ 10 ]"));
 }
@@ -170,7 +170,7 @@ TEST_CASE("lights with a picture are the same after a round trip, edited too, an
     CHECK_THAT(t.text, ContainsSubstring("\"textures/map.pfm\""));
     CHECK_THAT(t.text, ContainsSubstring("\"none.png\""));
     REQUIRE(t.report.entries.size() == 1);
-    CHECK_THAT(t.report.entries[0].note, ContainsSubstring("not there"));
+    CHECK_THAT(t.report.entries[0].note, ContainsSubstring("is missing"));
     CHECK(joined(io::structural_differences(scene, t.import_file(t.out.file("out.pbrt")), t.plugins.registry)) == "");
     Light edited = *scene.lights.find(Id<Light>{1});
     edited.value *= 2;

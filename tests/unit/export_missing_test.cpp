@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exports keep what an import could not read, and textures that are not rendered here; strict ones refuse losses.
+// Exports keep what an import could not read, and unrendered textures; strict ones refuse losses.
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "io/scene_compare.hpp"
@@ -72,7 +72,7 @@ io::ImportedScene imported(const std::string& path, const Plugins& plugins) {
 
 } // namespace
 
-TEST_CASE("what could not be read is written back where it was", "[export]") {
+TEST_CASE("unreadable things are written back in their place", "[export]") {
     Plugins plugins;
     Folder folder, second;
     write(folder.file("in.pbrt"), v4_head + lost_files);
@@ -138,7 +138,7 @@ TEST_CASE("strict exports refuse what the format lacks and write nothing", "[exp
     CHECK(out.contents().count("out.pbrt") == 1);
 }
 
-TEST_CASE("a picture that is not there is told of once, with the place that asks for it", "[export]") {
+TEST_CASE("a missing picture is reported once, with the place that uses it", "[export]") {
     Plugins plugins;
     Folder folder;
     write(folder.file("in.pbrt"), v4_head +
@@ -152,7 +152,7 @@ TEST_CASE("a picture that is not there is told of once, with the place that asks
     CHECK_THAT(told->note, ContainsSubstring("there is no such file"));
 }
 
-TEST_CASE("a strict conversion refuses what the written file lacks, not what is only shown otherwise", "[export]") {
+TEST_CASE("a strict conversion refuses what the file lacks, not what is only rendered differently", "[export]") {
     Plugins plugins;
     Folder folder, out;
     const auto converted = [&](const std::string& text, const char* to) {
@@ -182,7 +182,7 @@ TEST_CASE("a strict conversion refuses what the written file lacks, not what is 
                ContainsSubstring("none.ply"));
 }
 
-TEST_CASE("a spot that fades as the other version's is reported", "[export]") {
+TEST_CASE("a spot that fades like the other version's is reported", "[export]") {
     Plugins plugins;
     Folder folder, out;
     write(folder.file("in.pbrt"), v3_head + "LightSource \"spot\" \"float conedeltaangle\" 20\nWorldEnd\n");
@@ -196,7 +196,7 @@ TEST_CASE("a spot that fades as the other version's is reported", "[export]") {
     CHECK_THAT(other->entries[0].note, ContainsSubstring("fourth power"));
 }
 
-TEST_CASE("what both versions of pbrt have is written in the words of the other", "[export]") {
+TEST_CASE("features of both versions of pbrt are written in the other's syntax", "[export]") {
     Plugins plugins;
     Folder folder, out, back;
     const std::string textures = R"(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pbrt has no place for survives in comments: names, nested groups, hidden things, waiting cameras; and what
-// lights and curves were before the renderer reduced them.
+// What pbrt cannot express survives in comments: names, nested groups, hidden things, inactive cameras; and
+// lights and curves as they were before the renderer reduced them.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/export.hpp"
@@ -59,7 +59,7 @@ io::SceneCompareOptions with_names() {
 
 } // namespace
 
-TEST_CASE("names, groups, hidden things and waiting cameras survive pbrt", "[export]") {
+TEST_CASE("names, groups, hidden things and inactive cameras survive pbrt", "[export]") {
     Plugins plugins;
     const char* v = GENERATE("v4", "v3");
     CAPTURE(v);
@@ -76,7 +76,7 @@ TEST_CASE("names, groups, hidden things and waiting cameras survive pbrt", "[exp
         if (entry.fate != io::Fate::kept) FAIL_CHECK(io::to_string(entry));
     CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry, with_names())) == "");
 
-    // To pbrt the hidden ones and the waiting cameras are comments.
+    // To pbrt hidden things and inactive cameras are comments.
     const std::string text = read_file(folder.file("out.pbrt")).value();
     std::size_t cameras = 0;
     for (std::size_t at = text.find("\nCamera "); at != std::string::npos; at = text.find("\nCamera ", at + 1))
@@ -93,7 +93,7 @@ TEST_CASE("names, groups, hidden things and waiting cameras survive pbrt", "[exp
     CHECK_THAT(text, ContainsSubstring("#restage     LightSource \"spot\""));
 }
 
-TEST_CASE("the comparison of scenes sees names when it is asked to", "[export]") {
+TEST_CASE("the comparison of scenes includes names on request", "[export]") {
     Plugins plugins;
     const Everything a = furnished(true);
     const auto differences = [&](auto&& change, bool names) {
@@ -111,7 +111,7 @@ TEST_CASE("the comparison of scenes sees names when it is asked to", "[export]")
     CHECK_THAT(differences(camera, true), ContainsSubstring("cameras: "));
 }
 
-TEST_CASE("lights that were given by spectra go back as they came until they are edited", "[export]") {
+TEST_CASE("lights given by spectra are written back verbatim until they are edited", "[export]") {
     Plugins plugins;
     Folder in, folder;
     REQUIRE(write_file_atomic(in.file("lamp.spd"), "400 1\n500 2\n600 3\n700 3\n"));
@@ -164,7 +164,7 @@ Shape "disk"
                            ContainsSubstring("given by a spectrum") && ContainsSubstring("\"bulb\""));
 }
 
-TEST_CASE("curves go back as curves", "[export]") {
+TEST_CASE("curves are written back as curves", "[export]") {
     Plugins plugins;
     Folder folder;
     REQUIRE(write_file_atomic(folder.file("in.pbrt"), R"(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the export tests share: the plugins that were built, a folder that goes away again, and a scene that holds
+// Shared by the export tests: the plugins that were built, a temporary folder, and a scene that holds
 // something of every kind.
 #pragma once
 
@@ -28,7 +28,7 @@ struct Plugins { // everything that was built
             std::vector<plugin::SearchPath>{{restage::test::build_dir() / "lib" / "restage" / "plugins", true}});
         for (const auto* entry : registry.entries()) {
             INFO(entry->name() << ": " << entry->reason);
-            if (!entry->manifest.provides_any("restage.denoiser")) // those are no part of this
+            if (!entry->manifest.provides_any("restage.denoiser")) // not part of this
                 CHECK(entry->state == plugin::State::loaded);
         }
         REQUIRE(registry.find_importer("pbrt"));
@@ -64,7 +64,7 @@ inline std::string joined(const std::vector<std::string>& lines) {
 
 glm::dmat4 place(double x, double turn, glm::dvec3 scale = glm::dvec3(1));
 
-// Of every kind of thing something, with numbers that have no short decimal form.
+// Something of every kind, with numbers that have no short decimal form.
 struct Everything {
     scene::Scene scene;
     template <class T>
@@ -84,7 +84,7 @@ struct Everything {
         add(scene::Instance{.name = name, .mesh = mesh, .material = m, .object_to_world = place(x, turn)});
     }
 
-    explicit Everything(bool v4); // what pbrt-v4 can hold, or what v3 can
+    explicit Everything(bool v4); // what pbrt-v4 or v3 can hold
 };
 
 } // namespace restage::test

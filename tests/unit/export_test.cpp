@@ -51,7 +51,7 @@ TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
     CHECK(joined(io::structural_differences(again->scene, third->scene, plugins.registry)) == "");
 }
 
-TEST_CASE("the comparison of scenes sees what differs", "[export]") {
+TEST_CASE("the comparison of scenes finds differences", "[export]") {
     Plugins plugins;
     const Everything a(true);
     const auto differences = [&](auto&& change) {
@@ -125,7 +125,7 @@ TEST_CASE("undo to the start writes the same bytes", "[export]") {
     CHECK_FALSE(session.modified());
 }
 
-TEST_CASE("what the renderer reduced or did not understand is written back until it is edited", "[export]") {
+TEST_CASE("values that the renderer reduced or did not understand are written back until edited", "[export]") {
     Plugins plugins;
     Folder folder;
     REQUIRE(write_file_atomic(folder.file("in.pbrt"), R"(
@@ -176,7 +176,7 @@ Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
                           ContainsSubstring("\"string type\" [ \"metal\" ]"));
 }
 
-TEST_CASE("the session holds values to the material's table", "[export]") {
+TEST_CASE("the session checks values against the material's table", "[export]") {
     Plugins plugins;
     document::Session session(plugins.registry);
     session.adopt(Everything(true).scene);
@@ -185,15 +185,15 @@ TEST_CASE("the session holds values to the material's table", "[export]") {
         return session.set_param(gold, param, std::move(value)).error().message;
     };
     CHECK_THAT(refused("uroughness", Value::number(7)), ContainsSubstring("out of its range"));
-    CHECK_THAT(refused("uroughness", Value::color(0, 0, 0)), ContainsSubstring("has another type"));
+    CHECK_THAT(refused("uroughness", Value::color(0, 0, 0)), ContainsSubstring("has a different type"));
     CHECK_THAT(refused("remap", Value::choice("v5")), ContainsSubstring("v4|v3|none are possible"));
-    CHECK_THAT(refused("sheen", Value::number(0)), ContainsSubstring("is not one of a conductor"));
+    CHECK_THAT(refused("sheen", Value::number(0)), ContainsSubstring("does not exist in a conductor"));
     CHECK_THAT(refused("use_reflectance", {.type = model::ParamType::boolean, .texture = {1}}),
                ContainsSubstring("takes no texture"));
     CHECK_FALSE(session.modified());
     CHECK_FALSE(session.add_material("x", "unobtainium"));
     CHECK_FALSE(session.open("/no/such/file.pbrt"));
-    CHECK(session.scene().instances.live() > 0); // what is open stays open
+    CHECK(session.scene().instances.live() > 0); // the open document stays open
     const Version before = session.version();
     session.adopt(Everything(true).scene);
     CHECK(session.version() > before);
@@ -235,7 +235,7 @@ TEST_CASE("copies of an object cost one mesh in the file", "[export]") {
     CHECK(placed == 6);
 }
 
-TEST_CASE("what a version cannot hold is in the report", "[export]") {
+TEST_CASE("losses of a version are in the report", "[export]") {
     Plugins plugins;
     Folder folder;
     const auto lacks = [&](const Scene& scene, const char* v, const char* part) {
@@ -243,7 +243,7 @@ TEST_CASE("what a version cannot hold is in the report", "[export]") {
         REQUIRE(report);
         CHECK(std::any_of(report->entries.begin(), report->entries.end(),
                           [&](const auto& e) { return io::to_string(e).find(part) != std::string::npos; }));
-        const auto again = io::import_scene(folder.file("s.pbrt"), plugins.registry); // still a sound file
+        const auto again = io::import_scene(folder.file("s.pbrt"), plugins.registry); // still a valid file
         REQUIRE(again);
         CHECK(again->scene.instances.live() == scene.instances.live());
     };
@@ -255,11 +255,11 @@ TEST_CASE("what a version cannot hold is in the report", "[export]") {
     Environment sky = *hidden.scene.environment.value;
     sky.hidden_from_camera = true;
     apply(hidden.scene, set_environment(hidden.scene, sky));
-    lacks(hidden.scene, "v4", "not seen by the camera");
-    lacks(hidden.scene, "v3", "not seen by the camera");
+    lacks(hidden.scene, "v4", "hidden from the camera");
+    lacks(hidden.scene, "v3", "hidden from the camera");
 }
 
-TEST_CASE("an export that fails leaves what was there", "[export]") {
+TEST_CASE("a failed export leaves the old files", "[export]") {
     Plugins plugins;
     Folder folder;
     const Everything made(true);
@@ -281,5 +281,5 @@ TEST_CASE("an export that fails leaves what was there", "[export]") {
     CHECK_THAT(io::export_scene(made.scene, folder.file("no/such/s.pbrt"), plugins.registry).error().message,
                ContainsSubstring("there is no folder"));
     CHECK_THAT(io::export_scene(made.scene, folder.file("s.blend"), plugins.registry).error().message,
-               ContainsSubstring("no exporter writes files called .blend; known are: pbrt"));
+               ContainsSubstring("no exporter writes files called .blend; known: pbrt"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From one version of pbrt to the other: what both have is written in the other's words, what only says how is no loss,
-// and the rest is named in the report.
+// From one version of pbrt to the other: common features are written in the other's syntax, sampling settings are no
+// loss, and the rest is named in the report.
 #include "export_scene.hpp"
 #include "io/import.hpp"
 
@@ -36,7 +36,7 @@ const std::string camera = "Camera \"perspective\" \"float shutteropen\" 0 \"flo
 
 } // namespace
 
-TEST_CASE("samplers, integrators and shutters are written in the other version's words", "[export]") {
+TEST_CASE("samplers, integrators and shutters are written in the other version's syntax", "[export]") {
     Plugins plugins;
     const auto v4 =
         converted(plugins,
@@ -62,10 +62,10 @@ TEST_CASE("samplers, integrators and shutters are written in the other version's
     CHECK(v3.report == "");
     CHECK_THAT(v3.text, ContainsSubstring("Sampler \"sobol\" \"integer pixelsamples\" [ 64 ]"));
     CHECK_THAT(v3.text, ContainsSubstring("Integrator \"volpath\" \"integer maxdepth\" [ 5 ]"));
-    CHECK(converted(plugins, "Film \"rgb\"\nWorldBegin\n", "v3").report == ""); // what nobody wrote is not lost
+    CHECK(converted(plugins, "Film \"rgb\"\nWorldBegin\n", "v3").report == ""); // defaults are not lost
 }
 
-TEST_CASE("settings that the other version has not are named", "[export]") {
+TEST_CASE("settings that the other version lacks are named", "[export]") {
     Plugins plugins;
     const auto v4 = converted(
         plugins, "Film \"image\" \"float maxsampleluminance\" 9\nIntegrator \"directlighting\"\nWorldBegin\nWorldEnd\n",
@@ -83,7 +83,7 @@ TEST_CASE("settings that the other version has not are named", "[export]") {
     CHECK_THAT(v3.text, ContainsSubstring("Integrator \"path\""));
 }
 
-TEST_CASE("how a texture is filtered is no loss", "[export]") {
+TEST_CASE("texture filtering settings are no loss", "[export]") {
     Plugins plugins;
     const auto v4 = converted(plugins,
                               "Film \"image\"\nWorldBegin\nTexture \"c\" \"color\" \"checkerboard\" \"string aamode\" "
@@ -154,7 +154,7 @@ TEST_CASE("a coloured scale of a sky's picture goes into the picture for pbrt-v4
     CHECK(std::abs(first[1] / first[0] - 2) < 0.01f);
 }
 
-TEST_CASE("shapes are written with the values that count", "[export]") {
+TEST_CASE("shapes are written with their effective values", "[export]") {
     Plugins plugins;
     const std::string v3 = "Film \"image\"\nWorldBegin\n", v4 = "Film \"rgb\"\nWorldBegin\n";
     const std::string wrong =
@@ -174,7 +174,7 @@ TEST_CASE("shapes are written with the values that count", "[export]") {
     CHECK_THAT(attribute.text, ContainsSubstring("Shape \"sphere\" \"float radius\" [ 2 ]\n"));
 }
 
-TEST_CASE("files that are not there keep their names wherever they are named", "[export]") {
+TEST_CASE("missing files keep their names wherever they are named", "[export]") {
     Plugins plugins;
     const auto v4 =
         converted(plugins,
@@ -199,7 +199,7 @@ TEST_CASE("files that are not there keep their names wherever they are named", "
     CHECK_THAT(v4.report, !ContainsSubstring("colour space"));
 }
 
-TEST_CASE("lamps without a surface, and lamps of alpha 0, shine in the other version", "[export]") {
+TEST_CASE("lamps with null surfaces, and lamps of alpha 0, emit in the other version", "[export]") {
     Plugins plugins;
     const std::string lamp =
         "AttributeBegin\nMaterial \"none\"\nAreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\nShape "
@@ -209,7 +209,7 @@ TEST_CASE("lamps without a surface, and lamps of alpha 0, shine in the other ver
     CHECK_THAT(v4.text, ContainsSubstring("AreaLightSource \"diffuse\" \"rgb L\" [ 5 5 5 ]"));
     CHECK_THAT(v4.text, ContainsSubstring("Material \"diffuse\"\n        Shape \"sphere\" \"float alpha\" [ 0 ]") ||
                             ContainsSubstring("Material \"diffuse\"\n    Shape \"sphere\" \"float alpha\" [ 0 ]"));
-    CHECK_THAT(v4.report, ContainsSubstring("shines, and is not seen"));
+    CHECK_THAT(v4.report, ContainsSubstring("emits, and is invisible"));
     const auto zero =
         converted(plugins,
                   "Film \"rgb\"\nWorldBegin\nTexture \"a\" \"float\" \"constant\" \"float value\" 0\n"

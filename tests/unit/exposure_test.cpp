@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light for scenes whose file says nothing of it: metered exposure, closed rooms, scenes without any light.
+// Light for scenes whose file has none: metered exposure, closed rooms, scenes without any light.
 #include "document/exposure.hpp"
 
 #include "document/document.hpp"
@@ -58,13 +58,13 @@ TEST_CASE("exposure: lamps in lux and candela are metered, the same every time",
     Floor weak; // 1 candela, 4 above a floor: 1/16 lux
     weak.lamp("point", 1, {0, 4, 0});
     CHECK(double(opened(files, weak).scene.film.value.exposure) == Approx(0.6 * 3.14159265 * 16).epsilon(0.1));
-    Floor usual; // what makes a picture as it is stays as it is
+    Floor usual; // a scene with a usable exposure is unchanged
     usual.lamp("directional", 3, {0, 0, 0});
     CHECK(opened(files, usual).scene.film.value.exposure == 1);
     CHECK(opened(files, usual).report.entries == opened(files, usual).report.entries);
 }
 
-TEST_CASE("exposure: lamps that light nothing are joined by a studio, closed rooms by a lamp", "[exposure]") {
+TEST_CASE("exposure: lamps that light nothing get a studio, closed rooms a lamp", "[exposure]") {
     ModelFiles files;
     Floor below; // the lamp shines on the floor's back
     below.lamp("point", 100, {0, -1, 0});
@@ -89,13 +89,13 @@ TEST_CASE("exposure: lamps that light nothing are joined by a studio, closed roo
     CHECK(in.scene.film.value.exposure == 1);
 }
 
-TEST_CASE("exposure: scenes of other files stay as they are; without light they say so", "[exposure]") {
+TEST_CASE("exposure: scenes of other formats are unchanged; those without light are reported", "[exposure]") {
     ModelFiles files;
     const std::string dark = "Camera \"perspective\"\nWorldBegin\nTranslate 0 0 5\nShape \"sphere\"\n";
     files.write("dark.pbrt", dark);
     auto in = opened(files, "dark.pbrt");
     CHECK_FALSE(document::has_light(in.scene, files.registry));
-    CHECK(says(in, io::Fate::kept, "", "light: nothing shines in this scene, so its picture is black"));
+    CHECK(says(in, io::Fate::kept, "", "light: nothing emits light in this scene, so its picture is black"));
     CHECK(in.scene.lights.live() == 0);
     CHECK(in.scene.film.value.exposure == 1);
     files.write("bright.pbrt",

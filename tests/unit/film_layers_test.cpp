@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every layer that a film has is shown, written, read and merged, without anybody naming it again.
+// Every layer that a film has is shown, written, read and merged, without being named elsewhere.
 #include "render/film_layers.hpp"
 #include "render/tracers.hpp"
 #include "temporary_folder.hpp"
@@ -83,7 +83,7 @@ TEST_CASE("layers of a film are shown, and so is the error") {
     CHECK(labels.contains("Error"));
 }
 
-TEST_CASE("tracers are found by their names; the device chooses where nobody does") {
+TEST_CASE("tracers are found by their names; by default the device chooses") {
     for (const render::TracerKind& kind : render::tracer_kinds())
         CHECK(render::find_tracer(kind.name) == &kind);
     CHECK_FALSE(render::find_tracer("abacus"));

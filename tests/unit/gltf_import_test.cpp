@@ -182,7 +182,7 @@ TEST_CASE("gltf: cameras and lights look along -z, and angles are those of the s
     CHECK_FALSE(in.scene.environment.value); // the file has its own light
 }
 
-TEST_CASE("gltf: a skin stands as its nodes do", "[gltf]") {
+TEST_CASE("gltf: a skin follows its nodes", "[gltf]") {
     ModelFiles files;
     Builder b;
     auto& attributes = b.root["meshes"][0]["primitives"][0]["attributes"];
@@ -190,7 +190,7 @@ TEST_CASE("gltf: a skin stands as its nodes do", "[gltf]") {
     attributes["WEIGHTS_0"] = b.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
     b.root["scenes"][0]["nodes"] = {0, 1};
     b.root["nodes"][0]["skin"] = 0;
-    b.root["nodes"][0]["translation"] = {9, 9, 9}; // has no say
+    b.root["nodes"][0]["translation"] = {9, 9, 9}; // is ignored
     b.root["nodes"].push_back({{"translation", {0, 0, 7}}});
     b.root["skins"] = {{{"joints", {1}}}};
     const auto in = b.load(files);
@@ -199,7 +199,7 @@ TEST_CASE("gltf: a skin stands as its nodes do", "[gltf]") {
     CHECK(says(in, io::Fate::approximated, "", "skins"));
 }
 
-TEST_CASE("gltf: what is wrong is named as glTF counts it", "[gltf]") {
+TEST_CASE("gltf: errors name things by their glTF index", "[gltf]") {
     ModelFiles files;
     const auto broken = [&](auto&& change) {
         Builder b;
@@ -213,7 +213,7 @@ TEST_CASE("gltf: what is wrong is named as glTF counts it", "[gltf]") {
     CHECK_THAT(broken([](Builder& b) { b.root["bufferViews"][0]["byteLength"] = 4000; }),
                ContainsSubstring("buffer view 0 reaches to byte"));
     CHECK_THAT(broken([](Builder& b) { b.root["nodes"][0]["children"] = {0}; }),
-               ContainsSubstring("node 0 stands in the hierarchy twice"));
+               ContainsSubstring("node 0 occurs in the hierarchy twice"));
     CHECK_THAT(broken([](Builder& b) { b.root["nodes"][0]["mesh"] = 3; }), ContainsSubstring("mesh 3"));
     CHECK_THAT(broken([](Builder& b) {
                    b.root["meshes"][0]["primitives"][0]["indices"] =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a glTF file looks like: tangents, texture coordinates, vertex colours, emission, visibility; and what it may ask
-// for (extensions, scenes, names of files, lengths of buffers).
+// What a glTF file looks like: tangents, texture coordinates, vertex colours, emission, visibility; and what it may
+// use (extensions, scenes, names of files, lengths of buffers).
 #include "document/exposure.hpp"
 #include "document/session.hpp"
 #include "gltf_builder.hpp"
@@ -68,7 +68,7 @@ TEST_CASE("gltf: tangents follow uv, and their sign is that of mirrored ones", "
         for (const glm::vec4& t : mesh.tangents) // uv grow to the right, v upwards here
             CHECK(t == glm::vec4(mirrored ? -1 : 1, 0, 0, mirrored ? -1 : 1));
     }
-    Square plain; // nobody asks
+    Square plain; // unused
     CHECK(mesh_of(plain.load(files)).tangents.empty());
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("gltf: a vertex between mirrored and unmirrored triangles is split", "
     CHECK(mesh.positions[mesh.triangles[1][0]] == glm::vec3(0));
 }
 
-TEST_CASE("gltf: a turned normal map turns its tangents", "[gltf]") {
+TEST_CASE("gltf: a rotated normal map rotates its tangents", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["normalTexture"] = texture();
@@ -150,7 +150,7 @@ TEST_CASE("gltf: textures lie on their own sets of texture coordinates", "[gltf]
     CHECK(says(b.load(files), io::Fate::approximated, "a.gltf", "TEXCOORD_2: objects have two sets"));
     b.material()["emissiveTexture"] = texture(7); // the file has no such set
     b.material()["pbrMetallicRoughness"].erase("metallicRoughnessTexture");
-    CHECK(says(b.load(files), io::Fate::approximated, "a.gltf", "TEXCOORD_7, which it has not"));
+    CHECK(says(b.load(files), io::Fate::approximated, "a.gltf", "TEXCOORD_7, which it lacks"));
 }
 
 TEST_CASE("gltf: vertex colours multiply a texture, and their alpha is coverage", "[gltf]") {
@@ -187,7 +187,7 @@ TEST_CASE("gltf: vertex colours multiply a texture, and their alpha is coverage"
     CHECK_FALSE(thing(b.load(files)).alpha_texture);
 }
 
-TEST_CASE("gltf: an even alpha of vertex colours is the object's", "[gltf]") {
+TEST_CASE("gltf: a uniform alpha of vertex colours becomes the object's", "[gltf]") {
     ModelFiles files;
     Builder b;
     b.root["meshes"][0]["primitives"][0]["material"] = 0;
@@ -201,7 +201,7 @@ TEST_CASE("gltf: an even alpha of vertex colours is the object's", "[gltf]") {
     CHECK(thing(b.load(files)).alpha == 1);
 }
 
-TEST_CASE("gltf: an emissive picture shines as a picture, over the material it had", "[gltf]") {
+TEST_CASE("gltf: an emissive picture emits as a picture, over its material", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 1};
@@ -232,7 +232,7 @@ TEST_CASE("gltf: an emissive picture shines as a picture, over the material it h
     CHECK(std::ranges::any_of(report->entries, [](const io::ReportEntry& e) {
         return e.fate == io::Fate::approximated && e.note.find("the mean of its emission's texture") != e.note.npos;
     }));
-    // A picture that cannot be read does not shine.
+    // An unreadable picture emits nothing.
     b.root["images"][0]["uri"] = "none.png";
     const auto dark = b.load(files);
     CHECK_FALSE(io::MaterialEmissions(files.registry, dark.scene).of(thing(dark).material));
@@ -279,7 +279,7 @@ TEST_CASE("gltf: specular-glossiness metals and bright speculars keep their colo
     CHECK(in.report.count(io::Fate::approximated) == 0);
 }
 
-TEST_CASE("gltf: a picture of the thickness of a film mixes its two bounds", "[gltf]") {
+TEST_CASE("gltf: a film thickness texture interpolates its two bounds", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["name"] = "a bubble of soap with a long name";
@@ -296,7 +296,7 @@ TEST_CASE("gltf: a picture of the thickness of a film mixes its two bounds", "[g
     CHECK(mix.params.texture("amount"));
 }
 
-TEST_CASE("gltf: a coat that is not as the normal map below it is reported", "[gltf]") {
+TEST_CASE("gltf: a coat that does not follow the normal map below is reported", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["normalTexture"] = texture();
@@ -340,14 +340,14 @@ TEST_CASE("gltf: a light whose node is not visible is switched off", "[gltf]") {
     CHECK(off.scene.environment.value); // the studio: nothing else shines
 }
 
-TEST_CASE("gltf: unknown extensions are refused where the file requires them, else reported", "[gltf]") {
+TEST_CASE("gltf: unknown extensions are refused if required, else reported", "[gltf]") {
     ModelFiles files;
     Builder b;
     b.root["extensionsUsed"] = {"ACME_geometry", "MSFT_lod", "KHR_texture_transform"};
     const auto in = b.load(files);
     CHECK(says(in, io::Fate::dropped, "a.gltf", "not read: ACME_geometry, MSFT_lod"));
     b.root["extensionsRequired"] = {"ACME_geometry"};
-    CHECK_THAT(b.error(files), ContainsSubstring("requires what is not known here: ACME_geometry"));
+    CHECK_THAT(b.error(files), ContainsSubstring("requires unknown extensions: ACME_geometry"));
 }
 
 TEST_CASE("gltf: without scenes the root nodes are shown", "[gltf]") {
@@ -360,7 +360,7 @@ TEST_CASE("gltf: without scenes the root nodes are shown", "[gltf]") {
     const auto in = b.load(files);
     CHECK(thing(in).object_to_world[3].z == 3);
     b.root["scenes"] = {{{"name", "empty"}}, {{"nodes", {1}}}};
-    CHECK(b.load(files).scene.instances.live() == 1); // the first with something in it
+    CHECK(b.load(files).scene.instances.live() == 1); // the first non-empty one
 }
 
 TEST_CASE("gltf: a buffer's file may be longer, and has any name", "[gltf]") {
@@ -377,7 +377,7 @@ TEST_CASE("gltf: a buffer's file may be longer, and has any name", "[gltf]") {
     CHECK(with("data.bin", "data.bin", 100) == 1);
     CHECK(with("my%20data.bin", "my data.bin", 0) == 1);
     CHECK(with("100%25.bin", "100%.bin", 0) == 1);
-    CHECK(with("100%.bin", "100%.bin", 0) == 1); // not as it should be written, and meant all the same
+    CHECK(with("100%.bin", "100%.bin", 0) == 1); // not properly encoded, but unambiguous
     CHECK(with("a%20b.bin", "a%20b.bin", 0) == 1);
     CHECK(with("a+b.bin", "a+b.bin", 7) == 1);
     b.root["buffers"] = {{{"byteLength", b.bytes.size() + 1}, {"uri", "short.bin"}}};

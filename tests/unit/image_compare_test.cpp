@@ -143,7 +143,7 @@ TEST_CASE("image_compare: z-test by hand, and without noise") {
     CHECK_FALSE(io::z_test(a, b));
 }
 
-TEST_CASE("image_compare: two halves tell their own variance") {
+TEST_CASE("image_compare: two halves give their own variance") {
     const auto truth = noisy(0, 0);
     const auto reference = io::estimate_of_halves(grey(noisy(3, 0.2f)), grey(noisy(4, 0.2f)));
     REQUIRE(reference);

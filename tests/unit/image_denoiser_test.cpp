@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Denoiser plugins: every one that is there makes a noisy picture better and reports progress; oidn without its library
+// Denoiser plugins: every installed one improves a noisy picture and reports progress; oidn without its library
 // says so. The library is fetched by tools/setup, so its absence is a failure here, not a reason to skip.
 #include "image_test_files.hpp"
 #include "io/services.hpp"
@@ -173,7 +173,7 @@ TEST_CASE("denoiser: a job without a picture is refused") {
     CHECK(refused.error().message.find("no picture") != std::string::npos);
 }
 
-TEST_CASE("denoiser: oidn without its library is not available and says why") {
+TEST_CASE("denoiser: oidn without its library is unavailable and says why") {
     const test::TemporaryFolder folder;
     {
         const Environment path("RESTAGE_OIDN_PATH", folder / "nowhere");

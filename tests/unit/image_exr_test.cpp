@@ -82,7 +82,7 @@ TEST_CASE("exr: a half layer rounds to half and never becomes infinite") {
     CHECK(back->layers[0].values[2] == -65504);
 }
 
-TEST_CASE("exr: as a texture, the plain colour layer is taken") {
+TEST_CASE("exr: as a texture, the plain colour layer is used") {
     const TemporaryFolder folder;
     REQUIRE(io::write_exr(folder / "a.exr", render()));
     const auto image = io::read_image(folder / "a.exr", scene::Encoding::srgb); // float: the encoding does not matter
@@ -190,7 +190,7 @@ TEST_CASE("exr: luminance with subsampled chroma becomes RGB") {
     CHECK_FALSE(io::read_exr(path)); // as layers it is refused
 }
 
-TEST_CASE("exr: what cannot be written is refused, and the old file stays") {
+TEST_CASE("exr: unwritable images are refused, and the old file stays") {
     const TemporaryFolder folder;
     const auto good = render();
     REQUIRE(io::write_exr(folder / "a.exr", good));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files: each format gives the numbers that were put in, and a file that lies or ends early gives an error.
+// Image files: each format returns the stored numbers, and a file that lies or ends early gives an error.
 #include "io/image_file.hpp"
 #include "io/image_file_codecs.hpp"
 
@@ -110,7 +110,7 @@ TEST_CASE("image_file: all bits of a number are kept, and few bits are spread ov
     CHECK(palette->values[16 * 4 + 3] == 1);
 }
 
-TEST_CASE("image_file: inks become the light that passes them, Adobe's inverted ones as well") {
+TEST_CASE("image_file: CMYK inks become transmitted light, Adobe's inverted ones as well") {
     const auto adobe = io::read_image(data_image("cmyk.jpg"), scene::Encoding::linear);
     REQUIRE(adobe);
     REQUIRE(adobe->channels == 3);
@@ -316,7 +316,7 @@ TEST_CASE("image_file: a file cut anywhere is an error that names it") {
     }
 }
 
-TEST_CASE("image_file: sizes that cannot be meant are refused before memory is taken") {
+TEST_CASE("image_file: implausible sizes are refused before memory is allocated") {
     const TemporaryFolder folder;
     const auto refused = [&](std::string_view bytes) {
         REQUIRE(write_file_atomic(folder / "lie", bytes));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where tests of images take files from and put them.
+// Input and output folders of the image tests.
 #pragma once
 
 #include "paths.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// io: what an importer pushes arrives, what it must not push is refused with a line, and three outcomes of an import.
+// io: an importer's data arrives, invalid data is refused with a line, and an import has three outcomes.
 #include "base/file.hpp"
 #include "io/export.hpp"
 #include "io/import.hpp"
@@ -92,12 +92,11 @@ TEST_CASE("an import ends in a scene with a report", "[io]") {
     CHECK(imported->report.count(Fate::dropped) == 1);
 }
 
-TEST_CASE("a file nobody knows is refused with what is known", "[io]") {
+TEST_CASE("a file of unknown format is refused with the known formats", "[io]") {
     TestImporter test;
     const auto unknown = import_scene(test.file("a.xyz", "something else"), test.registry);
     REQUIRE_FALSE(unknown);
-    CHECK_THAT(unknown.error().message,
-               ContainsSubstring("the format of this file is not known; known are: Test format"));
+    CHECK_THAT(unknown.error().message, ContainsSubstring("unknown file format; known: Test format"));
     CHECK_FALSE(import_scene(test.file("empty", ""), test.registry));
     CHECK_THAT(import_scene("/no/such/file", test.registry).error().message, ContainsSubstring("No such file"));
     CHECK_THAT(import_scene(test.path.string(), test.registry).error().message, ContainsSubstring("is a folder"));
@@ -111,7 +110,7 @@ TEST_CASE("a file nobody knows is refused with what is known", "[io]") {
     CHECK_FALSE(unknown.error().cancelled());
 }
 
-TEST_CASE("what an importer pushes arrives as it is", "[io]") {
+TEST_CASE("an importer's data arrives unchanged", "[io]") {
     Pushed p;
     const float normals[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     const float uvs[6] = {0, 0, 1, 0, 0, 1};
@@ -192,7 +191,7 @@ TEST_CASE("names are unique within their kind", "[io]") {
     CHECK(names == std::vector<std::string>{"m", "m 2", "m 2 2", "mesh 1", "mesh 2"});
 }
 
-TEST_CASE("what cannot be is refused with a line in the report", "[io]") {
+TEST_CASE("invalid data is refused with a line in the report", "[io]") {
     Pushed p;
     const RestageHandle mesh = p.out.mesh(p.out.ctx, &p.mesh);
     const RestageHandle material = p.out.material(p.out.ctx, &p.material);
@@ -210,10 +209,10 @@ TEST_CASE("what cannot be is refused with a line in the report", "[io]") {
     p.mesh.triangle_count = 1;
     const float bad_normals[9] = {0, 0, 1, not_a_number, 0, 1, 0, 0, 1};
     p.mesh.normals = bad_normals;
-    const RestageHandle without = p.out.mesh(p.out.ctx, &p.mesh); // the mesh is worth more than its normals
+    const RestageHandle without = p.out.mesh(p.out.ctx, &p.mesh); // the mesh is kept without its normals
     REQUIRE(without);
     CHECK(p.writer.scene.meshes[{without}].data->normals.empty());
-    CHECK(p.noted("done without"));
+    CHECK(p.noted("left out"));
 
     CHECK(p.out.instance(p.out.ctx, [&] {
         static RestageInstance i;
@@ -253,8 +252,8 @@ TEST_CASE("what cannot be is refused with a line in the report", "[io]") {
     const RestageGroup orphan{.parent = 4};
     CHECK(p.out.group(p.out.ctx, &orphan) == 0);
     Jobs jobs(1);
-    REQUIRE(p.writer.finish(jobs, true)); // what is left is sound; a camera was added
-    CHECK(p.noted("one in front of everything"));
+    REQUIRE(p.writer.finish(jobs, true)); // the rest is valid; a camera was added
+    CHECK(p.noted("one was added in front of everything"));
     CHECK(scene::validate(p.writer.scene).empty());
 }
 
@@ -299,7 +298,7 @@ TEST_CASE("a missing image is reported and the rest goes on; one file is one ima
     fs::remove(there);
 }
 
-TEST_CASE("export options are held to the exporter's table", "[io]") {
+TEST_CASE("export options are checked against the exporter's table", "[io]") {
     const model::Exporter exporter{
         .format = "x",
         .label = "X",

@@ -112,7 +112,7 @@ TEST_CASE("files are written alike in every locale", "[locale]") {
     }
 }
 
-TEST_CASE("a shutter and a light that were kept as text are read alike in every locale", "[locale]") {
+TEST_CASE("a shutter and a light kept as text are read alike in every locale", "[locale]") {
     Plugins plugins;
     Folder folder;
     REQUIRE(write_file_atomic(
@@ -132,7 +132,7 @@ TEST_CASE("a shutter and a light that were kept as text are read alike in every 
     CHECK(plain == round("b.pbrt"));
 }
 
-TEST_CASE("sentences hold points, not commas, in every locale", "[locale]") {
+TEST_CASE("messages use decimal points, not commas, in every locale", "[locale]") {
     const CommaLocale commas;
     Everything all(true);
     scene::Camera wrong;

@@ -76,7 +76,7 @@ TEST_CASE("insert: objects come with what they need, and nothing else", "[merge]
     CHECK(told);
 }
 
-TEST_CASE("insert: one step back and it was never there, forth and it is again", "[merge]") {
+TEST_CASE("insert: one step that undo removes completely and redo restores", "[merge]") {
     Room room;
     const auto live = [&] { return room.session.scene().instances.live(); };
     const auto merged = room.insert("pair.obj");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The importer of PLY and STL files: what they become, and what is said of broken ones.
+// The importer of PLY and STL files: the results, and the errors of broken ones.
 #include "model_files.hpp"
 
 #include <algorithm>
@@ -139,8 +139,8 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
     const auto faces = files.load("f.ply");
     CHECK(first_texel(faces) == std::array<float, 3>{0, 0, 1});
     CHECK(says(faces, io::Fate::dropped, "f.ply", "face property \"quality\": 2 values"));
-    CHECK(says(faces, io::Fate::dropped, "f.ply", "1 are named, but nothing says"));
-    // An opacity beside the colours is worth a word only where something can be seen through.
+    CHECK(says(faces, io::Fate::dropped, "f.ply", "1 are named, but there are no texture"));
+    // An opacity beside the colours is reported only if something is transparent.
     const std::string rgba = rgb + "property uchar alpha\n";
     const auto with_opacity = [&](const char* vertex, const char* face) {
         const auto row = [&](const char* place) { return std::string(place) + " 255 0 0 " + vertex + "\n"; };
@@ -218,7 +218,7 @@ TEST_CASE("meshes: broken files say where", "[mesh]") {
     CHECK_THAT(error("a.stl", binary({{0, 0, 0, std::nanf(""), 0, 0, 0, 1, 0}}, 1)), ContainsSubstring("byte 108: "));
     CHECK_THAT(error("a.stl", ""), ContainsSubstring("header ends early"));
     CHECK_THAT(error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n"),
-               ContainsSubstring("a.stl:4:12: \"zero\" is no finite number"));
+               ContainsSubstring("a.stl:4:12: \"zero\" is not a finite number"));
     CHECK_THAT(error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nendloop\n"), ContainsSubstring("a.stl:4:1: "));
     CHECK_THAT(error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0"),
                ContainsSubstring("the file ends"));

@@ -126,7 +126,7 @@ TEST_CASE("obj: MTL statements choose the nearest material", "[obj]") {
     CHECK(says(in, io::Fate::dropped, "", "1 of 9 are used by no face"));
 }
 
-TEST_CASE("obj: what is missing is reported with its place, and the rest opens", "[obj]") {
+TEST_CASE("obj: missing things are reported with their place, and the rest opens", "[obj]") {
     ModelFiles files;
     files.write("a.mtl", "newmtl wood\nKd 1 1 1\nmap_Kd no\\such.png\n");
     files.write("a.obj", std::string("mtllib a.mtl\nmtllib other.mtl\n") + square +
@@ -141,7 +141,7 @@ TEST_CASE("obj: what is missing is reported with its place, and the rest opens",
     CHECK(says(in, io::Fate::approximated, "a.obj:17", "normal 9 of 0"));
 }
 
-TEST_CASE("obj: what other programs write is read", "[obj]") {
+TEST_CASE("obj: files of other programs are read", "[obj]") {
     ModelFiles files;
     files.write("m.mtl",
                 "\xef\xbb\xbfnewmtl wire 255 000 000\nKd 1 0 0\nillum 1\nnewmtl wire 000 255 000\nKd 0 1 \\\n"
@@ -160,7 +160,7 @@ TEST_CASE("obj: what other programs write is read", "[obj]") {
         files.write("a.obj", text);
         return files.load("a.obj");
     };
-    // A byte order mark in both, names with blanks, a line that goes on.
+    // A byte order mark in both, names with blanks, a continued line.
     const auto wire = load(std::string("\xef\xbb\xbfmtllib m.mtl\n") + square +
                            "usemtl wire 255 000 000\nf 1 2 \\\n 3\nusemtl wire 000 255 000\nf 1 3 4\n");
     REQUIRE(wire.scene.instances.live() == 2);
@@ -186,7 +186,7 @@ TEST_CASE("obj: what other programs write is read", "[obj]") {
     CHECK(areas(load(comb + "v 0 0 0\n" + face + " 903\n")) == Approx(300 + 300));
 }
 
-TEST_CASE("obj: comments and options may stand behind what they belong to", "[obj]") {
+TEST_CASE("obj: comments and options may follow their statements", "[obj]") {
     ModelFiles files;
     files.write("my lib.mtl", "newmtl red # of the door\nKd 1 0 0 # as paint\nillum 1\n");
     files.write("more.mtl",
@@ -224,7 +224,7 @@ TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
     CHECK(world(0).x == Approx(500000.125).epsilon(1e-12));
     CHECK(world(1).x - world(0).x == Approx(1).epsilon(1e-6));
     CHECK(world(2).y - world(0).y == Approx(0.125).epsilon(1e-6));
-    CHECK(says(in, io::Fate::kept, "", "large for their differences"));
+    CHECK(says(in, io::Fate::kept, "", "large for the objects' size"));
 }
 
 TEST_CASE("obj: options of textures may leave out numbers, and names may have blanks", "[obj]") {
@@ -278,7 +278,7 @@ TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
     CHECK(says(in, io::Fate::kept, "", "a neutral studio is added"));
     const auto& camera = in.scene.cameras[in.scene.active_camera.value];
     CHECK(glm::determinant(glm::dmat3(camera.camera_to_world)) == Approx(-1)); // a right-handed world
-    for (const double aspect : {16.0 / 9, 1.0, 9.0 / 16, 4.0}) { // whatever the picture is made
+    for (const double aspect : {16.0 / 9, 1.0, 9.0 / 16, 4.0}) { // at any aspect
         const glm::dvec4 window = scene::film_window(camera, aspect);
         CHECK(window.y / window.w == Approx(aspect));
         double fills = 0;

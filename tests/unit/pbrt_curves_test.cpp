@@ -96,7 +96,7 @@ TEST_CASE("pbrt curves: every form of one parabola is the same strip", "[pbrt]")
     }
 }
 
-TEST_CASE("pbrt curves: those of one state are one thing", "[pbrt]") {
+TEST_CASE("pbrt curves: those of one state become one object", "[pbrt]") {
     const std::string one = "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\n";
     Recorder r = loaded("AttributeBegin\n" + one + "AttributeEnd\nAttributeBegin\nRotate 30 1 2 3\nScale 2 2 -2\n" +
                         one + "AttributeEnd\nAttributeBegin\nScale 1 2 1\n" + one +
@@ -119,7 +119,7 @@ TEST_CASE("pbrt curves: those of one state are one thing", "[pbrt]") {
     CHECK(many.reports("of 3 sides, at most 100 % of their width off"));
 }
 
-TEST_CASE("pbrt curves: what is wrong with one has its place", "[pbrt]") {
+TEST_CASE("pbrt curves: errors have their place", "[pbrt]") {
     const char* wrong[][2] = {
         {"\"point3 P\" [ 0 0 0 1 1 1 ]", "2 points"},
         {"\"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 0 0 0 ]", "5 points"},
@@ -129,7 +129,7 @@ TEST_CASE("pbrt curves: what is wrong with one has its place", "[pbrt]") {
     };
     for (const auto& [params, message] : wrong) {
         Recorder r;
-        // pbrt leaves it out and goes on
+        // pbrt skips it and continues
         CHECK(r.load_text("Film \"rgb\"\nWorldBegin\nShape \"curve\" " + std::string(params)) == 1);
         INFO(r.all_reports());
         CHECK(r.reports(message));
@@ -140,6 +140,6 @@ TEST_CASE("pbrt curves: what is wrong with one has its place", "[pbrt]") {
     const Recorder hairy = loaded("Shape \"curve\" \"string type\" \"hairy\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]");
     CHECK(hairy.reports("there is no type \"hairy\" of curves; cylinder is taken"));
     CHECK(hairy.meshes.size() == 1);
-    // All points in one place: nothing to see, nothing to crash.
+    // All points in one place: invisible, and no crash.
     CHECK(loaded("Shape \"curve\" \"point3 P\" [ 1 1 1 1 1 1 1 1 1 1 1 1 ]").meshes.size() == 1);
 }

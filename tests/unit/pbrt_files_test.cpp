@@ -65,7 +65,7 @@ TEST_CASE("pbrt broken files: message and place", "[pbrt]") {
     }
 }
 
-TEST_CASE("pbrt files that pbrt warns of: read, with the place and a line of the report", "[pbrt]") {
+TEST_CASE("pbrt files that pbrt warns about: read, with a line of the report and its place", "[pbrt]") {
     const auto files = files_of(data / "warned");
     CHECK(files.size() >= 7);
     for (const fs::path& path : files) {
@@ -81,7 +81,7 @@ TEST_CASE("pbrt files that pbrt warns of: read, with the place and a line of the
     }
 }
 
-TEST_CASE("pbrt broken files: what is no file", "[pbrt]") {
+TEST_CASE("pbrt broken files: non-files", "[pbrt]") {
     const Folder folder;
     for (const std::string& path :
          {folder.path().string(), (folder.path() / "none.pbrt").string(), std::string("/dev/null"), std::string()}) {

@@ -67,7 +67,7 @@ TEST_CASE("pbrt lexer: a number after a peek, brackets without blanks", "[pbrt]"
     Text t("[1 2]\"x\"");
     CHECK(t.lexer.peek().kind == TokenKind::open);
     double value = 0;
-    CHECK_FALSE(t.lexer.number(value)); // peeked, and no number
+    CHECK_FALSE(t.lexer.number(value)); // peeked, and not a number
     t.lexer.next();
     CHECK(t.lexer.peek().text == "1");
     REQUIRE(t.lexer.number(value));
@@ -78,7 +78,7 @@ TEST_CASE("pbrt lexer: a number after a peek, brackets without blanks", "[pbrt]"
     CHECK(t.lexer.next().text == "x");
 }
 
-TEST_CASE("pbrt lexer: what stands behind a number is left out, and said", "[pbrt]") {
+TEST_CASE("pbrt lexer: text behind a number is left out and reported", "[pbrt]") {
     Text t("1, 2\n 1.2.3 12abc");
     for (const double want : {1.0, 2.0, 1.2, 12.0}) {
         double value = 0;
@@ -115,7 +115,7 @@ TEST_CASE("pbrt lexer: escapes and Windows paths", "[pbrt]") {
     CHECK(t.lexer.next().text == "plain");
 }
 
-TEST_CASE("pbrt lexer: what is wrong is said with its place", "[pbrt]") {
+TEST_CASE("pbrt lexer: errors have their place", "[pbrt]") {
     using Catch::Matchers::ContainsSubstring;
     Location at;
     CHECK_THAT(message_of("1 2\n 1e999", at), ContainsSubstring("'1e999'"));

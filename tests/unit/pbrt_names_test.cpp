@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that an outliner can show, from whatever a file offers; and what comments of our own say.
+// Names for the outliner, from whatever a file offers; and those in our own comments.
 #include "pbrt_writer.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -28,7 +28,7 @@ constexpr const char* wood = "MakeNamedMaterial \"Wood\" \"string type\" \"diffu
 
 } // namespace
 
-TEST_CASE("pbrt names: the best there is", "[pbrt]") {
+TEST_CASE("pbrt names: the best available", "[pbrt]") {
     CHECK(name_of("Shape \"sphere\"") == "sphere");
     CHECK(name_of(std::string(wood) + "Shape \"sphere\"") == "Wood");
     CHECK(name_of("AreaLightSource \"diffuse\"\nShape \"sphere\"") == "area light");
@@ -38,7 +38,7 @@ TEST_CASE("pbrt names: the best there is", "[pbrt]") {
     CHECK(name_of("# Name: Cube.001\nShape \"sphere\"") == "Cube.001");
     CHECK(name_of("# Object Cube.001\nShape \"sphere\"") == "Cube.001");
     CHECK(name_of("# name: \"a \\\"b\\\"\"\n# red\nShape \"sphere\"") == "a \"b\"");
-    // No names: directives, sentences, rulers, parameters, what trails another line, what is about something else.
+    // No names: directives, sentences, rulers, parameters, trailing comments, comments about something else.
     for (const char* no :
          {"# Shape \"disk\"", "#Translate 1 2 3", "#--------", "# \"float radius\" 3", "# 0.4 0.5 0.6 0.8",
           "# this is a rather long remark about what comes next in the file", "#Material \"gold\"",

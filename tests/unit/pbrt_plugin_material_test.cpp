@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pbrt files whose materials are those of plugins: pbrt's hair, in all the ways it says its colour, and names that pbrt
-// does not know. Read, written, read again.
+// pbrt files whose materials are plugins': pbrt's hair, in all the ways it gives its colour, and names unknown to
+// pbrt. Read, written, read again.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
@@ -93,7 +93,7 @@ TEST_CASE("pbrt's hair without its plugin keeps its colour, and the report says 
     CHECK_THAT(out, ContainsSubstring("\"hair\"") && ContainsSubstring("\"float beta_n\" [ 0.4 ]"));
 }
 
-TEST_CASE("a plugin's material that pbrt does not know goes back as it came", "[pbrt]") {
+TEST_CASE("a plugin's material unknown to pbrt is written back unchanged", "[pbrt]") {
     Reading r;
     const Material& m =
         r.read(R"("principled" "rgb base_color" [ 0.1 0.2 0.3 ] "float roughness" 0.25 "bool thin" true)");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials that pbrt only has something like: the file holds that, and for us what they are. With all their values
-// they come back; without their plugin the nearest does.
+// Materials that pbrt can only approximate: the file holds the approximation, and the exact form for us. They come back
+// with all their values; without their plugin the approximation does.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
@@ -82,13 +82,13 @@ TEST_CASE("materials that pbrt lacks come back from it with all their values", "
             CHECK(*back == value);
         }
     }
-    CHECK(read->scene.materials.size() == all.scene.materials.size()); // the stand-ins are none
+    CHECK(read->scene.materials.size() == all.scene.materials.size()); // the stand-ins do not count
     REQUIRE(io::export_scene(read->scene, folder.file("again.pbrt"), plugins.registry, version(as.c_str())));
     for (const Case& c : cases)
         CHECK(material_lines(folder.file("again.pbrt"), c.name) == material_lines(folder.file("out.pbrt"), c.name));
 }
 
-TEST_CASE("without the plugin the nearest that pbrt has is read", "[pbrt]") {
+TEST_CASE("without the plugin pbrt's nearest material is read", "[pbrt]") {
     Plugins plugins;
     Folder folder;
     REQUIRE(write_file_atomic(folder.file("in.pbrt"), R"(WorldBegin

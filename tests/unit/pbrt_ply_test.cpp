@@ -148,7 +148,7 @@ TEST_CASE("pbrt ply: broken files", "[pbrt]") {
     const std::string good = sample(Form::little);
     REQUIRE(failure(good).empty());
     CHECK_THAT(failure(""), ContainsSubstring("header"));
-    CHECK_THAT(failure("plx\n"), ContainsSubstring("no PLY"));
+    CHECK_THAT(failure("plx\n"), ContainsSubstring("not a PLY"));
     CHECK_THAT(failure("ply\nformat ascii 1.0\n"), ContainsSubstring("header does not end"));
     CHECK_THAT(failure("ply\nformat hex 1.0\nend_header\n"), ContainsSubstring("'hex'"));
     CHECK_THAT(failure("ply\nend_header\n"), ContainsSubstring("no format"));
@@ -171,7 +171,7 @@ TEST_CASE("pbrt ply: broken files", "[pbrt]") {
     CHECK_THAT(failure(three + list + "3 0 1 1000000000\n"), ContainsSubstring("vertex 1000000000"));
     CHECK_THAT(failure(three + list + "200 0 1 2\n"), ContainsSubstring("truncated"));
     CHECK_THAT(failure(three + list + "-3 0 1 2\n"), ContainsSubstring("-3 entries"));
-    CHECK_THAT(failure(three + list + "3 0 1 x\n"), ContainsSubstring("no number"));
+    CHECK_THAT(failure(three + list + "3 0 1 x\n"), ContainsSubstring("not a number"));
     CHECK_THAT(
         failure(three + "element face 1\nproperty list uchar int faces\nend_header\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n"),
         ContainsSubstring("vertex_indices"));
@@ -182,7 +182,7 @@ TEST_CASE("pbrt ply: broken files", "[pbrt]") {
         INFO(n);
         CHECK_FALSE(failure(good.substr(0, n)).empty());
     }
-    // Each byte turned over: whatever it says, it says it.
+    // Each byte inverted: any result, but a clean one.
     for (std::size_t n = 0; n < good.size(); ++n) {
         std::string damaged = good;
         damaged[n] = static_cast<char>(~damaged[n]);

@@ -234,7 +234,7 @@ TEST_CASE("pbrt files: Include continues the state, Import has its own, missing 
                                   "\nIdentity Import \"sub/inner.pbrt\"" + sphere + "\nInclude \"gone.pbrt\"" + sphere);
     Recorder r;
     REQUIRE(r.load_file(scene) == 1);
-    REQUIRE(r.instances.size() == 8); // the last but one: the place of what is gone
+    REQUIRE(r.instances.size() == 8); // the last but one: the place of the missing file
     check_vec(origin_of(r, 1), {1, 0, 0}); // found beside the including file
     check_vec(origin_of(r, 2), {1, 0, 0});
     check_vec(origin_of(r, 3), {1, 0, 0});
@@ -255,7 +255,7 @@ TEST_CASE("pbrt files: the user stops an import", "[pbrt]") {
     CHECK(r.instances.size() < 200);
 }
 
-TEST_CASE("pbrt versions are found out", "[pbrt]") {
+TEST_CASE("pbrt versions are detected", "[pbrt]") {
     const auto version = [](const std::string& text) {
         Recorder r;
         REQUIRE(r.load_text(text) == 1);

@@ -224,7 +224,7 @@ TEST_CASE("pbrt shapes: loop subdivision reaches the limit surface", "[pbrt]") {
         CHECK(std::abs(sheet.normals[3 * i + 2] + 1) < 1e-5f);
 }
 
-TEST_CASE("pbrt shapes: what is no shape keeps its place, what is flat is dropped", "[pbrt]") {
+TEST_CASE("pbrt shapes: unknown shapes keep their place, flat ones are dropped", "[pbrt]") {
     const Recorder r = loaded(
         "Shape \"teapot\"\nScale 1 0 1 Shape "
         "\"sphere\"\nIdentity Shape \"sphere\"");

@@ -120,7 +120,7 @@ TEST_CASE("pbrt materials: v3 names, defaults and meanings", "[pbrt]") {
     check_value(m, "kr", {0, 0, 0});
     check_value(m, "opacity", {0.2, 0.2, 0.2});
     check_value(material(v3, "\"translucent\""), "transmit", {0.5, 0.5, 0.5});
-    // v3's amount weighs the first, the host's the second: they change places.
+    // v3's amount weighs the first, the host's the second: they are swapped.
     const Recorder r =
         loaded(v3 +
                "MakeNamedMaterial \"a\" \"string type\" \"matte\" MakeNamedMaterial \"b\" \"string type\" \"mirror\"\n"
@@ -131,7 +131,7 @@ TEST_CASE("pbrt materials: v3 names, defaults and meanings", "[pbrt]") {
     CHECK(r.materials[2].values.at("amount").v[0] == Catch::Approx(0.25).margin(1e-6));
 }
 
-TEST_CASE("pbrt materials: approximated ones go back out whole, unknown parameters are kept", "[pbrt]") {
+TEST_CASE("pbrt materials: approximated ones are written back whole, unknown parameters are kept", "[pbrt]") {
     const Recorder r = loaded(
         v4 +
         "MakeNamedMaterial \"skin\" \"string type\" \"subsurface\" \"float mfp\" 3 \"rgb reflectance\" [ .7 .4 .3 ]\n"
@@ -157,7 +157,7 @@ TEST_CASE("pbrt materials: approximated ones go back out whole, unknown paramete
         if (line.what.find("odd") != std::string::npos) CHECK(line.line == 4);
 }
 
-TEST_CASE("pbrt textures: encodings, scaling, what only averages", "[pbrt]") {
+TEST_CASE("pbrt textures: encodings, scaling, classes that only average", "[pbrt]") {
     const Folder folder;
     for (const char* name : {"a.png", "a.tga", "a.exr", "a.jpg"})
         folder.file(name, "x");
@@ -413,7 +413,7 @@ TEST_CASE("pbrt report: the same thing is one line with a count and the first pl
     CHECK(teapots == 1);
 }
 
-TEST_CASE("pbrt camera: orthographic and spherical ones are what they are", "[pbrt]") {
+TEST_CASE("pbrt camera: orthographic and spherical ones are kept as such", "[pbrt]") {
     const auto camera = [](const std::string& text) {
         const Recorder r = loaded(text + " WorldBegin");
         for (const auto& line : r.lines) // one that is kept says what tells the version
@@ -430,7 +430,7 @@ TEST_CASE("pbrt camera: orthographic and spherical ones are what they are", "[pb
     CHECK(camera("Film \"image\" Camera \"environment\"").projection == RESTAGE_SPHERICAL);
 }
 
-TEST_CASE("pbrt lamps: alpha means what the version means by it", "[pbrt]") {
+TEST_CASE("pbrt lamps: alpha has the version's meaning", "[pbrt]") {
     const auto lamp = [](const std::string& head, const std::string& alpha, const std::string& shape) {
         const Recorder r =
             loaded(head +

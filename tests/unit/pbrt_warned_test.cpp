@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where pbrt warns and goes on, so does the importer, with a line of the report that says where; and what could not be
-// read stays in its place.
+// Where pbrt warns and continues, so does the importer, with a line of the report that says where; and unreadable
+// things keep their place.
 #include "pbrt_writer.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::size_t placeholders(const Recorder& r) {
 
 } // namespace
 
-TEST_CASE("pbrt-v3: what it warns of is reported, and reading goes on", "[pbrt]") {
+TEST_CASE("pbrt-v3: its warnings are reported, and reading continues", "[pbrt]") {
     const std::string mesh = "Shape \"trianglemesh\" ", p = "\"point P\" [0 0 0 1 0 0 0 1 0]";
     const std::vector<Warned> cases = {
         {"comma", "Translate 1, 2, 3\nShape \"sphere\"\n", "pbrt reads 1 and leaves the rest out", 4, 1},
@@ -55,9 +55,9 @@ TEST_CASE("pbrt-v3: what it warns of is reported, and reading goes on", "[pbrt]"
         {"index", mesh + p + " \"integer indices\" [0 1 7]\nShape \"sphere\"\n", "there are 3 vertices", 4, 2},
         {"no indices", mesh + "\"point P\" [0 0 0 1 0 0 0 1 0 1 1 1]\nShape \"sphere\"\n", "no faces", 4, 2},
         {"no points", mesh + "\"integer indices\" [0 1 2]\nShape \"sphere\"\n", "no vertices", 4, 2},
-        {"ten numbers", mesh + "\"point P\" [0 0 0 1 0 0 0 1 0 9] \"integer indices\" [0 1 2]\n", "1 numbers too many",
+        {"ten numbers", mesh + "\"point P\" [0 0 0 1 0 0 0 1 0 9] \"integer indices\" [0 1 2]\n", "1 surplus numbers",
          4, 1},
-        {"four indices", mesh + p + " \"integer indices\" [0 1 2 0]\n", "no multiple of 3", 4, 1},
+        {"four indices", mesh + p + " \"integer indices\" [0 1 2 0]\n", "not a multiple of 3", 4, 1},
         {"normals", mesh + p + " \"integer indices\" [0 1 2] \"normal N\" [0 0 1]\n", "1 entries for 3 vertices", 4, 1},
         {"subdivision", "Shape \"loopsubdiv\" " + p + "\nShape \"sphere\"\n", "Shape \"loopsubdiv\"", 4, 2},
         {"bool", "Shape \"sphere\"\nAreaLightSource \"diffuse\" \"bool twosided\" \"maybe\"\n", "\"maybe\"", 5, 1},
@@ -96,7 +96,7 @@ TEST_CASE("pbrt-v3: what it warns of is reported, and reading goes on", "[pbrt]"
     CHECK(early.reports("it must come after WorldBegin"));
 }
 
-TEST_CASE("pbrt-v4: what it warns of is reported, and reading goes on", "[pbrt]") {
+TEST_CASE("pbrt-v4: its warnings are reported, and reading continues", "[pbrt]") {
     const std::string mesh = "Shape \"trianglemesh\" ", p = "\"point3 P\" [0 0 0 1 0 0 0 1 0]";
     const std::vector<Warned> cases = {
         {"comma", "Translate 1, 2, 3\nShape \"sphere\"\n", "pbrt reads 1 and leaves the rest out", 4, 1},
@@ -106,7 +106,7 @@ TEST_CASE("pbrt-v4: what it warns of is reported, and reading goes on", "[pbrt]"
         {"patch", "Shape \"bilinearmesh\" " + p + "\nShape \"sphere\"\n", "four \"integer indices\"", 4, 2},
         {"five indices",
          "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2 3 0]\n",
-         "no multiple of 4", 4, 1},
+         "not a multiple of 4", 4, 1},
         {"colour space", "ColorSpace \"cmyk\"\nShape \"sphere\"\n", "\"cmyk\"", 4, 1},
         {"coordinates", "CoordSysTransform \"no\"\nShape \"sphere\"\n", "no CoordinateSystem has that name", 4, 1},
     };
@@ -153,7 +153,7 @@ TEST_CASE("pbrt-v3: crossed blocks keep pbrt's two stacks", "[pbrt]") {
     CHECK((outer[12] == 1 && outer[13] == 0 && outer[14] == 0));
 }
 
-TEST_CASE("pbrt: what could not be read stays where it was", "[pbrt]") {
+TEST_CASE("pbrt: unreadable things keep their place", "[pbrt]") {
     Recorder r;
     REQUIRE(
         r.load_text(
@@ -183,7 +183,7 @@ TEST_CASE("pbrt: what could not be read stays where it was", "[pbrt]") {
         CHECK(r.reports(file));
 }
 
-TEST_CASE("pbrt: a sky that is not there is its constant", "[pbrt]") {
+TEST_CASE("pbrt: a missing sky picture becomes its constant", "[pbrt]") {
     Recorder r;
     REQUIRE(r.load_text(v3_head +
                         "LightSource \"infinite\" \"string mapname\" \"no.exr\" \"rgb L\" [1 2 3]\nWorldEnd\n") == 1);
@@ -208,7 +208,7 @@ TEST_CASE("pbrt-v4: media may be defined after they are used, v3's before", "[pb
     CHECK(v3.reports("no medium has that name"));
 }
 
-TEST_CASE("pbrt spots fade as their version has it", "[pbrt]") {
+TEST_CASE("pbrt spots fade by their version's rule", "[pbrt]") {
     Recorder v3, v4;
     REQUIRE(v3.load_text(v3_head + "LightSource \"spot\"\nWorldEnd\n") == 1);
     REQUIRE(v4.load_text(v4_head + "LightSource \"spot\"\n") == 1);
@@ -269,7 +269,7 @@ TEST_CASE("pbrt: subsurface materials have their colour", "[pbrt]") {
     CHECK(textured.materials[0].values.at("kd").ref != 0);
 }
 
-TEST_CASE("pbrt-v3: a value of another type is no value", "[pbrt]") {
+TEST_CASE("pbrt-v3: a value of another type is ignored", "[pbrt]") {
     Recorder r;
     REQUIRE(r.load_text(v3_head + "LightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 3\n"
                                   "Material \"matte\" \"float Kd\" .9 \"rgb sigma\" [50 50 50]\n"
@@ -289,7 +289,7 @@ TEST_CASE("pbrt-v3: a value of another type is no value", "[pbrt]") {
         CHECK(r.reports(part));
 }
 
-TEST_CASE("pbrt: parameters that pbrt does not know are warned of, those that it does are kept", "[pbrt]") {
+TEST_CASE("pbrt: unknown parameters give a warning, known ones are kept", "[pbrt]") {
     for (const std::string& head : {v3_head, v4_head}) {
         Recorder r;
         const std::string end = head == v3_head ? "WorldEnd\n" : "";
@@ -312,7 +312,7 @@ TEST_CASE("pbrt: parameters that pbrt does not know are warned of, those that it
     CHECK(depth.reports("\"float maxdepth\" has a value of the wrong kind"));
     CHECK(depth.reports("pixelsample"));
     CHECK_FALSE(depth.reports("rrthreshold"));
-    Recorder v4; // pbrt stops there; what is meant is clear
+    Recorder v4; // pbrt stops there; the intent is clear
     REQUIRE(v4.load_text(v4_head + "Shape \"sphere\" \"integer radius\" 3\n") == 1);
     CHECK(v4.meshes.at(0).positions.at(2) == Catch::Approx(-3).epsilon(0.01));
     CHECK(v4.reports("should be \"float radius\""));
@@ -339,7 +339,7 @@ TEST_CASE("pbrt-v3: stand-ins are pbrt's own", "[pbrt]") {
     CHECK(r.textures.at(1).values.at("average").v[0] == Catch::Approx(1.5));
 }
 
-TEST_CASE("pbrt: quadrics of which nothing is left do not stop the file", "[pbrt]") {
+TEST_CASE("pbrt: empty quadrics do not stop the import", "[pbrt]") {
     for (const std::string& head : {v3_head, v4_head})
         for (const char* shape :
              {"\"sphere\" \"float radius\" 0", "\"sphere\" \"float radius\" -1", "\"sphere\" \"float phimax\" 0",
@@ -377,7 +377,7 @@ TEST_CASE("pbrt-v3: blocks out of place", "[pbrt]") {
     CHECK(nested.reports("ObjectEnd: without an ObjectBegin"));
 }
 
-TEST_CASE("pbrt: windows that cannot be", "[pbrt]") {
+TEST_CASE("pbrt: invalid windows", "[pbrt]") {
     const std::string film = "Film \"image\" \"float cropwindow\" [0 1 0]\n";
     Recorder v3;
     REQUIRE(v3.load_text(film + "Camera \"perspective\" \"float screenwindow\" [-1 1 -1]\nWorldBegin\nWorldEnd\n") ==
@@ -423,11 +423,11 @@ TEST_CASE("pbrt-v4: textures may be defined after they are used", "[pbrt]") {
         chain += "Texture \"" + std::to_string(i) + "\" \"spectrum\" \"scale\" \"texture tex\" \"" +
                  std::to_string(i + 1) + "\"\n";
     Recorder deep;
-    CHECK(deep.load_text(chain) == 0); // refused, not a stack that ends
+    CHECK(deep.load_text(chain) == 0); // refused, not a stack overflow
     CHECK(deep.error.set);
 }
 
-TEST_CASE("pbrt: files that nothing here reads are reported where they are missing", "[pbrt]") {
+TEST_CASE("pbrt: missing files are reported even if nothing here reads them", "[pbrt]") {
     Recorder v4;
     REQUIRE(v4.load_text(v4_head + "Material \"measured\" \"string filename\" \"gone.bsdf\"\n"
                                    "AreaLightSource \"diffuse\" \"string filename\" \"gone.png\"\n"
@@ -440,7 +440,7 @@ TEST_CASE("pbrt: files that nothing here reads are reported where they are missi
     CHECK(v3.reports("file \"gone.bsdf\": there is no such file"));
 }
 
-TEST_CASE("pbrt: what a thing in motion loses is said", "[pbrt]") {
+TEST_CASE("pbrt: losses of moving things are reported", "[pbrt]") {
     Recorder r;
     REQUIRE(r.load_text(v4_head + "ActiveTransform EndTime\nTranslate 1 0 0\nActiveTransform All\nShape \"sphere\"\n"
                                   "Texture \"f\" \"float\" \"fbm\"\n") == 1);
@@ -449,7 +449,7 @@ TEST_CASE("pbrt: what a thing in motion loses is said", "[pbrt]") {
     CHECK(r.reports("Texture in motion"));
 }
 
-TEST_CASE("pbrt: materials of the other version are taken, and named", "[pbrt]") {
+TEST_CASE("pbrt: materials of the other version are accepted, and reported", "[pbrt]") {
     Recorder v3, v4;
     REQUIRE(v3.load_text(v3_head +
                          "Material \"diffuse\" \"rgb reflectance\" [.9 .8 .7]\nShape \"sphere\"\nWorldEnd\n") == 1);
@@ -476,7 +476,7 @@ TEST_CASE("pbrt-v4: objects may be defined after they are placed", "[pbrt]") {
     CHECK(v3.reports("no ObjectBegin has that name"));
 }
 
-TEST_CASE("pbrt-v4: options that change the picture, and attributes of nothing", "[pbrt]") {
+TEST_CASE("pbrt-v4: options that change the picture, and attributes of unknown targets", "[pbrt]") {
     Recorder r;
     REQUIRE(r.load_text("Option \"bool forcediffuse\" true\nOption \"bool disablepixeljitter\" false\n" + v4_head +
                         "Attribute \"lamp\" \"rgb L\" [2 2 2]\nShape \"sphere\"\n") == 1);

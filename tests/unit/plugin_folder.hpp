@@ -18,7 +18,7 @@ namespace restage::test {
 
 inline const std::filesystem::path built_plugins = restage::test::build_dir() / "tests" / "plugins_bad";
 
-// `provides`: what stands in the list; `needs`: what stands in the braces.
+// `provides`: the list's contents; `needs`: the object's contents.
 inline std::string manifest(const char* provides = R"("restage.material/1", "restage.table/1")",
                             const char* needs = R"("host": ">=0.2")", const char* id = "org.example.velvet") {
     return std::string(R"({"id": ")") + id + R"(", "provides": [)" + provides +
@@ -44,7 +44,7 @@ struct PluginFolder {
     }
     void scan(plugin::Registry& registry) { registry.scan(std::vector<plugin::SearchPath>{{path, true}}); }
 
-    // The sentence that refuses the only plugin there is.
+    // The reason for refusing the only plugin.
     std::string refusal() {
         plugin::Registry registry(log);
         scan(registry);

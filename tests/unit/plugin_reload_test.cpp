@@ -46,7 +46,7 @@ int open_copies() {
 
 } // namespace
 
-TEST_CASE("a material without native code: its table stands in the manifest", "[plugin]") {
+TEST_CASE("a material without native code: its table is in the manifest", "[plugin]") {
     Folder folder;
     folder.add("velvet", json_manifest(velvet(params, R"(, "flags": ["lossless", "tangent"])")), nullptr);
     Registry registry(folder.log);
@@ -71,7 +71,7 @@ TEST_CASE("a material without native code: its table stands in the manifest", "[
     CHECK(found->source->glsl()->size() == 1);
 }
 
-TEST_CASE("what is wrong in a table written as JSON is named with its place", "[plugin]") {
+TEST_CASE("errors in a JSON table are reported with their place", "[plugin]") {
     Folder folder;
     const auto refused = [&](const std::string& materials) {
         return folder.refusal_of(json_manifest(materials), nullptr);
@@ -80,15 +80,15 @@ TEST_CASE("what is wrong in a table written as JSON is named with its place", "[
     CHECK_THAT(refused(R"([{"type": "velvet"}])"), ContainsSubstring("\"materials\"[0]: \"glsl\" is missing"));
     CHECK_THAT(refused(velvet("[{}]")), ContainsSubstring("\"materials\"[0].\"params\"[0]: \"id\" is missing"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "colour"}])")),
-               ContainsSubstring("\"type\": \"colour\" is unknown; known are float, color, int, bool, enum, text"));
+               ContainsSubstring("\"type\": \"colour\" is unknown; known: float, color, int, bool, enum, text"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "min": "0"}])")),
                ContainsSubstring("\"min\" must be a number"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "mim": 0}])")),
-               ContainsSubstring("\"params\"[0]: the key \"mim\" is unknown; is \"min\" meant?"));
+               ContainsSubstring("\"params\"[0]: the key \"mim\" is unknown; did you mean \"min\"?"));
     CHECK_THAT(refused(velvet("[]", R"(, "tooltips": "x")")),
-               ContainsSubstring("\"materials\"[0]: the key \"tooltips\" is unknown; is \"tooltip\" meant?"));
+               ContainsSubstring("\"materials\"[0]: the key \"tooltips\" is unknown; did you mean \"tooltip\"?"));
     CHECK_THAT(refused(velvet("[]", R"(, "emission": {"radiance": "a", "colour": "b"})")),
-               ContainsSubstring("\"emission\": the key \"colour\" is unknown; known are radiance, scale, two_sided"));
+               ContainsSubstring("\"emission\": the key \"colour\" is unknown; known keys: radiance, scale"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "float", "default": 7}])")),
                ContainsSubstring("parameter \"a\": its default is out of its range"));
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "color", "default": 1}])")),
@@ -104,7 +104,7 @@ TEST_CASE("what is wrong in a table written as JSON is named with its place", "[
                ContainsSubstring("provides \"velvet\" twice"));
 }
 
-TEST_CASE("an edited material is taken anew; who uses the one before keeps it", "[plugin]") {
+TEST_CASE("an edited material is reloaded; holders of the previous one keep it", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("velvet", json_manifest(velvet(params)), nullptr);
     Registry registry(folder.log);
@@ -132,14 +132,14 @@ TEST_CASE("an edited material is taken anew; who uses the one before keeps it", 
     CHECK(before->table->params.size() == 5);
     CHECK(choices_text(before->table->params[4]) == "plain|twill");
 
-    // Undone: the same revision as at first.
+    // Reverted: the same revision as at first.
     REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(params))));
     REQUIRE(write_file_atomic(where / "velvet.glsl", "// empty"));
     REQUIRE(registry.reload_changed().size() == 1);
     CHECK(registry.find_material("velvet")->source->revision() == before->source->revision());
 }
 
-TEST_CASE("a version that does not fit is not taken: the one before goes on", "[plugin]") {
+TEST_CASE("an incompatible version is not loaded: the previous one stays", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("velvet", json_manifest(velvet(params)), nullptr);
     Registry registry(folder.log);
@@ -156,7 +156,7 @@ TEST_CASE("a version that does not fit is not taken: the one before goes on", "[
         CHECK(registry.find_material("velvet")->source->glsl()->begin()->second == "// empty");
         CHECK(news[0].plugin->trouble == news[0].error);
         CHECK(news[0].plugin->state == State::loaded);
-        CHECK(registry.reload_changed().empty()); // said once
+        CHECK(registry.reload_changed().empty()); // reported once
     };
     REQUIRE(write_file_atomic(where / "velvet.glsl", "bad"));
     still("velvet.glsl:3: no good");
@@ -169,7 +169,7 @@ TEST_CASE("a version that does not fit is not taken: the one before goes on", "[
     CHECK(registry.entries()[0]->trouble.empty());
 }
 
-TEST_CASE("a plugin that was refused is taken once it is mended", "[plugin]") {
+TEST_CASE("a refused plugin is loaded once it is fixed", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("velvet", "{", nullptr);
     Registry registry(folder.log);
@@ -181,7 +181,7 @@ TEST_CASE("a plugin that was refused is taken once it is mended", "[plugin]") {
     CHECK(registry.entries()[0]->state == State::loaded);
 }
 
-TEST_CASE("a library is loaded anew a hundred times, and nothing of it stays", "[plugin]") {
+TEST_CASE("a library is reloaded a hundred times, and nothing of it remains", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("velvet", manifest(), "good");
     const int none = open_copies();
@@ -200,7 +200,7 @@ TEST_CASE("a library is loaded anew a hundred times, and nothing of it stays", "
             REQUIRE(registry.reload(*registry.entries()[0]));
         }
         CHECK(open_copies() == one);
-        CHECK(std::string(first->table->params[0].id) == "fuzz"); // a library that is no more
+        CHECK(std::string(first->table->params[0].id) == "fuzz"); // an unloaded library
         const auto said = [&](const char* line) { return std::count(folder.lines.begin(), folder.lines.end(), line); };
         CHECK(said("org.example.velvet: velvet is here") == 101);
         CHECK(said("org.example.velvet: velvet leaves") == 100);
@@ -208,7 +208,7 @@ TEST_CASE("a library is loaded anew a hundred times, and nothing of it stays", "
     CHECK(open_copies() == none);
 }
 
-TEST_CASE("who reads the lists while plugins are loaded anew sees whole ones", "[plugin]") {
+TEST_CASE("readers of the lists see complete ones while plugins are reloaded", "[plugin]") {
     const fs::path built = test::build_dir() / "lib/restage/plugins";
     Folder folder;
     for (const char* name : {"importer-pbrt", "exporter-pbrt", "material-diffuse", "material-conductor"})
@@ -225,7 +225,7 @@ TEST_CASE("who reads the lists while plugins are loaded anew sees whole ones", "
             torn += all->importers.size() != 1 || all->exporters.size() != 1 || all->materials.size() != 2;
             torn += registry.importers().size() != 1 || registry.exporters().size() != 1;
             const auto importer = registry.find_importer("pbrt");
-            // The library is there as long as its entry, whatever is loaded meanwhile.
+            // The library lives as long as its entry, whatever is loaded meanwhile.
             torn +=
                 !importer || importer->native->probe("x.pbrt", "LookAt", 6) <= 0 || importer->plugin->name().empty();
             torn +=
@@ -242,7 +242,7 @@ TEST_CASE("who reads the lists while plugins are loaded anew sees whole ones", "
     CHECK(torn == 0);
 }
 
-TEST_CASE("an importer that somebody holds stays open when it is loaded anew", "[plugin]") {
+TEST_CASE("an importer in use stays open when it is reloaded", "[plugin]") {
     Folder folder;
     fs::copy(test::build_dir() / "lib/restage/plugins/importer-pbrt", folder.path / "importer-pbrt",
              fs::copy_options::recursive);
@@ -276,7 +276,7 @@ void without_temporary_folder(const Folder& folder, F&& f) {
 
 } // namespace
 
-TEST_CASE("without a temporary folder materials load, and load anew", "[plugin]") {
+TEST_CASE("without a temporary folder materials load and reload", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("plugins/velvet", manifest(), "good");
     without_temporary_folder(folder, [&] {
@@ -290,13 +290,13 @@ TEST_CASE("without a temporary folder materials load, and load anew", "[plugin]"
             REQUIRE(registry.reload(*registry.entries()[0]));
         }
         const auto said = [&](const char* line) { return std::count(folder.lines.begin(), folder.lines.end(), line); };
-        CHECK(said("org.example.velvet: velvet is here") == 6); // each time a library of its own, not the one before
+        CHECK(said("org.example.velvet: velvet is here") == 6); // each time a library of its own, not the previous one
         CHECK(said("org.example.velvet: velvet leaves") == 5);
-        CHECK(folder.lines.size() == 12); // nothing else is said: nothing is lost
+        CHECK(folder.lines.size() == 12); // nothing else is logged: nothing is lost
     });
 }
 
-TEST_CASE("a plugin that crashed stays off until it changes or is let out", "[plugin]") {
+TEST_CASE("a crashed plugin stays off until it changes or is enabled", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("plugins/velvet", manifest(), "good");
     const fs::path notes = folder.path / "notes";
@@ -331,7 +331,7 @@ TEST_CASE("a plugin that crashed stays off until it changes or is let out", "[pl
     CHECK(scan(mended)->state == State::loaded);
 }
 
-TEST_CASE("safe mode loads the program's own plugins alone", "[plugin]") {
+TEST_CASE("safe mode loads only the program's own plugins", "[plugin]") {
     Folder folder;
     folder.add("theirs/velvet", manifest(), "good");
     folder.add("ours/velvet", manifest(), "good");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// plugin: what is sound loads; what is foreign, too new, broken or missing is one sentence, and nothing crashes.
+// plugin: valid plugins load; foreign, too new, broken or missing ones give one sentence, and nothing crashes.
 #include "plugin/abi.hpp"
 #include "plugin/adapters.hpp"
 #include "plugin/tables.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plug
     CHECK(std::count(folder.lines.begin(), folder.lines.end(), "org.example.velvet: velvet leaves") == 1);
 }
 
-TEST_CASE("the manifest is judged before the library is opened", "[plugin]") {
+TEST_CASE("the manifest is validated before the library is opened", "[plugin]") {
     Folder folder;
     // The library is a good one each time: only the manifest can be the reason.
     const auto refused = [&](const std::string& json) { return folder.refusal_of(json, "good"); };
@@ -49,31 +49,31 @@ TEST_CASE("the manifest is judged before the library is opened", "[plugin]") {
     CHECK_THAT(refused(""), ContainsSubstring("plugin.json:1:1: not JSON"));
     CHECK_THAT(refused("[1, 2]"), ContainsSubstring("must be one JSON object"));
     CHECK_THAT(refused(R"({"id": "org.example.velvet"})"), ContainsSubstring("\"version\" is missing"));
-    CHECK_THAT(refused(R"({"id": 7})"), ContainsSubstring("\"id\" must be a text"));
+    CHECK_THAT(refused(R"({"id": 7})"), ContainsSubstring("\"id\" must be a non-empty string"));
     CHECK_THAT(refused(manifest("\"restage.material/1\"", "", "velvet")), ContainsSubstring("not in reverse-DNS form"));
     const auto provides = [&](const char* list) { return refused(manifest(list)); };
     CHECK_THAT(provides(""), ContainsSubstring("\"provides\" is empty"));
-    CHECK_THAT(provides("1"), ContainsSubstring("\"provides\" must be a list of texts"));
-    CHECK_THAT(provides(R"("material")"), ContainsSubstring("\"material\" names no interface"));
-    CHECK_THAT(provides(R"("restage.material/0")"), ContainsSubstring("names no interface"));
+    CHECK_THAT(provides("1"), ContainsSubstring("\"provides\" must be a list of strings"));
+    CHECK_THAT(provides(R"("material")"), ContainsSubstring("\"material\" is not an interface"));
+    CHECK_THAT(provides(R"("restage.material/0")"), ContainsSubstring("is not an interface"));
     CHECK_THAT(provides(R"("restage.toaster/1")"),
                ContainsSubstring("provides restage.toaster/1, which this program cannot use"));
     CHECK_THAT(provides(R"("restage.material/2")"), ContainsSubstring("the plugin is too new"));
     const auto needs = [&](const char* members) { return refused(manifest("\"restage.material/1\"", members)); };
-    CHECK_THAT(needs(R"("host": 2)"), ContainsSubstring("\"host\" must be a text"));
-    CHECK_THAT(needs(R"("host": "new")"), ContainsSubstring("\"new\" is no range of versions"));
-    CHECK_THAT(needs(R"("host": ">=0.2 0.4")"), ContainsSubstring("is no range of versions"));
+    CHECK_THAT(needs(R"("host": 2)"), ContainsSubstring("\"host\" must be a non-empty string"));
+    CHECK_THAT(needs(R"("host": "new")"), ContainsSubstring("\"new\" is not a version range"));
+    CHECK_THAT(needs(R"("host": ">=0.2 0.4")"), ContainsSubstring("is not a version range"));
     CHECK_THAT(needs(R"("host": ">=9.1")"), ContainsSubstring("needs Restage >=9.1, this is "));
     CHECK_THAT(needs(R"("host": ">=9.1")"), ContainsSubstring("the plugin is too new; update the program"));
     CHECK_THAT(needs(R"("host": ">=0.1 <0.2")"), ContainsSubstring("the plugin is too old; update the plugin"));
     CHECK_THAT(needs(R"("interfaces": ["restage.toaster/1"])"),
                ContainsSubstring("needs restage.toaster/1, which this program does not have"));
     CHECK_THAT(needs(R"("hots": ">=0.2")"),
-               ContainsSubstring("\"needs\": the key \"hots\" is unknown; known are host, interfaces"));
-    // What was written before bundles.
+               ContainsSubstring("\"needs\": the key \"hots\" is unknown; known keys: host, interfaces"));
+    // Manifests from before bundles.
     CHECK_THAT(refused(R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)"
                        R"("library":"velvet"})"),
-               ContainsSubstring("are of plugins for Restage 0.1: write, for example, \"provides\""));
+               ContainsSubstring("belong to Restage 0.1: write, for example, \"provides\""));
     const std::string body = R"({"id":"org.example.velvet","provides":["restage.material/1"],"version":"1.0.0",)"
                              R"("licence":"MIT",)";
     CHECK_THAT(refused(body + R"("library":"../velvet"})"), ContainsSubstring("not a path inside the plugin's folder"));
@@ -85,7 +85,7 @@ TEST_CASE("the manifest is judged before the library is opened", "[plugin]") {
                        [](const auto& line) { return line.find("velvet is here") != std::string::npos; }));
 }
 
-TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") {
+TEST_CASE("an incompatible library is refused with the reason", "[plugin]") {
     Folder folder;
     const auto refused = [&](const char* library) { return folder.refusal_of(manifest(), library); };
     CHECK_THAT(refused(nullptr), ContainsSubstring("the library is missing"));
@@ -95,12 +95,12 @@ TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") 
     CHECK_THAT(refused("init_fails"), ContainsSubstring("its init function reports failure"));
     CHECK_THAT(refused("no_tables"), ContainsSubstring("provides no restage.material/1"));
     CHECK_THAT(refused("small_table"), ContainsSubstring("its table restage.material/1 has 16 bytes"));
-    CHECK_THAT(refused("bad_prefix"), ContainsSubstring("\"gl_velvet\" is no GLSL identifier"));
-    CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is a word of GLSL"));
+    CHECK_THAT(refused("bad_prefix"), ContainsSubstring("\"gl_velvet\" is not a GLSL identifier"));
+    CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is a reserved word of GLSL"));
     CHECK_THAT(refused("bad_default"), ContainsSubstring("parameter \"fuzz\": its default is out of its range"));
     CHECK_THAT(refused("bad_enum"), ContainsSubstring("parameter \"weave\": its default is not the index of a choice"));
     CHECK_THAT(refused("table_unread"), ContainsSubstring("has a table as a parameter, and nothing reads it"));
-    CHECK_THAT(refused("table_of_none"), ContainsSubstring("reads tables for \"velvet\", which is no material of it"));
+    CHECK_THAT(refused("table_of_none"), ContainsSubstring("reads tables for \"velvet\", which is not one of its"));
     CHECK_THAT(refused("table_default_gone"), ContainsSubstring("gone.dat, is missing"));
     CHECK_THAT(refused("twice"), ContainsSubstring("provides \"velvet\" twice"));
     CHECK_THAT(refused("endless"), ContainsSubstring("without end"));
@@ -111,7 +111,7 @@ TEST_CASE("a library that does not fit is refused with the reason", "[plugin]") 
                ContainsSubstring("provides no restage.importer/1"));
 }
 
-TEST_CASE("a file that is no library for this machine is refused, not opened", "[plugin]") {
+TEST_CASE("a file that is not a library for this machine is refused, not opened", "[plugin]") {
     Folder folder;
     const std::string good = read_file(test::built_plugins / (std::string("good") + Library::extension())).value();
     const auto refused = [&](const std::string& bytes) {
@@ -120,8 +120,8 @@ TEST_CASE("a file that is no library for this machine is refused, not opened", "
         REQUIRE(write_file_atomic(where / (std::string("velvet") + Library::extension()), bytes));
         return folder.refusal();
     };
-    CHECK_THAT(refused("#!/bin/sh\necho I am a script\n"), ContainsSubstring("is no shared library"));
-    CHECK_THAT(refused(""), ContainsSubstring("is no shared library"));
+    CHECK_THAT(refused("#!/bin/sh\necho I am a script\n"), ContainsSubstring("is not a shared library"));
+    CHECK_THAT(refused(""), ContainsSubstring("is not a shared library"));
     std::string foreign = good;
     foreign[18] = 8; // e_machine: MIPS
     CHECK_THAT(refused(foreign), ContainsSubstring("built for another processor"));
@@ -143,21 +143,21 @@ TEST_CASE("a misspelt key of a manifest is named with its place and the nearest 
     CHECK_THAT(folder.refusal_of(with(R"(,
   "file": ["velvet.glsl"])"),
                                  "good"),
-               ContainsSubstring("plugin.json:3:3: the key \"file\" is unknown; is \"files\" meant?"));
+               ContainsSubstring("plugin.json:3:3: the key \"file\" is unknown; did you mean \"files\"?"));
     CHECK_THAT(
         folder.refusal_of(with(R"(, "x-files": {"exceptoins": [1, "\"exceptoins\""]}, "exceptoins": [])"), "good"),
-        ContainsSubstring("plugin.json:2:140: the key \"exceptoins\" is unknown; is \"exceptions\" meant?"));
+        ContainsSubstring("plugin.json:2:140: the key \"exceptoins\" is unknown; did you mean \"exceptions\"?"));
     CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
-               ContainsSubstring("the key \"homepage\" is unknown; known are id, version"));
+               ContainsSubstring("the key \"homepage\" is unknown; known keys: id, version"));
     CHECK_THAT(folder.refusal_of(with(R"(, "homepage": "example.org")"), "good"),
-               ContainsSubstring("keys of your own begin with \"x-\""));
+               ContainsSubstring("custom keys begin with \"x-\""));
     const auto exceptions = [&](const std::string& list) {
         return folder.refusal_of(with(", \"exceptions\": " + list), "good");
     };
     CHECK_THAT(exceptions(R"({"step": "energy"})"), ContainsSubstring("\"exceptions\" must be a list"));
     CHECK_THAT(exceptions("[1]"), ContainsSubstring("\"exceptions\"[0] must be an object"));
     CHECK_THAT(exceptions(R"([{"step": "energy", "limit": 1.1, "why": "x"}, {"stp": "energy"}])"),
-               ContainsSubstring("\"exceptions\"[1]: the key \"stp\" is unknown; is \"step\" meant?"));
+               ContainsSubstring("\"exceptions\"[1]: the key \"stp\" is unknown; did you mean \"step\"?"));
     CHECK_THAT(exceptions(R"([{"step": "energy", "limit": "1.1", "why": "x"}])"),
                ContainsSubstring("\"limit\" must be a number"));
     CHECK_THAT(exceptions(R"([{"step": "energy", "limit": 1.1}])"), ContainsSubstring("\"why\" is missing"));
@@ -181,8 +181,8 @@ TEST_CASE("a plugin that is not built says so, and how to build it", "[plugin]")
     CHECK_THAT(reason, ContainsSubstring((where / "build/lib/restage/plugins").string()));
 }
 
-TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
-    // Of each family something, each tried with glslang as the member of a struct in a composed shader.
+TEST_CASE("GLSL keywords are not valid parameter names", "[plugin]") {
+    // Samples of each family, each tried with glslang as a struct member in a composed shader.
     for (const char* word : {"sampler",
                              "samplerShadow",
                              "usampler2DArray",
@@ -221,7 +221,7 @@ TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
         INFO(word);
         CHECK_FALSE(is_glsl_identifier(word));
         const model::Param param{.id = word, .label = "x", .type = model::ParamType::boolean};
-        CHECK_THAT(check_params({&param, 1}), ContainsSubstring(std::string("\"") + word + "\" is a word of GLSL"));
+        CHECK_THAT(check_params({&param, 1}), ContainsSubstring(std::string("\"") + word + "\" is a reserved word"));
     }
     for (const char* name :
          {"tint", "textures", "texture_scale", "vector", "matte", "int_size", "imagery", "samples", "vec", "mat5",
@@ -229,7 +229,7 @@ TEST_CASE("words of GLSL are no names of parameters", "[plugin]") {
         CHECK(is_glsl_identifier(name));
 }
 
-TEST_CASE("GLSL that is missing refuses the material", "[plugin]") {
+TEST_CASE("missing GLSL refuses the material", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("p", manifest(), "good");
     fs::remove(where / "velvet.glsl");
@@ -276,14 +276,14 @@ TEST_CASE("RESTAGE_PLUGIN_PATH is searched between the user's folder and the ins
     CHECK_THAT(folder.lines[0], ContainsSubstring("/no/such/folder does not exist"));
 }
 
-TEST_CASE("identifiers and tables are held to GLSL's rules", "[plugin]") {
+TEST_CASE("identifiers and tables are checked against GLSL's rules", "[plugin]") {
     CHECK(is_glsl_identifier("uroughness"));
     CHECK(is_glsl_identifier("_x9"));
     for (const char* bad : {"", "9x", "a-b", "gl_x", "a__b", "sample", "vec3", "a b", "ä"})
         CHECK_FALSE(is_glsl_identifier(bad));
     const model::Param twice[] = {{.id = "a", .label = "A", .type = model::ParamType::boolean},
                                   {.id = "a", .label = "A", .type = model::ParamType::boolean}};
-    CHECK(check_params(twice) == "parameter \"a\" is there twice");
+    CHECK(check_params(twice) == "parameter \"a\" is duplicate");
     const model::Param texturable[] = {
         {.id = "a", .label = "A", .type = model::ParamType::integer, .texturable = true}};
     CHECK(check_params(texturable) == "parameter \"a\": only FLOAT and COLOR can be texturable");
@@ -310,7 +310,7 @@ TEST_CASE("structs that grow at their end are read as far as both sides know the
     REQUIRE(lines->size() == 2);
     CHECK(((*lines)[0].id == "a" && (*lines)[0].def[0] == 0.25f && (*lines)[0].texturable));
     CHECK(((*lines)[1].id == "b" && (*lines)[1].int_def == 16777217 && (*lines)[1].tooltip == "Two."));
-    // And with one before: without unit, choices and tooltip, of which nothing is read.
+    // And with an earlier one: without unit, choices and tooltip, which are not read.
     struct Shorter {
         char bytes[offsetof(RestageParam, unit)];
     };
@@ -324,7 +324,7 @@ TEST_CASE("structs that grow at their end are read as far as both sides know the
     REQUIRE(old->size() == 2);
     CHECK(((*old)[0].def[0] == 0.25f && (*old)[0].unit.empty() && (*old)[0].tooltip.empty()));
     CHECK((*old)[1].int_max == 1 << 30);
-    // What one who knows less asked for is not written past its end.
+    // A caller with a shorter struct is not written past its end.
     struct {
         RestageValue value{};
         std::uint32_t behind = 0xabcd;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/process: output, exit codes, signals, limits, and that nothing a child has started is left behind.
+// base/process: output, exit codes, signals, limits, and that a child leaves no processes behind.
 #include "base/process.hpp"
 #include "temporary_folder.hpp"
 
@@ -68,7 +68,7 @@ TEST_CASE("process: lines arrive whole, the last without its newline", "[process
     CHECK(lines == std::vector<std::string>{"ab", "", "c"});
 }
 
-TEST_CASE("process: much output is all read, and its end is kept", "[process]") {
+TEST_CASE("process: long output is read completely, and its end is kept", "[process]") {
     const auto outcome =
         run(shell("i=0; while [ $i -lt 30000 ]; do echo 0123456789012345678901234567890123456789; "
                   "i=$((i+1)); done; echo end"));
@@ -136,7 +136,7 @@ TEST_CASE("process: the address space is limited", "[process]") {
 }
 #endif
 
-TEST_CASE("process: what cannot be started is an error with its name", "[process]") {
+TEST_CASE("process: a program that cannot be started is an error with its name", "[process]") {
     const auto outcome = run_process({.argv = {"/no/such/program"}});
     REQUIRE_FALSE(outcome);
     CHECK(outcome.error().message == "/no/such/program: cannot be started: No such file or directory");

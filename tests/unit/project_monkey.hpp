@@ -53,7 +53,7 @@ class Monkey {
                     environment->scale = vec();
                     environment->light_to_world = matrix();
                     environment->hidden_from_camera =
-                        environment->mapping == scene::Mapping::octahedral; // draws no number
+                        environment->mapping == scene::Mapping::octahedral; // draws no random number
                     environment->origin = origin();
                     environment->sky = environment->hidden_from_camera ? "of_tomorrow" : ""; // no plugin makes it
                     environment->sky_params = {};
@@ -71,7 +71,7 @@ class Monkey {
                 if (pick(2)) f.filter = {static_cast<FilterKind>(pick(5)), {1 + x(), 2}, {x(), x()}};
                 if (pick(2)) f.exposure = x();
                 if (pick(2)) f.filename = name();
-                if (f.width < 64 || f.height < 64) f.crop = {0, 1, 0, 1}; // a crop of less than a pixel is none
+                if (f.width < 64 || f.height < 64) f.crop = {0, 1, 0, 1}; // a crop of less than a pixel is refused
                 e = set_film(s, f);
                 break;
             }
@@ -98,7 +98,7 @@ class Monkey {
                 thing<Instance>(s, e);
                 break;
         }
-        (void)session.edit(std::move(e)); // what check_edit refuses changes nothing
+        (void)session.edit(std::move(e)); // refused by check_edit: changes nothing
         if (pick(5) == 0) session.undo();
         if (pick(7) == 0) session.redo();
     }
@@ -238,7 +238,7 @@ class Monkey {
         if (pick(2)) t.type = pick(2) ? "imagemap" : "one nobody knows";
         if (pick(2)) t.is_float = !t.is_float;
         if (pick(2)) t.image = any<Image>(s);
-        ParamSet without; // textures in textures could make circles, which validate() refuses
+        ParamSet without; // textures in textures could make cycles, which validate() refuses
         params(Scene{}, t.params);
         t.origin = origin();
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Project files: whatever was edited comes back exactly, by any road; a base that moved, changed or went is told in a
-// sentence; what is not understood is kept.
+// Project files: all edits come back exactly, by any path; a base that moved, changed or vanished is reported in one
+// sentence; unknown contents are kept.
 #include "io/scene_compare.hpp"
 #include "project_monkey.hpp"
 
@@ -61,7 +61,7 @@ TEST_CASE("A scene that has no camera yet is saved and opened", "[project]") {
     check_same(session.scene(), other.scene());
 }
 
-TEST_CASE("A project holds what changed and nothing else", "[project]") {
+TEST_CASE("A project holds only the changes", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
     files.opened(session);
@@ -74,7 +74,7 @@ TEST_CASE("A project holds what changed and nothing else", "[project]") {
     CHECK_THAT(text, !ContainsSubstring("oak") && !ContainsSubstring("instances\": {") && !ContainsSubstring("film"));
 }
 
-TEST_CASE("Undo and redo go on across a save", "[project]") {
+TEST_CASE("Undo and redo continue across a save", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
     files.opened(session);
@@ -89,7 +89,7 @@ TEST_CASE("Undo and redo go on across a save", "[project]") {
     CHECK_FALSE(session.modified());
 }
 
-TEST_CASE("What is inserted from a file is named, not held, and stands in when it goes", "[project]") {
+TEST_CASE("Insertions from a file are stored by reference, with a placeholder if it vanishes", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
     files.opened(session);
@@ -124,7 +124,7 @@ TEST_CASE("What is inserted from a file is named, not held, and stands in when i
     CHECK(read_file(files.at("lamp2.restage")).value() == text); // and nothing is lost
 }
 
-TEST_CASE("A base that moved or changed is told, and can be named anew", "[project]") {
+TEST_CASE("A base that moved or changed is reported, and can be replaced", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
     files.opened(session);
@@ -190,7 +190,7 @@ TEST_CASE("A base that moved or changed is told, and can be named anew", "[proje
     }
 }
 
-TEST_CASE("A project of tomorrow keeps what we do not know", "[project]") {
+TEST_CASE("A newer project keeps unknown contents", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
     files.opened(session);
@@ -207,7 +207,7 @@ TEST_CASE("A project of tomorrow keeps what we do not know", "[project]") {
     const std::string text = read_file(files.at("p.restage")).value();
     CHECK_THAT(text,
                ContainsSubstring("\"frames\": 12") && ContainsSubstring("\"years\": 30") && ContainsSubstring("0.2"));
-    // What it hung on is gone: so is it, and nothing else.
+    // What it depended on is gone: so is it, and nothing else.
     REQUIRE(other.set_param(other.find<Material>("steel"), "uroughness", Value::number(0.3f)));
     REQUIRE(other.save_project(files.at("p.restage")));
     const std::string same = read_file(files.at("p.restage")).value();
@@ -224,7 +224,7 @@ TEST_CASE("Damaged projects are refused with the place", "[project]") {
         return opened.error().message;
     };
     CHECK_THAT(message("{\n  \"restage\": 1,\n  oops\n}"), ContainsSubstring("bad.restage:3:3"));
-    CHECK_THAT(message("[1, 2]"), ContainsSubstring("no Restage project"));
+    CHECK_THAT(message("[1, 2]"), ContainsSubstring("not a Restage project"));
     CHECK_THAT(message("{\"restage\": 99}"), ContainsSubstring("newer"));
     const std::string head = "{\"restage\": 1, \"base\": {\"file\": \"scenes/room.pbrt\"}, ";
     CHECK_THAT(message(head + "\"materials\": {\"changed\": {\"steel\": {}}}}"), ContainsSubstring("#17 oak"));

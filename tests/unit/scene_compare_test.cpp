@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparing scenes: whatever a value or a mesh holds, another one is a difference.
+// Comparing scenes: any changed value or mesh is a difference.
 #include "io/scene_compare.hpp"
 
 #include "base/log.hpp"
@@ -13,7 +13,7 @@ using namespace restage::scene;
 
 namespace {
 
-// One triangle of a material whose plugin nobody has, with this parameter.
+// One triangle of a material without a plugin, with this parameter.
 Scene with_value(const Value& value) {
     Scene s;
     auto data = std::make_shared<MeshData>();
@@ -34,9 +34,12 @@ TEST_CASE("compare: another value of any type is a difference", "[compare]") {
     Log log;
     const plugin::Registry registry(log);
     const std::pair<Value, Value> pairs[] = {
-        {Value::number(0.25f), Value::number(0.5f)},    {Value::color(1, 0, 0), Value::color(1, 0, 0.5f)},
-        {Value::integer(3), Value::integer(4)},         {Value::integer(16777216), Value::integer(16777217)},
-        {Value::boolean(false), Value::boolean(true)},  {Value::choice("ggx"), Value::choice("beckmann")},
+        {Value::number(0.25f), Value::number(0.5f)},
+        {Value::color(1, 0, 0), Value::color(1, 0, 0.5f)},
+        {Value::integer(3), Value::integer(4)},
+        {Value::integer(16777216), Value::integer(16777217)},
+        {Value::boolean(false), Value::boolean(true)},
+        {Value::choice("ggx"), Value::choice("beckmann")},
         {Value::table("/a/x.binary"), Value::table("/a/y.binary")},
     };
     for (const auto& [a, b] : pairs) {
@@ -46,7 +49,7 @@ TEST_CASE("compare: another value of any type is a difference", "[compare]") {
     }
 }
 
-TEST_CASE("compare: each list of numbers of a mesh counts", "[compare]") {
+TEST_CASE("compare: each array of a mesh counts", "[compare]") {
     Log log;
     const plugin::Registry registry(log);
     const auto changed = [](auto change) {

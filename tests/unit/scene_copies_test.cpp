@@ -17,7 +17,7 @@ using namespace restage::scene;
 
 namespace {
 
-struct Counted { // how often any was copied
+struct Counted { // number of copies made
     int number = 0;
     inline static int copies = 0;
     explicit Counted(int n) : number(n) {}
@@ -81,7 +81,7 @@ TEST_CASE("a copy of a table shares its items until they are changed") {
     CHECK(before.version({8}) == 8);
 }
 
-TEST_CASE("what changed after a version is found without looking at the rest") {
+TEST_CASE("changes after a version are found without visiting the rest") {
     Table<Counted> table = numbers(1000);
     table.set({130}, Counted(-130), 1001);
     table.set({999}, std::nullopt, 1002);
@@ -96,7 +96,7 @@ TEST_CASE("what changed after a version is found without looking at the rest") {
     CHECK(changed(0).size() == 1000);
 }
 
-TEST_CASE("a table may be changed while it is walked: the walk goes over what was there") {
+TEST_CASE("a table may be changed while it is walked: the walk visits the old items") {
     Table<Counted> table = numbers(300);
     int sum = 0;
     table.each([&](Id<Counted> id, const Counted& item) {
@@ -113,7 +113,7 @@ TEST_CASE("a table that was moved from is empty") {
     Table<Counted> table = numbers(3);
     const Table<Counted> other = std::move(table);
     CHECK(other.live() == 3);
-    CHECK(table.size() == 0); // NOLINT(bugprone-use-after-move): what it holds then is promised
+    CHECK(table.size() == 0); // NOLINT(bugprone-use-after-move): the moved-from state is specified
     CHECK_FALSE(table.find({1}));
     table.set(table.next(), Counted(9), 1);
     CHECK(table[{1}].number == 9);

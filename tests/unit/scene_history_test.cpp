@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene: history and gestures: undo restores what was there, a drag is one edit, clean means as saved.
+// scene: history and gestures: undo restores the previous state, a drag is one edit, clean means as saved.
 #include "scene/edits_light.hpp"
 #include "scene/history.hpp"
 #include "scene_room.hpp"
@@ -14,7 +14,7 @@ using test::Room;
 
 namespace {
 
-// All that a scene holds, as a comparable value: what undo must restore. Versions move on and are left out.
+// All contents of a scene as a comparable value: what undo must restore. Versions only grow and are left out.
 std::vector<AnyChange> contents(const Scene& scene) {
     std::vector<AnyChange> all;
     const auto push = [&]<class T>(const Table<T>& slots) {
@@ -48,7 +48,7 @@ bool same(const Scene& a, const Scene& b) {
 
 } // namespace
 
-TEST_CASE("undo restores the scene, redo does it again, for every kind of edit", "[scene]") {
+TEST_CASE("undo restores the scene, redo repeats the edit, for every kind of edit", "[scene]") {
     Room r;
     History history;
     const Scene start = r.scene;
@@ -86,7 +86,7 @@ TEST_CASE("undo restores the scene, redo does it again, for every kind of edit",
     CHECK(same(end, r.scene));
 }
 
-TEST_CASE("a drag is one edit, and one that returns is none", "[scene]") {
+TEST_CASE("a drag is one edit, and one that returns to its start is no edit", "[scene]") {
     Room r;
     History history;
     const Scene start = r.scene;
@@ -110,7 +110,7 @@ TEST_CASE("a drag is one edit, and one that returns is none", "[scene]") {
     CHECK(history.size() == 0);
 }
 
-TEST_CASE("a gesture may insert and then move what it inserted", "[scene]") {
+TEST_CASE("a gesture may insert an object and then move it", "[scene]") {
     Room r;
     History history;
     const Scene start = r.scene;
@@ -125,7 +125,7 @@ TEST_CASE("a gesture may insert and then move what it inserted", "[scene]") {
     CHECK(r.scene.instances[copy->copies[0]].object_to_world[3].y == 5);
 }
 
-TEST_CASE("a cancelled drag leaves everything as it was, also what could be redone", "[scene]") {
+TEST_CASE("a cancelled drag leaves everything as it was, including the redo history", "[scene]") {
     Room r;
     History history;
     const auto move = [&](double x) {
@@ -165,7 +165,7 @@ TEST_CASE("a light is duplicated", "[scene]") {
     CHECK_FALSE(duplicate_light(scene, Id<Light>{7}, glm::dmat4(1)));
 }
 
-TEST_CASE("clean means: as the file holds it", "[scene]") {
+TEST_CASE("clean means equal to the file", "[scene]") {
     Room r;
     History history;
     const auto change = [&](std::uint32_t width) {
@@ -187,7 +187,7 @@ TEST_CASE("clean means: as the file holds it", "[scene]") {
     CHECK_FALSE(history.clean());
 }
 
-TEST_CASE("the history holds to its budget of bytes", "[scene]") {
+TEST_CASE("the history keeps its byte budget", "[scene]") {
     Room r;
     History history;
     const auto change = [&](std::uint32_t width) {
@@ -224,7 +224,7 @@ TEST_CASE("the history holds to its budget of bytes", "[scene]") {
     CHECK(r.scene.film.value.width == 2);
     CHECK_FALSE(history.clean());
 
-    REQUIRE(change(6)); // what could be redone is no longer held
+    REQUIRE(change(6)); // the redo history is dropped
     CHECK(history.bytes() == one);
     history.set_budget(1); // the newest edit stays, however large
     CHECK(history.size() == 1);
@@ -237,7 +237,7 @@ TEST_CASE("the history holds to its budget of bytes", "[scene]") {
     CHECK(history.bytes() == one);
 }
 
-TEST_CASE("geometry counts once, and only while nobody but the history holds it", "[scene]") {
+TEST_CASE("geometry counts once, and only while the history alone holds it", "[scene]") {
     Room r;
     History history;
     auto data = test::triangle();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The small scene that the tests of scene/ work on.
+// The small scene used by the tests of scene/.
 #pragma once
 
 #include "scene/bounds.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene: tables, parameters, bounds, and builders of edits that refuse what would leave a dangling id.
+// scene: tables, parameters, bounds, and builders of edits that refuse to leave a dangling id.
 #include "scene/history.hpp"
 #include "scene/uses.hpp"
 #include "scene/validate.hpp"
@@ -17,7 +17,7 @@ using namespace restage::scene;
 using test::not_a_number;
 using test::Room;
 
-TEST_CASE("a table names slots for good", "[scene]") {
+TEST_CASE("a table never reuses an id", "[scene]") {
     Table<Group> table;
     table.set(table.next(), Group{.name = "a"}, 1);
     table.set(table.next(), Group{.name = "b"}, 2);
@@ -54,19 +54,19 @@ TEST_CASE("choices and defaults come from the table line", "[scene]") {
     CHECK(default_value(line).text == "none");
     CHECK(misfit(line, Value::choice("v3")).empty());
     CHECK(misfit(line, Value::choice("v2")) == " cannot be \"v2\"; v4|v3|none are possible");
-    CHECK(misfit(line, Value::number(1)) == " has another type");
+    CHECK(misfit(line, Value::number(1)) == " has a different type");
     model::Param beyond = line;
     beyond.int_def = 9;
     CHECK(default_value(beyond).text.empty()); // a broken table, but no crash
     const model::Param count{.id = "n", .type = model::ParamType::integer, .int_max = 3};
     CHECK(misfit(count, Value::integer(3)).empty());
     CHECK(misfit(count, Value::integer(4)) == ": 4 is out of its range, 0 to 3");
-    CHECK(Value::integer(16777217).i == 16777217); // which no float is
+    CHECK(Value::integer(16777217).i == 16777217); // which is not a float
     const model::Param color{.id = "c", .type = model::ParamType::color, .def = {1, 2, 3, 4}};
     CHECK(default_value(color) == Value::color(1, 2, 3));
 }
 
-TEST_CASE("what is in use is not removed", "[scene]") {
+TEST_CASE("things in use are not removed", "[scene]") {
     Room r;
     const auto refused = remove(r.scene, r.oak);
     REQUIRE_FALSE(refused);
@@ -122,7 +122,7 @@ TEST_CASE("a duplicate shares geometry, moves in world space and takes whole gro
     CHECK_FALSE(duplicate_instances(r.scene, std::array{r.lamp}, glm::dmat4(0)));
 }
 
-TEST_CASE("builders refuse what cannot be", "[scene]") {
+TEST_CASE("builders refuse invalid input", "[scene]") {
     Room r;
     CHECK_FALSE(set_transform(r.scene, r.chair, glm::dmat4(0)));
     CHECK_FALSE(set_transform(r.scene, r.chair, glm::dmat4(std::numeric_limits<double>::quiet_NaN())));
@@ -133,7 +133,7 @@ TEST_CASE("builders refuse what cannot be", "[scene]") {
     CHECK_FALSE(set_active_camera(r.scene, {4}));
 }
 
-TEST_CASE("what stood for a value goes when the value is edited", "[scene]") {
+TEST_CASE("the original text of a value is dropped when the value is edited", "[scene]") {
     Room r;
     const OriginValue eta{"eta", "\"spectrum eta\" [ \"metal-Au-eta\" ]"}, k{"k", "\"spectrum k\" [ \"metal-Au-k\" ]"};
     const Origin kept{"\"float x\" [ 1 ]\n", "pbrt-v4", {eta, k}};
@@ -166,7 +166,7 @@ TEST_CASE("bounds follow the transform", "[scene]") {
     CHECK(world_bounds(Scene{}).radius() == 0);
 }
 
-TEST_CASE("names of many copies are found quickly, and are the ones that are free", "[edits]") {
+TEST_CASE("free names for many copies are found quickly", "[edits]") {
     std::set<std::string> taken, again;
     TriedNumbers tried;
     for (int i = 1; i <= 20000; ++i)

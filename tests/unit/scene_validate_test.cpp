@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene: validate is silent about a sound scene and names what is wrong with another.
+// scene: validate is silent about a valid scene and names the errors of an invalid one.
 #include "scene/edits.hpp"
 #include "scene/validate.hpp"
 #include "scene_room.hpp"
@@ -25,7 +25,7 @@ constexpr auto warning = Problem::Severity::warning;
 
 } // namespace
 
-TEST_CASE("validate is silent about a sound scene and names what is wrong with another", "[scene]") {
+TEST_CASE("validate is silent about a valid scene and names the errors of an invalid one", "[scene]") {
     Room r;
     REQUIRE(validate(r.scene).empty());
     const auto with = [&](auto&& change) {
@@ -99,7 +99,7 @@ TEST_CASE("check_mesh finds the first thing that is wrong", "[scene]") {
     CHECK(check_mesh(MeshData{}) == "has no triangles");
 }
 
-TEST_CASE("an edit that brings in what no picture can hold is refused with a sentence", "[scene]") {
+TEST_CASE("an edit with values that cannot be rendered is refused with a message", "[scene]") {
     Room r;
     r.add(Light{.name = "spot", .kind = scene::LightKind::spot});
     apply(r.scene, set_environment(r.scene, Environment{.name = "sky"}));
@@ -147,7 +147,7 @@ TEST_CASE("an edit that brings in what no picture can hold is refused with a sen
     refused(insert(r.scene, Mesh{.name = "m", .data = std::make_shared<MeshData>()}, ""), "has no triangles");
     refused(insert(r.scene, Image{.name = "i", .data = std::make_shared<PixelData>()}, ""), "channels");
 
-    // What a file brought along may be moved and renamed, made good, but not worse.
+    // Invalid contents of a file may be moved, renamed and fixed, but not made worse.
     apply(r.scene, *set_emission(r.scene, r.lamp, Emission{{1, 1, -0.01f}, false}));
     CHECK(check_edit(*set_transform(r.scene, r.lamp, glm::dmat4(1))));
     CHECK(check_edit(*set_emission(r.scene, r.lamp, Emission{{1, 1, 0}, false})));

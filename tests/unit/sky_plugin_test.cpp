@@ -11,10 +11,10 @@
 
 #include <restage/sky.h>
 
-#include <filesystem>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
+#include <filesystem>
 #include <numbers>
 
 namespace fs = std::filesystem;

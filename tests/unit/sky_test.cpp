@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies made by the editor: where up is, what stays of the sky before, and that an image comes in once.
+// Skies made by the editor: the up axis, what is kept of the previous sky, and that an image is added once.
 #include "scene/sky.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
@@ -27,7 +27,7 @@ TEST_CASE("a sky's pole points up, and its frame is a rotation", "[sky]") {
     }
 }
 
-TEST_CASE("an image as sky keeps the turn and strength of an image, not the colour of a plain sky", "[sky]") {
+TEST_CASE("an image as sky keeps an image's rotation and strength, not a plain sky's colour", "[sky]") {
     Scene s;
     History history;
     history.push(s, set_environment(s, Environment{.scale = glm::vec3(0.2f, 0.3f, 0.9f)}));
@@ -50,7 +50,7 @@ TEST_CASE("an image as sky keeps the turn and strength of an image, not the colo
     CHECK(s.images.live() == 2);
     history.push(s, scene::image_sky(s, "/skies/square.exr", pixels(4, 4), {0, 1, 0}));
     CHECK(s.environment.value->mapping == scene::Mapping::octahedral);
-    CHECK(s.environment.value->light_to_world == scene::upright_sky({0, 1, 0})); // another mapping: not that turn
+    CHECK(s.environment.value->light_to_world == scene::upright_sky({0, 1, 0})); // another mapping: not that rotation
 }
 
 TEST_CASE("a new document has a studio around it that shines from above", "[sky]") {

@@ -47,7 +47,7 @@ struct Boxes {
 
 } // namespace
 
-TEST_CASE("things stand on spheres as they are rendered, not on the grids that stand for them", "[support]") {
+TEST_CASE("things stand on spheres as rendered, not on their stand-in grids", "[support]") {
     Boxes b;
     const auto ball = [&](const char* name, double radius, glm::dvec3 centre) {
         auto data = std::make_shared<MeshData>(); // a coarse grid, as importers give: here an octahedron
@@ -79,15 +79,15 @@ TEST_CASE("things fall until they stand on something", "[support]") {
         const Ids slab{b.box("slab", {0, 0, 1}, {2, 2, 1.1})};
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
 
-        // A post that is thinner than what it carries, under no corner of it.
+        // A post thinner than its load, under no corner of it.
         const auto post = b.box("post", {0.9, 1.1, 0}, {0.905, 1.105, 0.4});
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(0.6));
-        // What it is let fall with carries nothing.
+        // Objects falling with it carry nothing.
         CHECK(*query::fall_distance(b.scene, Ids{slab[0], post}, up) == Approx(0).margin(1e-9));
         apply(b.scene, *set_hidden(b.scene, Ids{post}, true));
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
 
-        // A plate on the slab is not what the slab stands on, however thin both are.
+        // The slab does not stand on a plate on top of it, no matter how thin both are.
         b.box("plate", {0.5, 0.5, 1.1}, {0.7, 0.7, 1.101});
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
         // Sunk in a little: out again. Through the floor would be the only other way.
@@ -121,7 +121,7 @@ TEST_CASE("what touches a thing is its parts, not the floor it stands on", "[tou
     CHECK(query::touching(b.scene, {}).empty());
     // Of the floor everything on it is a part.
     CHECK(query::touching(b.scene, Ids{floor}).size() == chair.size() + 1);
-    // What is locked in the editor is passed over, and leads nowhere.
+    // Objects locked in the editor are skipped, and lead nowhere.
     const auto found = query::touching(b.scene, Ids{chair[6]}, [&](Id<Instance> id) { return id == chair[0]; });
     CHECK(found.empty());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables that plugins read (restage/table.h), by the example of MERL's files: what is sound becomes words, what is not
-// a sentence, and pbrt files, exports and projects keep the path.
+// Tables that plugins read (restage/table.h), by the example of MERL's files: valid ones become words, invalid ones
+// an error, and pbrt files, exports and projects keep the path.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
@@ -57,7 +57,7 @@ void put(std::string& bytes, std::size_t plane, std::size_t index, double value)
 
 } // namespace
 
-TEST_CASE("a MERL file becomes words, each where it belongs", "[table]") {
+TEST_CASE("a MERL file becomes words, each in its place", "[table]") {
     Reading r;
     const auto table =
         r.read(merl_bytes(small, [](double h, double d, double p, int c) { return h + 10 * d + 100 * p + c; }));
@@ -75,7 +75,7 @@ TEST_CASE("a MERL file becomes words, each where it belongs", "[table]") {
     CHECK(t.notes[0] == "4 x 3 x 2 entries, 0.0 % of them not measured");
 }
 
-TEST_CASE("entries that are negative or no numbers are marked, and counted", "[table]") {
+TEST_CASE("negative and non-finite entries are marked, and counted", "[table]") {
     Reading r;
     std::string bytes = lambert();
     put(bytes, 0, 0, -1);
@@ -91,16 +91,16 @@ TEST_CASE("entries that are negative or no numbers are marked, and counted", "[t
     CHECK(std::abs(entry(**table, 1, 1, 0, 1) - 0.5 / std::numbers::pi) < 1e-6);
     REQUIRE((*table)->notes.size() == 2);
     CHECK_THAT((*table)->notes[0], ContainsSubstring("2.8 % of them not measured")); // 2 of 72
-    CHECK((*table)->notes[1] == "2 values are not finite numbers (taken as not measured)");
+    CHECK((*table)->notes[1] == "2 values are not finite (taken as not measured)");
     for (const std::uint32_t word : (*table)->words)
         CHECK(std::isfinite(std::bit_cast<float>(word)));
 }
 
-TEST_CASE("what is no MERL file is refused with a sentence", "[table]") {
+TEST_CASE("a file that is not MERL is refused with a message", "[table]") {
     Reading r;
     CHECK_THAT(r.refusal(lambert().substr(0, 500)),
                ContainsSubstring("has 500 bytes where 4 x 3 x 2 entries take 588: it is cut short"));
-    CHECK_THAT(r.refusal(lambert() + "x"), ContainsSubstring("it is no MERL file"));
+    CHECK_THAT(r.refusal(lambert() + "x"), ContainsSubstring("not a MERL file"));
     CHECK_THAT(r.refusal(""), ContainsSubstring("too short"));
     CHECK_THAT(r.refusal("abc"), ContainsSubstring("too short"));
     CHECK_THAT(r.refusal("# irregular isotropic BRDF\n0.1 0.2 0.3\n"), ContainsSubstring("is text"));
@@ -109,13 +109,13 @@ TEST_CASE("what is no MERL file is refused with a sentence", "[table]") {
          {test::MerlCounts{0, 90, 180}, {-1, 90, 180}, {2147483647, 2147483647, 2147483647}, {5000, 1, 1}}) {
         std::string bytes = lambert();
         std::memcpy(bytes.data(), n.data(), 12);
-        CHECK_THAT(r.refusal(bytes), ContainsSubstring("it is no MERL file"));
+        CHECK_THAT(r.refusal(bytes), ContainsSubstring("not a MERL file"));
     }
     std::string big = lambert(); // many, but believable: the file is too short for them
     const test::MerlCounts n{4096, 4096, 4096};
     std::memcpy(big.data(), n.data(), 12);
     CHECK_THAT(r.refusal(big), ContainsSubstring("cut short"));
-    for (std::uint32_t seed = 0; seed < 300; ++seed) { // noise: an answer, whatever it is
+    for (std::uint32_t seed = 0; seed < 300; ++seed) { // noise: any answer, but no crash
         std::string noise;
         for (std::uint32_t i = 0; i < seed; ++i)
             noise += static_cast<char>(hash64(&i, sizeof i, seed) & 255);
@@ -130,7 +130,7 @@ TEST_CASE("what is no MERL file is refused with a sentence", "[table]") {
     CHECK(r.reader.read("filename", "").value()->words.empty());
 }
 
-TEST_CASE("a table is read once, and anew when its file changes; not after its plugin is gone", "[table]") {
+TEST_CASE("a table is read once, and again when its file changes; not after its plugin is gone", "[table]") {
     std::shared_ptr<plugin::TableReader> reader;
     Folder folder;
     const std::string file = folder.file("a.binary");
@@ -151,13 +151,13 @@ TEST_CASE("a table is read once, and anew when its file changes; not after its p
         CHECK(reader->read("filename", file));
         CHECK(reader->problem("filename", file).empty());
     }
-    CHECK(reader->read("filename", file)); // what is remembered stays
+    CHECK(reader->read("filename", file)); // cached tables stay
     REQUIRE(write_file_atomic(folder.file("b.binary"), lambert()));
     CHECK_THAT(reader->read("filename", folder.file("b.binary")).error().message,
                ContainsSubstring("has been replaced"));
 }
 
-TEST_CASE("a reload of the plugin takes the files of its folder anew", "[table][plugin]") {
+TEST_CASE("a reload of the plugin rereads the files of its folder", "[table][plugin]") {
     test::PluginFolder folder;
     const fs::path built = restage::test::build_dir() / "lib/restage/plugins/material-measured";
     const fs::path copy = folder.path / "measured";
@@ -178,15 +178,15 @@ TEST_CASE("a reload of the plugin takes the files of its folder anew", "[table][
     REQUIRE(after);
     CHECK(after->source->table_reader() != before->source->table_reader());
     CHECK(after->source->table_reader()->read("filename", file).value()->words[0] == 4);
-    CHECK(first->words[0] == 24); // who renders goes on with it
+    CHECK(first->words[0] == 24); // a running renderer keeps it
     CHECK_FALSE(before->source->table_reader()->read("filename", file));
-    fs::remove(file); // a default that is not there: the version before stays
+    fs::remove(file); // a missing default: the previous version stays
     REQUIRE(registry.reload_changed().size() == 1);
     CHECK_THAT(registry.entries()[0]->trouble, ContainsSubstring("glossy_paint.binary is missing"));
     CHECK(registry.find_material("measured"));
 }
 
-TEST_CASE("a reader that asks for too much is stopped, and the host says why", "[table][plugin]") {
+TEST_CASE("a reader that requests too much is stopped, and the host says why", "[table][plugin]") {
     test::PluginFolder folder;
     folder.add("p", test::manifest(), "table_greedy");
     plugin::Registry registry(folder.log);
@@ -239,7 +239,7 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
     CHECK_THAT(report, ContainsSubstring("dropped: material \"" + material(session, 2).name +
                                          "\": " + (r.folder.path / "in/gone.binary").string() + ": cannot be opened"));
     CHECK_THAT(report, ContainsSubstring("data of RGL (.bsdf) is not read"));
-    for (const bool edited : {false, true}) { // as it came, and from its values
+    for (const bool edited : {false, true}) { // verbatim, and from its values
         if (edited)
             REQUIRE(session.set_param({session.scene().instances[{1}].material}, "tint", Value::color(1, 1, 0.5f)));
         for (const char* v : {"v4", "v3"}) {

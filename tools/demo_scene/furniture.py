@@ -71,7 +71,7 @@ def table(scene, centre, angle):
 
 
 def chair(scene):
-    """Stands at the origin, somebody sitting on it looks along +y."""
+    """Stands at the origin; a person sitting on it looks along +y."""
     scene.section("Chairs")
     scene.material(
         "Cushion wool", "diffuse", reflectance=(0.072, 0.125, 0.175), displacement=("texture", "cloth height")

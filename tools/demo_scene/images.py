@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tileable noise, and PNG and EXR writers on the standard library: what the textures of the bundled scenes need."""
+"""Tileable noise, and PNG and EXR writers on the standard library: for the textures of the bundled scenes."""
 
 import struct
 import zlib

@@ -2,27 +2,27 @@
 """Triangle meshes for the bundled scenes: lathes, rounded boxes, sweeps, sheets, and a binary PLY writer.
 
 Lengths in metres, z up, right-handed; normals point out of the solid, and triangles wind counter-clockwise about them.
-The last bits of sine, power and matrix product differ from processor to processor. No choice may hang on them: what is
-chosen (a vertex kept, an axis, a side) goes through `above` or `first_largest`.
+The last bits of sine, power and matrix product differ from processor to processor. No choice may depend on them: all
+choices (a vertex kept, an axis, a side) go through `above` or `first_largest`.
 """
 
 import numpy as np
 
-SLACK = 1e-9  # relative: a million times what rounding can do here, and far below what can be seen
+SLACK = 1e-9  # relative: a million times the rounding error here, and far below what is visible
 
 
 def above(values, limit):
-    """values > limit; refuses a shape where the answer hangs on rounding, for its author to change."""
+    """values > limit; refuses a shape whose answer depends on rounding, for its author to change."""
     if np.any(np.abs(np.asarray(values) - limit) <= SLACK * abs(limit)):
-        raise ValueError(f"a value is as good as equal to the limit {limit}")
+        raise ValueError(f"a value practically equals the limit {limit}")
     return np.asarray(values) > limit
 
 
 def first_largest(values):
-    """The first index (along the last axis) of all that are as large as the largest, but for rounding."""
+    """The first index (along the last axis) of the values that equal the largest up to rounding."""
     top = np.max(values, axis=-1, keepdims=True)
     if np.any((values < top * (1 - SLACK)) & (values > top * (1 - 2 * SLACK))):
-        raise ValueError("a value lies where it is neither the largest nor clearly less")
+        raise ValueError("a value is neither the largest nor clearly smaller")
     return np.argmax(values >= top * (1 - SLACK), axis=-1)
 
 
@@ -103,7 +103,7 @@ def grid_faces(rows, columns):
 
 
 def without_slivers(mesh):
-    """Drop triangles of no area (the poles of a lathe) and the vertices nobody uses."""
+    """Drop triangles of no area (the poles of a lathe) and unused vertices."""
     a, b, c = (mesh.v[mesh.f[:, k]] for k in range(3))
     f = mesh.f[above(np.linalg.norm(np.cross(b - a, c - a), axis=1), 1e-14)]
     used, f = np.unique(f, return_inverse=True)
@@ -246,7 +246,7 @@ def box_between(lo, hi, radius=0.003, steps=2, grain=None):
 def superellipse(width, depth, power=4.0, count=64):
     """A closed outline between an ellipse (power 2) and a rectangle."""
     t = np.linspace(0, 2 * np.pi, count, endpoint=False)
-    c, s = (np.round(x, 14) for x in (np.cos(t), np.sin(t)))  # a power would make 1e-9 of the 1e-17 that is none
+    c, s = (np.round(x, 14) for x in (np.cos(t), np.sin(t)))  # a power would turn a rounding error of 1e-17 into 1e-9
     return np.stack(
         [width / 2 * np.sign(c) * np.abs(c) ** (2 / power), depth / 2 * np.sign(s) * np.abs(s) ** (2 / power)], 1
     )

@@ -9,7 +9,7 @@ from .mesh import write_ply
 
 
 def numbers(values):
-    """Six digits; what is nothing but rounding (the cosine of a right angle) is 0, not 1.11022e-16."""
+    """Six digits; mere rounding (the cosine of a right angle) is 0, not 1.11022e-16."""
     return " ".join(f"{float(x):.6g}" for x in np.round(np.ravel(np.asarray(values, float)), 9) + 0.0)
 
 
@@ -57,14 +57,14 @@ class Scene:
         return f'Shape "plymesh"\n        "string filename" [ "geometry/{name}.ply" ]'
 
     def object(self, name, *parts):
-        """parts: (material, shape text as mesh() returns it, what the part is called)."""
+        """parts: (material, shape text as mesh() returns it, the part's name)."""
         lines = [f'ObjectBegin "{name}"']
         for material, shape, label in parts:
             lines += [f"    # name: {label}", f'    NamedMaterial "{material}"', f"    {shape}"]
         self.objects.append("\n".join(lines + ["ObjectEnd"]))
 
     def place(self, name, matrix=None):
-        """One more of an object; the second chair is called "Chair 2", as the importer would call it."""
+        """One more of an object; the second chair is called "Chair 2", as the importer would name it."""
         self.count[name] = self.count.get(name, 0) + 1
         label = name if self.count[name] == 1 else f"{name} {self.count[name]}"
         lines = [f"# name: {label}", "AttributeBegin"]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assets: things at hand to bring into the scene: drag them into the picture, or double click.
+// Assets: things to bring into the scene: drag them into the picture, or double click.
 #include "panels.hpp"
 
 #include "base/file.hpp"
@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uint32_t thumbnail_pixels = 128;
-constexpr std::size_t most_thumbnails = 800; // the window has descriptors for 1024 textures
+constexpr std::size_t most_thumbnails = 800; // the window has 1024 texture descriptors
 constexpr const char* kind_names[] = {"All", "Scenes", "Skies", "Textures", "Meshes"};
 
 fs::path own_config(const PanelContext& e) {
@@ -58,7 +58,7 @@ void ask_thumbnail(PanelContext& e, AssetsState::Thumbnail& thumbnail, const std
     thumbnail.asked = true;
     e.panel_state->loads.start(
         {.path = file,
-         .encoding = scene::Encoding::srgb, // of what has eight bits
+         .encoding = scene::Encoding::srgb, // of 8-bit images
          .thumbnail = thumbnail_pixels,
          .done = [&e, path = file](Result<std::shared_ptr<const scene::PixelData>> pixels) {
              AssetsState::Thumbnail& to = e.panel_state->assets.thumbnails[path];
@@ -117,8 +117,8 @@ void cell(PanelContext& e, const Asset& asset, float side) {
     }
     static constexpr const char* uses[] = {"Double click: open it",
                                            "Double click: becomes the sky. Or drag it into the picture",
-                                           "Double click: onto what is selected. Or drag it onto an object",
-                                           "Double click: add it to the scene. Or drag it to where it shall stand"};
+                                           "Double click: put it on the selection. Or drag it onto an object",
+                                           "Double click: add it to the scene. Or drag it to its place"};
     tip(fmt::format("{}\n{}", asset.path, uses[int(asset.kind)]).c_str());
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(at, {at.x + side, at.y + side},
@@ -151,7 +151,7 @@ void cell(PanelContext& e, const Asset& asset, float side) {
 
 void add_folder(PanelContext& e, const fs::path& folder) {
     if (own_config(e).empty())
-        e.notices.add(LogLevel::error, "There is no folder for settings to remember it in");
+        e.notices.add(LogLevel::error, "There is no settings folder to remember it in");
     else if (auto added = add_asset_folder(own_config(e), folder); !added)
         e.notices.add(LogLevel::error, added.error().message);
     else
@@ -180,7 +180,7 @@ void accept_asset(PanelContext& e) {
         const std::filesystem::path path(static_cast<const char*>(payload->Data));
         const ImVec2 at = ImGui::GetIO().MousePos;
         if (payload->IsDelivery())
-            e.later([&e, path, at] { e.drop({path}, at); }); // as if it came from outside
+            e.later([&e, path, at] { e.drop({path}, at); }); // as if dropped from outside
         else
             preview_drop(e, path, at);
     }
@@ -200,8 +200,7 @@ void draw_assets(PanelContext& e) {
     e.mark("assets.search");
     if (flow_button("Reload")) {
         state.loaded = false;
-        for (auto& [path, thumbnail] :
-             state.thumbnails) // those that are there stay: textures live as long as the window
+        for (auto& [path, thumbnail] : state.thumbnails) // existing ones stay: textures live as long as the window
             if (thumbnail.failed) thumbnail = {};
     }
     tip("Read assets.json and the folders again");
@@ -228,7 +227,7 @@ void draw_assets(PanelContext& e) {
             if (shown++ % columns) ImGui::SameLine();
             cell(e, asset, side);
         }
-        if (shown == 0) empty_note("Nothing is called that.");
+        if (shown == 0) empty_note("Nothing matches.");
     }
     ImGui::EndChild();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Convergence: the estimated relative error of the live picture against time or samples, as it falls; the picture
-// before it for comparison, and the error at which rendering stops.
+// Convergence: the estimated relative error of the live picture against time or samples, as it falls; the previous
+// picture for comparison, and the error at which rendering stops.
 #include "panels.hpp"
 
 #include "state.hpp"
@@ -20,7 +20,7 @@ void follow_convergence(PanelContext& e) {
     const auto frame = e.live().frame();
     if (!frame || frame->divider != 1 || frame->relative_error >= 1e29) return;
     if (frame->request != state.current.request) {
-        // Pictures that were left after a moment, while something moved, are no comparison.
+        // Pictures abandoned after a moment, while something moved, are not worth comparing.
         if (state.current.error.size() > 2) state.previous = std::move(state.current);
         state.current = {.request = frame->request};
     }
@@ -61,7 +61,7 @@ void draw_convergence(PanelContext& e) {
     if (!ImPlot::BeginPlot("##error", {-1, -1}, ImPlotFlags_NoMouseText)) return;
     ImPlot::SetupAxes(state.against_samples ? "Samples a pixel" : "Time (s)", "Error (%)", ImPlotAxisFlags_AutoFit,
                       ImPlotAxisFlags_AutoFit);
-    // Logarithmic over more than a decade; in less of one there are no ticks to read it by.
+    // Logarithmic over more than a decade; in less there would be no ticks to read.
     const auto scale_of = [&](auto values) {
         double least = 1e30, most = 0;
         for (const Curve* curve : {&std::as_const(state.previous), &now})
@@ -82,7 +82,7 @@ void draw_convergence(PanelContext& e) {
         spec.LineWeight = 1.5f * scale;
         ImPlot::PlotLine(name, x.data(), curve.error.data(), int(x.size()), spec);
     };
-    line("Picture before", state.previous, colors::dim);
+    line("Previous picture", state.previous, colors::dim);
     line("This picture", now, colors::accent);
     if (const double target = e.view.error * 100; target > 0) {
         ImPlotSpec spec;

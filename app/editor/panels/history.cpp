@@ -36,7 +36,7 @@ void draw_history(PanelContext& e) {
             ImGui::TextColored(colors::good, "saved");
         }
     };
-    // What it holds, and may hold.
+    // Its size and limit.
     constexpr double mib = 1 << 20;
     ImGui::TextDisabled("%s",
                         fmt::format("{} steps, {:.3g} of", history.size(), double(history.bytes()) / mib).c_str());
@@ -49,12 +49,11 @@ void draw_history(PanelContext& e) {
             s.set_history_budget(bytes);
         });
     }
-    tip("How much memory undo may take; beyond it the oldest steps are dropped. Geometry and pictures count once");
+    tip("Memory limit for undo; beyond it the oldest steps are dropped. Geometry and pictures count once");
     e.mark("history.budget");
     if (history.dropped() > 0)
         ImGui::TextDisabled(
-            "%s",
-            fmt::format("{} older steps were dropped: they cannot be undone any more", history.dropped()).c_str());
+            "%s", fmt::format("{} older steps were dropped: they can no longer be undone", history.dropped()).c_str());
     row(0, history.dropped() > 0        ? "The oldest state that is kept"
            : e.session().path().empty() ? "New scene"
                                         : "Opened");
@@ -65,7 +64,7 @@ void draw_history(PanelContext& e) {
             row(std::size_t(i) + 1, history.label(std::size_t(i)));
     if (history.size() == 0)
         empty_note("Nothing has been changed yet. Every change is listed here, and a click goes back to it.");
-    // The newest is seen when it comes.
+    // Scrolls to a new step.
     if (e.panel_state->history_seen != history.position() && history.position() == history.size())
         ImGui::SetScrollHereY(1);
     e.panel_state->history_seen = history.position();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Import report: what became of the things in the file, what it is about, and files that were not found.
+// Import report: what became of the things in the file, which objects an entry is about, and missing files.
 #include "panels.hpp"
 
 #include "document/session.hpp"
@@ -133,7 +133,7 @@ void relink_from_folder(PanelContext& e, const std::vector<ImageId>& missing, co
                         const std::string& folder) {
     std::map<std::string, std::string> files; // name -> path
     std::error_code error;
-    constexpr std::size_t most = 100'000; // somebody may have typed "/"
+    constexpr std::size_t most = 100'000; // the user may have typed "/"
     std::size_t seen = 0;
     for (auto it = std::filesystem::recursive_directory_iterator(
              folder, std::filesystem::directory_options::skip_permission_denied, error);
@@ -160,7 +160,7 @@ void missing_files(PanelContext& e) {
     e.scene().images.each([&](ImageId id, const scene::Image& image) {
         if (!image.data && !image.path.empty()) missing.push_back(id);
     });
-    std::vector<MeshId> meshes; // that may be found; Include and so on are found by opening the scene again
+    std::vector<MeshId> meshes; // that can be relinked; Include and so on by opening the scene again
     std::size_t lines = 0;
     e.scene().meshes.each([&](MeshId id, const scene::Mesh& mesh) {
         if (!scene::is_missing(mesh)) return;
@@ -206,7 +206,7 @@ void missing_files(PanelContext& e) {
                        .done = [id](PanelContext& editor, const std::filesystem::path& path) {
                            if (editor.scene().images.find(id)) relink(editor, {{id, path.string()}});
                        }});
-        tip("Choose the file that stands for it");
+        tip("Choose the file to use instead");
         e.mark("report.find." + e.scene().images[id].name);
         ImGui::PopID();
     }
@@ -225,7 +225,7 @@ void missing_files(PanelContext& e) {
                        .done = [id](PanelContext& editor, const std::filesystem::path& path) {
                            if (editor.scene().meshes.find(id)) relink(editor, {{id, path.string()}});
                        }});
-        tip("Choose the file that stands for it");
+        tip("Choose the file to use instead");
         e.mark("report.find." + e.scene().meshes[id].name);
         ImGui::PopID();
         ImGui::PopID();
@@ -306,7 +306,7 @@ void draw_import_report(PanelContext& e) {
                                                                                         : colors::good);
             if (ImGui::Selectable(entry.what.c_str(), false, ImGuiSelectableFlags_SpanAllColumns) &&
                 !select_named(e, entry.what))
-                e.notices.add(LogLevel::info, entry.what + " is no object, nor on one");
+                e.notices.add(LogLevel::info, entry.what + " is neither an object nor on one");
             ImGui::PopStyleColor();
             tip(fmt::format("{}: {}\n{}\nClick to select what it is about", entry.what, io::to_string(entry.fate),
                             entry.note)

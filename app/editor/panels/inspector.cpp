@@ -16,7 +16,7 @@ namespace restage::editor {
 
 namespace {
 
-// Flags of the objects that are selected: a click gives all of them the active one's new value.
+// Flags of the selected objects: a click gives all of them the active one's new value.
 void object_section(PanelContext& e, InstanceId id) {
     if (!section_header("Object")) {
         e.mark("inspector.object");
@@ -47,7 +47,7 @@ void object_section(PanelContext& e, InstanceId id) {
             return scene::modify(s, id, "Swap sides", [&](scene::Instance& i) { i.reverse_orientation = flipped; });
         });
     e.mark("inspector.flip");
-    form_row("Opacity", "Share of the surface that is there: 1 = all of it (alpha)");
+    form_row("Opacity", "Share of the surface that exists: 1 = all of it (alpha)");
     if (const scene::Texture* cutout = e.scene().textures.find(instance.alpha_texture)) {
         if (ImGui::Button(("Cut out by " + cutout->name + "###cutout").c_str(), {ImGui::CalcItemWidth(), 0}))
             e.edit([id](const scene::Scene& s) {
@@ -90,7 +90,7 @@ void draw_inspector(PanelContext& e) {
     tip("The object's name");
     e.mark("inspector.name");
     const std::size_t count = e.selection.instances().size();
-    if (count > 1) ImGui::TextDisabled("and %zu more: place, hidden and locked are of all.", count - 1);
+    if (count > 1) ImGui::TextDisabled("and %zu more: place, hidden and locked apply to all.", count - 1);
     place_section(e);
     material_section(e, instance->material);
     emission_section(e, id);

@@ -25,7 +25,7 @@ constexpr double pi = 3.14159265358979323846;
 
 double luminance(const glm::vec3& c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
-// In world units; walking a large mesh takes a while, so it is remembered.
+// In world units; walking a large mesh takes a while, so it is cached.
 double area_of(PanelContext& e, InstanceId id) {
     auto& known = e.panel_state->inspector.area;
     const scene::Instance& instance = e.scene().instances[id];
@@ -76,14 +76,13 @@ bool light_value_rows(PanelContext& e, glm::vec3& value, const char* strength_la
     float strength = std::max({value.x, value.y, value.z});
     glm::vec3 color = strength > 0 ? value / strength : glm::vec3(1);
     bool changed = false;
-    form_row("Colour", "Of the light, without its brightness");
+    form_row("Colour", "The light's colour, without its brightness");
     if (color_field("##color", &color.x)) {
         if (const float most = std::max({color.x, color.y, color.z}); most > 0) color /= most;
         changed = true;
     }
     e.mark(mark + ".color");
-    form_row("Temperature",
-             "Sets the colour to that of a lamp: candle 1900 K, bulb 2700 K, noon 5500 K, overcast 7000 K");
+    form_row("Temperature", "Sets the colour to a lamp's: candle 1900 K, bulb 2700 K, noon 5500 K, overcast 7000 K");
     auto kelvin = float(scene::color_temperature(glm::dvec3(color)));
     const std::string shown = kelvin > 0 ? "%.0f K" : "None";
     if (kelvin <= 0) kelvin = 6500;
@@ -94,9 +93,9 @@ bool light_value_rows(PanelContext& e, glm::vec3& value, const char* strength_la
     }
     e.mark(mark + ".kelvin");
     const std::string_view radiometry(unit);
-    form_row(strength_label, radiometry == "W/m²"   ? "Irradiance: power on each square metre that faces the light"
-                             : radiometry == "W/sr" ? "Radiant intensity: power in each direction"
-                                                    : "Radiance: the same from near and from far");
+    form_row(strength_label, radiometry == "W/m²"   ? "Irradiance: power per square metre facing the light"
+                             : radiometry == "W/sr" ? "Radiant intensity: power per solid angle"
+                                                    : "Radiance: independent of distance");
     const std::string format = fmt::format("%.4g {}", unit);
     changed |= ImGui::DragFloat("##strength", &strength, drag_speed(strength, 1e-3f), 0, 1e9f, format.c_str(),
                                 ImGuiSliderFlags_AlwaysClamp);
@@ -127,7 +126,7 @@ void emission_section(PanelContext& e, InstanceId id) {
         const double sides = pi * area_of(e, id) * (emission.two_sided ? 2 : 1);
         if (auto power = float(luminance(emission.radiance) * sides); sides > 0) {
             form_row("Power",
-                     "Of the whole surface, as the eye weighs colours: a larger lamp of the same brightness has more");
+                     "Of the whole surface, weighted as by the eye: a larger lamp of the same brightness has more");
             const float before = power;
             if (ImGui::DragFloat("##power", &power, drag_speed(power, 1e-3f), 0, 1e12f, "%.4g W",
                                  ImGuiSliderFlags_AlwaysClamp)) {
@@ -193,7 +192,7 @@ void light_section(PanelContext& e, scene::Id<scene::Light> id) {
         changed |= turn;
     }
     if (scene::light_row(light.kind).cone) {
-        form_row("Cone", "From its middle to its edge: half of the opening");
+        form_row("Cone", "From the axis to the edge: half of the opening");
         changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.cone");
         form_row("Soft edge", "Width of the edge where it fades");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inspector, material: which one, who shares it, its type, and a row for every line of the plugin's table.
+// Inspector, material: which one, which objects share it, its type, and a row for every line of the plugin's table.
 #include "copy_paste.hpp"
 #include "drop.hpp"
 #include "inspector.hpp"
@@ -29,7 +29,7 @@ scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
     return plugin ? scene::ParamTable(plugin->table->params) : scene::ParamTable();
 }
 
-// A ball of it; its main colour until that is rendered.
+// Its ball; its main colour until that is rendered.
 void swatch(PanelContext& e, MaterialId id, ImVec2 at, float size) {
     const Texture* ball = e.panel_state->balls.ball({e.registry(), e.log(), e.options().renderer}, e.scene(), id);
     ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -43,14 +43,14 @@ void swatch(PanelContext& e, MaterialId id, ImVec2 at, float size) {
     draw->AddRectFilled(at, end, ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1}), size * 0.15f);
 }
 
-// Assigns, copies, makes anew. `current` may be none.
+// Assigns, copies, creates. `current` may be none.
 void material_choice(PanelContext& e, MaterialId current) {
     const auto selected = e.selection.instances();
     const scene::Material* material = e.scene().materials.find(current);
     const auto assign = [&](MaterialId to) {
         e.edit([selected, to](const scene::Scene& s) { return scene::set_material(s, selected, to); });
     };
-    form_row("Material", "Choose another one of the scene for what is selected");
+    form_row("Material", "Choose another of the scene's materials for the selection");
     if (ImGui::BeginCombo("##choose", material ? material->name.c_str() : "none", ImGuiComboFlags_HeightLargest)) {
         std::vector<MaterialId> ids;
         e.scene().materials.each([&](MaterialId id, const scene::Material&) { ids.push_back(id); });
@@ -77,7 +77,7 @@ void material_choice(PanelContext& e, MaterialId current) {
     e.mark("material.choose");
 
     if (flow_button("Pick", true)) e.pick_tool = material_eyedropper(e);
-    tip("Take the material of an object that you click in the picture");
+    tip("Take the material of an object you click in the picture");
     e.mark("material.pick");
     if (flow_button("New")) {
         const std::string type = e.registry().find_material("diffuse") || e.registry().materials().empty()
@@ -97,7 +97,7 @@ void material_choice(PanelContext& e, MaterialId current) {
             return Result<scene::Edit>(std::move(edit));
         });
     }
-    tip("A new matte material for what is selected");
+    tip("A new matte material for the selection");
     e.mark("material.new");
     ImGui::BeginDisabled(!material);
     if (flow_button("Copy")) {
@@ -105,7 +105,7 @@ void material_choice(PanelContext& e, MaterialId current) {
         copy_material(e, current);
     }
     ImGui::EndDisabled();
-    tip("Remember this material, to paste it on others, also in another window of Restage");
+    tip("Copy this material, to paste it on other objects, also in another Restage window");
     e.mark("material.copy");
     const scene::Material* held = e.material_clipboard ? e.scene().materials.find(*e.material_clipboard) : nullptr;
     if (flow_button("Paste")) {
@@ -114,8 +114,8 @@ void material_choice(PanelContext& e, MaterialId current) {
         else
             e.run("edit.paste");
     }
-    tip(held ? ("Give what is selected \"" + held->name + "\"").c_str()
-             : "Give what is selected the material that was copied, here or in another window of Restage");
+    tip(held ? ("Give the selection \"" + held->name + "\"").c_str()
+             : "Give the selection the copied material, from here or another Restage window");
     e.mark("material.paste");
     bool mixed = false;
     for (const InstanceId one : selected)
@@ -135,7 +135,7 @@ void sharing(PanelContext& e, MaterialId id) {
     if (users <= chosen) return;
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(colors::hover, "Shared by %zu objects", users);
-    tip("Changes are seen on all of them. Click to select them");
+    tip("Changes affect all of them. Click to select them");
     if (ImGui::IsItemClicked()) {
         std::vector<InstanceId> all;
         e.scene().instances.each([&](InstanceId one, const scene::Instance& i) {
@@ -150,12 +150,12 @@ void sharing(PanelContext& e, MaterialId id) {
             auto made = scene::make_unique(s, ids, id);
             return made ? Result<scene::Edit>(std::move(made->edit)) : tl::unexpected<Error>(made.error());
         });
-    tip("Give what is selected a copy of its own; the others stay as they are");
+    tip("Give the selection a copy of its own; the others stay as they are");
     e.mark("material.unique");
 }
 
 void ask_image(PanelContext& e, MaterialId id, const model::Param& line, const std::string& file) {
-    // Colours are painted for the eye; heights, normals and roughness are data.
+    // Colours are sRGB; heights, normals and roughness are data.
     const scene::Encoding encoding =
         line.type == model::ParamType::color ? scene::Encoding::srgb : scene::Encoding::linear;
     const bool scalar = line.type == model::ParamType::number || std::string_view(line.id) == "bump";
@@ -179,7 +179,7 @@ void ask_image(PanelContext& e, MaterialId id, const model::Param& line, const s
          }});
 }
 
-// Reads the file, then it is the texture of that colour.
+// Reads the file, then makes it that colour's texture.
 void give_image(PanelContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
     e.panel_state->loads.start(
         {.path = path,
@@ -233,7 +233,7 @@ void texture_for_selected(PanelContext& e, const std::string& file) {
                       });
             return;
         }
-    e.notices.add(LogLevel::info, material->name + " has no colour that a texture could stand for");
+    e.notices.add(LogLevel::info, material->name + " has no colour that a texture could replace");
 }
 
 glm::vec3 swatch_color(const PanelContext& e, const scene::Material& material) {
@@ -258,7 +258,7 @@ void material_section(PanelContext& e, MaterialId id) {
     material_choice(e, id);
     const scene::Material* material = e.scene().materials.find(id);
     if (!material) {
-        empty_note("It has no material: choose one, or make a new one.");
+        empty_note("It has no material: choose one, or create one.");
         ImGui::PopID();
         return;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inspector, place: where an object is, how it is turned and how large, about the middle of its box, as the handles in
-// the picture have it. Shear is kept and not shown. Of several objects: changes relative to where they are.
+// the picture do. Shear is kept and not shown. Of several objects: changes relative to where they are.
 #include "inspector.hpp"
 #include "scene/edits.hpp"
 #include "state.hpp"
@@ -42,7 +42,7 @@ Parts parts_of(const scene::Scene& s, const scene::Instance& instance) {
     glm::dmat3 r(m);
     for (int i = 0; i < 3; ++i)
         p.scale[i] = glm::length(r[i]);
-    if (glm::determinant(r) < 0) p.scale.x = -p.scale.x; // mirrored: said of x
+    if (glm::determinant(r) < 0) p.scale.x = -p.scale.x; // mirrored: attributed to x
     // Gram-Schmidt from the x axis.
     r[0] /= p.scale.x;
     r[1] /= p.scale.y;
@@ -82,7 +82,7 @@ void ask_transform(PanelContext& e, InstanceId id, const glm::dmat4& m, const ch
         gesture);
 }
 
-void uniform_button(PanelContext& e) { // after the fields of a scale
+void uniform_button(PanelContext& e) { // beside the fields of a scale
     InspectorState& state = e.panel_state->inspector;
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (icon_button("##uniform", state.uniform_scale ? Icon::lock : Icon::lock_open, state.uniform_scale,
@@ -106,7 +106,7 @@ void one_object(PanelContext& e, InstanceId id) {
         ask_transform(e, id, placed(s, instance, linear, p.pivot), "Move", "inspector.position");
     e.mark("inspector.position");
 
-    // The angles the user gave are shown as long as they mean the rotation that is there: there are others that do.
+    // The user's angles are shown as long as they give the current rotation: they are not unique.
     if (state.euler_of == id && state.euler) {
         const glm::dmat3 same = rotation_from(*state.euler);
         double off = 0;
@@ -128,7 +128,7 @@ void one_object(PanelContext& e, InstanceId id) {
     glm::dvec3 scale = p.scale;
     if (three("##scale", scale, 0.005, "%.3f")) {
         glm::dvec3 ratio = scale / p.scale;
-        if (state.uniform_scale) // the one that was changed leads
+        if (state.uniform_scale) // the changed one leads
             for (int i = 0; i < 3; ++i)
                 if (scale[i] != p.scale[i]) ratio = glm::dvec3(ratio[i]);
         if (glm::all(glm::greaterThan(glm::abs(ratio), glm::dvec3(1e-6)))) {
@@ -174,7 +174,7 @@ void several_objects(PanelContext& e) {
                            const char* format, const char* mark) {
         form_row(label, tooltip, &v == &r.scale ? ImGui::GetFrameHeight() : 0);
         const bool dragged = three(id, v, speed, format);
-        if (ImGui::IsItemActivated()) { // it begins: from here on changes count
+        if (ImGui::IsItemActivated()) { // a drag begins: changes count from here
             r.start.clear();
             for (const InstanceId one : e.selection.instances())
                 r.start.emplace_back(one, e.scene().instances[one].object_to_world);

@@ -21,9 +21,9 @@ void draw_log(PanelContext& e) {
         e.mark(mark);
     };
     filter("Notes", state.info, "What was done", "log.info", true);
-    filter("Warnings", state.warnings, "What was done otherwise than asked for", "log.warnings");
+    filter("Warnings", state.warnings, "What was done differently than requested", "log.warnings");
     filter("Errors", state.errors, "What could not be done", "log.errors");
-    filter("Details", state.details, "What the program notes of itself: for reports of faults", "log.details");
+    filter("Details", state.details, "The program's own notes: for bug reports", "log.details");
     const float width = 110 * ImGui::GetStyle().FontScaleMain;
     flow(width);
     ImGui::SetNextItemWidth(width);
@@ -54,7 +54,7 @@ void draw_log(PanelContext& e) {
     ImGui::Separator();
     if (shown.empty())
         empty_note(state.cleared == total || lines.empty() ? "Nothing has happened yet."
-                                                           : "Nothing has happened yet that is to be shown.");
+                                                           : "Nothing to show yet at these levels.");
     if (ImGui::BeginChild("lines")) {
         for (const LogLine* line : shown) {
             ImGui::TextDisabled("%7.1f s", line->time);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Outliner: groups, objects, lights and cameras by name; search, select, rename, hide, lock, arrange in groups. Only
-// the rows that are seen are drawn: outliner_rows.cpp makes the list of all of them when the scene or a filter changes.
+// visible rows are drawn: outliner_rows.cpp makes the list of all of them when the scene or a filter changes.
 #include "outliner.hpp"
 
 #include "actions.hpp"
@@ -51,8 +51,8 @@ void ask_hidden(PanelContext& e, std::vector<InstanceId> ids, bool hidden) {
     e.edit([ids = std::move(ids), hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
 }
 
-// The row itself, with its name as far as there is room before `icons` at its right end. Names are no labels of Dear
-// ImGui's: "##" in one is shown, and two rows may be called the same. True when it is clicked.
+// The row itself, with its name as far as there is room before `icons` at its right end. Names are not Dear ImGui
+// labels: "##" in one is shown, and two rows may have the same name. True when it is clicked.
 bool row_label(const std::string& name, bool selected, int icons, bool dim = false, const std::string& tooltip = {}) {
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const bool pressed = ImGui::Selectable(
@@ -74,7 +74,7 @@ bool row_label(const std::string& name, bool selected, int icons, bool dim = fal
 struct RightIcons {
     bool lock = false, eye = false; // pressed
 };
-// `locked`: none = it cannot be.
+// `locked`: none = not lockable.
 RightIcons right_icons(PanelContext& e, std::optional<bool> locked, bool visible, const std::string& name) {
     RightIcons pressed;
     const float size = ImGui::GetFrameHeight();
@@ -82,7 +82,7 @@ RightIcons right_icons(PanelContext& e, std::optional<bool> locked, bool visible
     ImGui::SameLine();
     ImGui::SetCursorScreenPos({end.x - (locked ? 2 : 1) * size - ImGui::GetStyle().ItemSpacing.x / 2, top.y});
     if (locked) {
-        // Open locks everywhere would drown those that are not: they come with the mouse.
+        // Open locks everywhere would drown the closed ones: they show on hover only.
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         const bool near = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && mouse.y >= top.y &&
                           mouse.y < top.y + size;
@@ -217,7 +217,7 @@ void group_row(PanelContext& e, OutlinerState& state, const Row& row) {
         return !ids.empty() &&
                std::all_of(ids.begin(), ids.end(), [&](InstanceId one) { return e.locked.contains(one.value); });
     };
-    // Looking at every object for every row would be slow, and is not needed while nothing is locked.
+    // Checking every object for every row would be slow, and is not needed while nothing is locked.
     const auto few =
         !e.locked.empty() && state.members[row.id] <= 64 ? instances_in(e.scene(), id) : std::vector<InstanceId>();
     const RightIcons pressed = right_icons(e, all_locked(few), !hidden, "group." + group->name);
@@ -312,7 +312,7 @@ void draw_row(PanelContext& e, OutlinerState& state, const Row& row) {
         ImGui::Unindent(indent + (row.kind == Row::Kind::instance ? ImGui::GetFrameHeight() * 0.6f : 0.01f));
     else if (indent > 0)
         ImGui::Unindent(indent);
-    ImGui::SetCursorPosY(start + ImGui::GetFrameHeight()); // rows are equally high, whatever is in them
+    ImGui::SetCursorPosY(start + ImGui::GetFrameHeight()); // all rows have the same height
     ImGui::Dummy({0, 0});
     ImGui::PopID();
     ImGui::PopID();
@@ -344,14 +344,14 @@ void draw_outliner(PanelContext& e) {
     if (ImGui::BeginChild("rows", {0, 0}, 0, ImGuiWindowFlags_NoNavInputs)) {
         outliner_keys(e, state);
         const float height = ImGui::GetFrameHeight();
-        if (e.selection.active() != state.last_active) { // picked elsewhere: show where it is
+        if (e.selection.active() != state.last_active) { // picked elsewhere: scroll to it
             state.last_active = e.selection.active();
             const int row = find_row(state, state.last_active);
             const float y = float(row) * height;
             if (row >= 0 && (y < ImGui::GetScrollY() || y + height > ImGui::GetScrollY() + ImGui::GetWindowHeight()))
                 ImGui::SetScrollY(std::max(0.f, y - ImGui::GetWindowHeight() / 2));
         }
-        if (state.rows.empty()) empty_note("Nothing is called that.");
+        if (state.rows.empty()) empty_note("Nothing matches.");
         ImGuiListClipper clipper;
         clipper.Begin(int(state.rows.size()), height);
         while (clipper.Step())

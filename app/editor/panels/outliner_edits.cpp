@@ -39,7 +39,7 @@ void group_selected(PanelContext& e) {
 void ungroup(PanelContext& e, GroupId id) {
     e.edit([id](const scene::Scene& s) {
         const scene::Group* gone = s.groups.find(id);
-        if (!gone) return Result<scene::Edit>(fail("the group is not there any more"));
+        if (!gone) return Result<scene::Edit>(fail("the group no longer exists"));
         scene::Edit edit{"Ungroup " + gone->name, {}};
         s.instances.each([&](InstanceId one, const scene::Instance& i) {
             if (i.group != id) return;

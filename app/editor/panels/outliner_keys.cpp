@@ -26,7 +26,7 @@ void select_row(PanelContext& e, OutlinerState& state, const Row& row, bool add)
     state.last_active = e.selection.active(); // the list is scrolled here
 }
 
-// Of the row the keys are at: what was clicked last, else the active object.
+// The key cursor's row: what was clicked last, else the active object.
 void rename_row(PanelContext& e, OutlinerState& state) {
     const scene::Scene& s = e.scene();
     const auto start = [&](const auto* item) {
@@ -65,7 +65,7 @@ void outliner_keys(PanelContext& e, OutlinerState& state) {
         last = i;
         if (same_row(row, state.cursor)) now = i;
     }
-    // What was picked elsewhere meanwhile is where to go on from.
+    // Continue from what was picked elsewhere meanwhile.
     const bool picked = e.selection.active() && state.cursor.kind == Row::Kind::instance &&
                         state.cursor.id != e.selection.active().value;
     if (now < 0 || picked)

@@ -11,7 +11,7 @@ namespace {
 
 using Row = OutlinerState::Row;
 
-struct Tree { // children of each group, by id; 0 = of none
+struct Tree { // children of each group, by id; 0 = top level
     std::vector<std::vector<std::uint32_t>> groups, instances;
 };
 
@@ -26,7 +26,7 @@ int find_row(const OutlinerState& state, InstanceId id) {
 
 void update_rows(const PanelContext& e, OutlinerState& state) {
     const scene::Scene& s = e.scene();
-    // What was picked elsewhere is to be seen: the groups around it open.
+    // Reveal what was picked elsewhere: open the groups around it.
     if (const scene::Instance* active = s.instances.find(e.selection.active());
         active && e.selection.active() != state.last_active && e.selection.instances().size() == 1)
         for (GroupId group = active->group; const scene::Group* item = s.groups.find(group); group = item->parent)

@@ -15,7 +15,7 @@ constexpr auto panels = std::to_array<Panel>({
     {"History", draw_history, Dock::bottom, true, "Every change, to go back to"},
     {"Import report", draw_import_report, Dock::bottom, true, "What was kept, approximated or dropped when opening"},
     {"Convergence", draw_convergence, Dock::bottom, true, "Estimated error against time and samples"},
-    {"Plugins", draw_plugins, Dock::bottom, false, "What is loaded, from where, and why not"},
+    {"Plugins", draw_plugins, Dock::bottom, false, "What is loaded, from where, and what is not and why"},
     {"Assets", draw_assets, Dock::bottom, true, "Scenes, skies, textures and meshes to bring in"},
     {"Log", draw_log, Dock::bottom, true, "What happened"},
     {"Help", draw_help, Dock::floating, false, "Every shortcut, and how to get around"},

@@ -25,11 +25,11 @@ void draw_help(PanelContext& editor);
 // The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
 // a scene.
 void accept_asset(PanelContext& editor);
-// What is at hand of a kind, whether the panel was seen or not.
+// All assets of a kind, whether the panel was shown or not.
 std::vector<std::string> assets_of(PanelContext& editor, AssetKind kind);
-// A small picture of that file; it is read when first asked for.
+// A small picture of that file; it is read on first use.
 const AssetsState::Thumbnail& thumbnail_of(PanelContext& editor, const std::string& file);
-// Notes the error of the live picture, whether the panel is seen or not; once a frame.
+// Records the error of the live picture, whether the panel is shown or not; once a frame.
 void follow_convergence(PanelContext& editor);
 // Takes over the sky that a plugin has made meanwhile; once a frame.
 void follow_sky(PanelContext& editor);
@@ -39,8 +39,8 @@ enum class Dock { center, left, right, bottom, floating };
 struct Panel {
     const char* title; // also its name in the layout file
     void (*draw)(PanelContext&); // between Begin and End
-    Dock dock; // where it is at first
-    bool open; // at first
+    Dock dock; // initial place
+    bool open; // initially
     const char* tooltip;
 };
 std::span<const Panel> all_panels();

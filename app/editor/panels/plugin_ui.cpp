@@ -25,19 +25,20 @@ class HostWidgets final : public plugin::PanelWidgets {
     const PluginUi& ui;
     std::set<std::string> shown;
     int open_groups = 0;
-    int widgets = 0; // so far: a name for those without a parameter
+    int widgets = 0; // so far: names those without a parameter
     std::string held; // of the last get()
 
     PanelContext& editor() const { return ui.editor; }
     const model::Param* line(const char* id) const { return id ? model::find_param(ui.table, id) : nullptr; }
-    // Notes that the parameter is shown; null, and a line in the log, when there is none of the kinds.
+    // Notes that the parameter is shown; null, and a line in the log, if none has this id and one of these kinds.
     const model::Param* claim(const char* id, std::initializer_list<model::ParamType> types) {
         const model::Param* found = line(id);
         if (found && (types.size() == 0 || std::find(types.begin(), types.end(), found->type) != types.end())) {
             shown.insert(id);
             return found;
         }
-        const std::string what = fmt::format("{} shows \"{}\", which is no such parameter", ui.who, id ? id : "NULL");
+        const std::string what =
+            fmt::format("{} shows \"{}\", which is not such a parameter", ui.who, id ? id : "NULL");
         if (editor().panel_state->said.insert(what).second) editor().log().warning(what);
         return nullptr;
     }
@@ -252,7 +253,7 @@ class HostWidgets final : public plugin::PanelWidgets {
             if (fits)
                 wanted.emplace_back(in.id, std::move(v));
             else
-                editor().log().warning(fmt::format("{} sets \"{}\" to what it cannot be", ui.who, or_empty(in.id)));
+                editor().log().warning(fmt::format("{} sets \"{}\" to an invalid value", ui.who, or_empty(in.id)));
         }
         if (!wanted.empty()) ui.set(or_empty(label), std::move(wanted));
     }

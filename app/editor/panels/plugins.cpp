@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugins: what is loaded, from where, and why not; and whether they do what they promise.
+// Plugins: which are loaded, from where, which are not and why; and whether they do what they promise.
 #include "panels.hpp"
 
 #include "base/file.hpp"
@@ -18,7 +18,7 @@ namespace restage::editor {
 
 namespace {
 
-// "restage check" of this one, beside what the user goes on doing.
+// "restage check" of this one, while the user keeps working.
 void start_check(PanelContext& e, const plugin::Entry& entry) {
     e.files().jobs.start(
         {.title = "Checking " + entry.name()},
@@ -64,13 +64,13 @@ void buttons(PanelContext& e, const plugin::Entry& entry) {
             e.notices.add(released ? LogLevel::info : LogLevel::error,
                           released ? entry.name() + " will be loaded at the next start" : released.error().message);
         }
-        tip("It crashed the program. Let it be loaded again, at the next start");
+        tip("It crashed the program. Load it again at the next start");
         e.mark("plugins.enable." + entry.name());
     }
     if (entry.manifest.id.empty()) return;
     if (ImGui::SmallButton("Check")) start_check(e, entry);
     tip("Test whether it does what it promises, in a process of its own: samples against density and value, energy, "
-        "reciprocity, bad numbers. `restage check` looks harder");
+        "reciprocity, non-finite numbers. `restage check` tests more");
     e.mark("plugins.check." + entry.name());
 }
 
@@ -84,8 +84,8 @@ void draw_plugins(PanelContext& e) {
     ImGui::TextDisabled("%zu loaded, %zu refused", entries.size() - refused, refused);
     if (entries.empty()) {
         empty_note(
-            "No plugins were found: nothing can be opened or rendered. They are looked for beside the program, in the "
-            "folder for a user's own, and in those that RESTAGE_PLUGIN_PATH names.");
+            "No plugins were found: nothing can be opened or rendered. Searched: beside the program, in the "
+            "user's plugin folder, and in those that RESTAGE_PLUGIN_PATH names.");
         return;
     }
     if (!ImGui::BeginTable("plugins", 5,
@@ -97,12 +97,12 @@ void draw_plugins(PanelContext& e) {
     ImGui::TableSetupColumn("Kind", 0, 1);
     ImGui::TableSetupColumn("Version", 0, 1);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("Folder, or what is wrong", 0, 6);
+    ImGui::TableSetupColumn("Folder, or error", 0, 6);
     ImGui::TableHeadersRow();
     const auto wrong = [&](const plugin::Entry& entry) {
         return entry.state == plugin::State::refused || !entry.trouble.empty();
     };
-    for (const bool show_wrong : {true, false}) // what went wrong comes first
+    for (const bool show_wrong : {true, false}) // failures first
         for (const plugin::Entry* entry : entries) {
             if (wrong(*entry) != show_wrong) continue;
             ImGui::PushID(entry);
@@ -120,7 +120,7 @@ void draw_plugins(PanelContext& e) {
             buttons(e, *entry);
             ImGui::TableNextColumn();
             if (!entry->trouble.empty())
-                warning_note(("The version before is in use. " + entry->trouble).c_str());
+                warning_note(("The previous version is in use. " + entry->trouble).c_str());
             else if (show_wrong)
                 warning_note(entry->reason.c_str());
             else

@@ -49,14 +49,14 @@ void ask_film(PanelContext& e, const scene::Film& film, const char* label, const
             const scene::Film& before = s.film.value;
             const bool other_shape =
                 std::uint64_t(before.width) * film.height != std::uint64_t(film.width) * before.height;
-            // A window or aspect that the file gave for its own shape would stretch the picture.
+            // A screen window or aspect from the file, meant for its own shape, would stretch the picture.
             if (const scene::Camera* camera = s.cameras.find(s.active_camera.value);
                 other_shape && camera && (camera->screen_window || camera->frame_aspect != 0)) {
                 scene::Camera fitted = *camera;
                 fitted.frame_aspect = 0;
                 fitted.screen_window.reset();
                 if (camera->projection == scene::Projection::orthographic &&
-                    camera->screen_window) { // it is the scale, too
+                    camera->screen_window) { // it is also the scale
                     const glm::vec4 w = *camera->screen_window;
                     const float middle = (w.x + w.y) / 2,
                                 half = (w.w - w.z) / 2 * float(film.width) / float(film.height);
@@ -114,12 +114,12 @@ void ask_camera(PanelContext& e, const scene::Camera& camera) {
 bool projection_rows(PanelContext& e, scene::Camera& camera) {
     static constexpr const char* kinds[] = {"Perspective", "Orthographic", "Panorama", "Panorama, equal areas"};
     form_row("Projection",
-             "How the world becomes a picture: as an eye sees it, without vanishing points, or all around");
+             "How the world becomes a picture: as the eye sees it, without vanishing points, or all around");
     int kind = int(camera.projection);
     bool changed = ImGui::Combo("##projection", &kind, kinds, IM_ARRAYSIZE(kinds));
     if (changed) {
         const bool was_parallel = camera.projection == scene::Projection::orthographic;
-        // What is in the middle of the picture keeps its size.
+        // The size of what is in the middle of the picture is kept.
         const query::ViewRay ray = query::view_ray(camera, {0.5, 0.5}, e.film_aspect());
         const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
         const double distance = hits.empty() ? 1 : hits[0].t;
@@ -133,7 +133,7 @@ bool projection_rows(PanelContext& e, scene::Camera& camera) {
     }
     e.mark("camera.projection");
     if (scene::is_spherical(camera)) {
-        empty_note("Sees all around. Handles for moving things are off: they would be bent.");
+        empty_note("Sees all around. Handles are off: they would be bent.");
     } else if (camera.projection == scene::Projection::orthographic) {
         glm::vec4 window(scene::film_window(camera, e.film_aspect()));
         form_row("Height", "How much of the world is seen, from the picture's lower to its upper edge");
@@ -200,9 +200,7 @@ void camera_section(PanelContext& e) {
     }
     e.mark("camera.dof");
     if (camera.lens_radius > 0) {
-        form_row(
-            "Aperture",
-            "Of the lens (f-number): small = more blur. As if a scene unit were a metre, the camera of 35 mm film");
+        form_row("Aperture", "Of the lens (f-number): small = more blur. Assumes 1 scene unit = 1 m and 35 mm film");
         auto f_number = float(focal_length(camera) / (2 * double(camera.lens_radius)));
         if (ImGui::DragFloat("##fnumber", &f_number, drag_speed(f_number, 0.01f), 0.01f, 1000, "f/%.2f",
                              ImGuiSliderFlags_AlwaysClamp)) {
@@ -215,7 +213,7 @@ void camera_section(PanelContext& e) {
                                     "%.5f units", ImGuiSliderFlags_AlwaysClamp);
         e.mark("camera.lens");
     }
-    form_row("Focus distance", "What is so far away along the view is sharp",
+    form_row("Focus distance", "What is this far away along the view is sharp",
              ImGui::CalcTextSize("Pick").x + 2 * ImGui::GetStyle().FramePadding.x);
     changed |=
         ImGui::DragFloat("##focus", &camera.focal_distance, drag_speed(camera.focal_distance, 1e-3f), 1e-4f, 1e9f,
@@ -223,7 +221,7 @@ void camera_section(PanelContext& e) {
     e.mark("camera.focus");
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Button("Pick")) e.pick_tool = focus_picker();
-    tip("Then click in the picture what shall be sharp");
+    tip("Then click in the picture what should be sharp");
     e.mark("camera.pick_focus");
     if (changed) ask_camera(e, camera);
     ImGui::PopID();
@@ -236,7 +234,7 @@ void film_section(PanelContext& e) {
     ImGui::PushID("film");
     scene::Film film = e.scene().film.value;
     const std::string now = fmt::format("{} × {}", film.width, film.height);
-    form_row("Size", "Of the final picture, in pixels; the live one has its shape");
+    form_row("Size", "Size of the final picture, in pixels; the live one has its shape");
     if (ImGui::BeginCombo("##preset", now.c_str())) {
         for (const Size& size : sizes) {
             if (ImGui::Selectable(size.label, size.width == film.width && size.height == film.height)) {
@@ -255,7 +253,7 @@ void film_section(PanelContext& e) {
     ImGui::DragInt2("##wh", wh, 2, 16, 16384, "%d px", ImGuiSliderFlags_AlwaysClamp);
     e.mark("film.wh");
     if (!ImGui::IsItemActive())
-        e.panel_state->scene.aspect = e.film_aspect(); // of the start of a drag: rounding adds up
+        e.panel_state->scene.aspect = e.film_aspect(); // from the start of a drag, as rounding would add up
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (icon_button("##aspect", keep ? Icon::lock : Icon::lock_open, keep,
                     keep ? "The shape stays. Click to change width and height alone" : "Click to keep the shape"))
@@ -272,8 +270,7 @@ void film_section(PanelContext& e) {
         film.height = std::uint32_t(wh[1]);
         ask_film(e, film, "Picture size", "film.size");
     }
-    form_row("Exposure",
-             "Brightness of the pictures that are written, and of the live one, whose own exposure is above it");
+    form_row("Exposure", "Brightness of written pictures, and of the live one, whose own exposure is above it");
     if (ImGui::DragFloat("##exposure", &film.exposure, drag_speed(film.exposure, 1e-3f), 1e-6f, 1e6f, "%.4g×",
                          ImGuiSliderFlags_AlwaysClamp))
         ask_film(e, film, "Exposure", "film.exposure");

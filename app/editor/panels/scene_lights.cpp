@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene panel, lights: what shines, and new ones where the camera looks.
+// Scene panel, lights: what emits light, and new lights where the camera looks.
 #include "scene_panel.hpp"
 
 #include "document/session.hpp"
@@ -54,7 +54,7 @@ void add_light(PanelContext& e, const scene::LightKindRow& row) {
     const Place place = place_for_light(e);
     const auto h2 = float(place.height * place.height);
     scene::Light light{.kind = row.kind, .light_to_world = aimed(place.above, -e.up())};
-    // As bright as to be seen: 10 W/m2 on what is below.
+    // Bright enough to see: 10 W/m2 on what is below.
     light.name = row.name;
     light.value = row.placed ? glm::vec3(10 * h2) : glm::vec3(10);
     if (!row.placed) // from behind the camera's shoulder

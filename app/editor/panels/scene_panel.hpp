@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections of the Scene panel, and what the scene has too little of to be seen: a sky, lights.
+// The sections of the Scene panel, and what a scene may lack to be visible: a sky, lights.
 #pragma once
 
 #include "panel_context.hpp"
@@ -12,7 +12,7 @@ void film_section(PanelContext& editor);
 void lights_section(PanelContext& editor);
 void render_section(PanelContext& editor);
 
-// False when nothing in the scene shines: its picture is black.
+// False if nothing in the scene emits light: its picture is black.
 bool has_light(const PanelContext& editor);
 // As one step: document::light_studio.
 void light_with_studio(PanelContext& editor);

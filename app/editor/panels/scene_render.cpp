@@ -35,7 +35,7 @@ void scene_rows(PanelContext& e) {
     changed |= ImGui::SliderInt("##depth", &depth, 0, 100, "%d bounces", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.depth");
     form_row("End dim paths",
-             "Ends paths that carry little light at random, and makes up for it: faster, as right (Russian roulette)");
+             "Ends paths that carry little light at random, and compensates: faster, unbiased (Russian roulette)");
     changed |= ImGui::Checkbox("##roulette", &settings.russian_roulette);
     e.mark("render.roulette");
     const auto clamp_row = [&](const char* label, const char* tooltip, float& v, const char* mark) {
@@ -68,7 +68,7 @@ void scene_rows(PanelContext& e) {
             "scene.settings");
 }
 
-// Of those that are loaded, by name, and kept over restarts.
+// Loaded denoisers by name; the choice is kept over restarts.
 void denoiser_row(PanelContext& e) {
     const auto denoisers = e.registry().denoisers();
     const std::string& now = e.preferences.denoiser;
@@ -114,13 +114,12 @@ void live_rows(PanelContext& e) {
                          ImGuiSliderFlags_AlwaysClamp))
         e.view.seconds = double(seconds);
     e.mark("render.seconds");
-    form_row("Stop at error",
-             "Where the noise is so small: the estimated relative error before denoising. 0 = no target");
+    form_row("Stop at error", "Stop at this noise: the estimated relative error before denoising. 0 = no target");
     if (ImGui::DragFloat("##error", &error, 0.02f, 0, 100, error > 0 ? "%.2f %%" : "No target",
                          ImGuiSliderFlags_AlwaysClamp))
         e.view.error = double(error) / 100;
     e.mark("render.error");
-    form_row("Resolution", "Less is faster and coarser: pixels of the live picture for each of the screen");
+    form_row("Resolution", "Less is faster and coarser: pixels of the live picture per screen pixel");
     ImGui::SliderFloat("##resolution", &e.view.resolution, 0.1f, 2, "%.2f×", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.resolution");
 }
@@ -145,7 +144,7 @@ void machine_rows(PanelContext& e) {
     }
     if (!status.tracer.empty()) tip(("In use: " + status.tracer).c_str());
     e.mark("render.tracer");
-    form_row("Graphics card", "Its number or part of its name, as Vulkan lists them; empty = the best there is");
+    form_row("Graphics card", "Its number or part of its name, as Vulkan lists them; empty = the best one");
     if (!std::exchange(state.device_shown, true)) state.device = options.device;
     ImGui::InputTextWithHint("##device", status.device.empty() ? "The best" : status.device.c_str(), &state.device);
     if (ImGui::IsItemDeactivatedAfterEdit() && state.device != options.device) {
@@ -155,11 +154,10 @@ void machine_rows(PanelContext& e) {
     e.mark("render.device");
     int threads = int(options.threads);
     const int most = int(Jobs::hardware());
-    form_row("Threads", "Of the processor, that trace rays. 0 = all");
+    form_row("Threads", "Processor threads that trace rays. 0 = all");
     ImGui::SliderInt("##threads", &state.threads, 0, most, state.threads ? "%d" : fmt::format("All {}", most).c_str(),
                      ImGuiSliderFlags_AlwaysClamp);
-    if (ImGui::IsItemDeactivatedAfterEdit() &&
-        state.threads != threads) { // opens the renderer anew: not while it slides
+    if (ImGui::IsItemDeactivatedAfterEdit() && state.threads != threads) { // reopens the renderer: not during a drag
         options.threads = unsigned(state.threads);
         e.later([&e, options] { e.configure_renderer(options); });
     } else if (!ImGui::IsItemActive()) {
@@ -167,7 +165,7 @@ void machine_rows(PanelContext& e) {
     }
     e.mark("render.threads");
     if (status.gpu_bytes) {
-        form_row("Memory", "That the scene takes on the graphics card, or of the processor that stands for one");
+        form_row("Memory", "Memory of the scene on the graphics card, or on the processor that stands in for one");
         ImGui::TextDisabled("%.0f MiB", double(status.gpu_bytes) / 1048576);
     }
     for (const auto& [type, count] : status.not_finite)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene panel, sky: what is seen, and shines, where the scene ends.
+// Scene panel, sky: what is visible, and emits light, where the scene ends.
 #include "document/session.hpp"
 #include "panels.hpp"
 #include "plugin/registry.hpp"
@@ -32,7 +32,7 @@ using scene::Environment;
 // The part of a rotation that is about `axis` [deg] (swing-twist decomposition): turning by d about it adds d.
 double twist(const glm::dmat4& m, const glm::dvec3& axis) {
     glm::dmat3 r(m);
-    if (glm::determinant(r) < 0) r[0] = -r[0]; // mirrored skies turn as their mirror images do
+    if (glm::determinant(r) < 0) r[0] = -r[0]; // a mirrored sky has its mirror image's twist
     for (int i = 0; i < 3; ++i)
         r[i] = glm::normalize(r[i]);
     const glm::dquat q(r);
@@ -47,7 +47,7 @@ void ask_sky(PanelContext& e, std::optional<Environment> sky, const char* label,
            gesture);
 }
 
-// Files at hand that may be one: assets, and what the scene has read. Bump maps and the like are left out.
+// Candidate files: assets, and the scene's images. Bump maps and the like are left out.
 std::vector<std::string> known_skies(PanelContext& e) {
     std::vector<std::string> known;
     const auto add = [&](const std::string& path) {
@@ -57,7 +57,7 @@ std::vector<std::string> known_skies(PanelContext& e) {
         const auto small = e.panel_state->assets.thumbnails.find(path);
         const bool seen = small != e.panel_state->assets.thumbnails.end();
         if (seen && small->second.failed) continue;
-        // Of a thumbnail only the shape counts; one that is not there yet gets the benefit of the doubt.
+        // Only a thumbnail's shape counts; a missing one gets the benefit of the doubt.
         const bool shaped = seen && small->second.size.y > 0;
         const auto wide =
             std::uint32_t(shaped ? std::lround(4096 * small->second.size.x / small->second.size.y) : 8192);
@@ -229,7 +229,7 @@ void sky_section(PanelContext& e) {
     static constexpr const char* kinds[] = {"None", "One colour", "Image", "Neutral studio"};
     const bool made = now && !now->sky.empty();
     int kind = !now ? 0 : made ? 4 : !now->image ? 1 : 2;
-    form_row("Sky", "What shines where the scene ends");
+    form_row("Sky", "What emits light where the scene ends");
     if (ImGui::BeginCombo("##kind", made ? now->name.c_str() : kinds[kind])) {
         for (int i = 0; i < 4; ++i) {
             if (ImGui::Selectable(kinds[i], i == kind) && i != kind) {
@@ -278,7 +278,7 @@ void sky_section(PanelContext& e) {
         float strength = std::max({sky.scale.x, sky.scale.y, sky.scale.z});
         glm::vec3 tint = strength > 0 ? sky.scale / strength : glm::vec3(1);
         form_row(sky.image ? "Tint" : "Colour",
-                 sky.image ? "Multiplies the image's colours" : "Of the light that comes from everywhere");
+                 sky.image ? "Multiplies the image's colours" : "Colour of the light from all around");
         if (color_field("##tint", &tint.x)) {
             if (const float most = std::max({tint.x, tint.y, tint.z}); most > 0) tint /= most;
             changed = true;
@@ -289,7 +289,7 @@ void sky_section(PanelContext& e) {
                                     sky.image ? "%.4g×" : "%.4g W/(m²sr)", ImGuiSliderFlags_AlwaysClamp);
         e.mark("sky.strength");
         form_row("Hide from view",
-                 "Black behind everything in the picture. It shines all the same, and mirrors and glass show it");
+                 "Black behind everything in the picture. It still emits light, and mirrors and glass show it");
         if (bool hidden = sky.hidden_from_camera; ImGui::Checkbox("##hidden", &hidden)) {
             Environment other = *now;
             other.hidden_from_camera = hidden;

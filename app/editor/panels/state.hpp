@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What panels remember from frame to frame. No part of the document; one for each editor.
+// What panels remember from frame to frame. Not part of the document; one for each editor.
 #pragma once
 
 #include "assets.hpp"
@@ -24,7 +24,7 @@ struct InspectorState {
     bool uniform_scale = true;
     std::optional<glm::dvec3> euler; // last shown [deg]: kept while it still means the same rotation
     InstanceId euler_of;
-    struct Relative { // of several objects: what the fields show until they are let go
+    struct Relative { // of several objects: the fields' values until released
         glm::dvec3 move{0}, turn{0}, scale{1};
         glm::dvec3 pivot{0};
         std::vector<std::pair<InstanceId, glm::dmat4>> start;
@@ -51,7 +51,7 @@ struct OutlinerState {
     std::vector<std::uint32_t> members, hidden; // objects in each group, at any depth
     std::string search;
     scene::Id<scene::Material> material; // only what uses it
-    Row renaming{.id = 0}, cursor{.id = 0}; // cursor: where the arrow keys go on from
+    Row renaming{.id = 0}, cursor{.id = 0}; // cursor: where the arrow keys continue from
     std::string new_name;
     bool focus_name = false;
     InstanceId last_active; // scrolls when it changes elsewhere
@@ -63,7 +63,7 @@ struct SceneState {
     std::string device, sky_search;
     bool device_shown = false;
     int threads = 0; // while it is dragged
-    bool choose_sky = false; // the row of a sky's image is wanted, and there is none yet
+    bool choose_sky = false; // show the row for a sky's image before there is one
 };
 
 struct ReportState {
@@ -96,9 +96,9 @@ struct PluginState { // actions and panels of plugins
 
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
-    std::set<std::string> said; // warnings that are not to come again with each frame
+    std::set<std::string> said; // warnings not to repeat each frame
     explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake), skies(wake) {}
-    // Of a scene that is no more.
+    // Of a scene that is closed.
     void forget_document() {
         balls.forget();
         skies.stop();

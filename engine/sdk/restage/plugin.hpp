@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++20 sugar for material tables: the lines of RestageParam as functions, checked as they are written. Nothing of it
-// crosses the ABI; a plugin in C does without.
+// C++20 sugar for material tables: the lines of RestageParam as functions, checked at compile time. None of it
+// crosses the ABI; C plugins do without.
 #pragma once
 
 #include <restage/material.h>
@@ -13,7 +13,7 @@ struct ParamText {
     const char* tooltip = "";
     const char* unit = "";
     bool texturable = false;
-    bool advanced = false; // folded away at first
+    bool advanced = false; // initially folded
 };
 
 namespace detail {
@@ -66,7 +66,7 @@ consteval RestageParam choice(const char* id, const char* label, const char* cho
         count += *c == '|';
     RestageParam p = detail::line(id, label, RESTAGE_ENUM, text);
     p.choices = choices;
-    p.int_def = value >= 0 && value < count ? value : throw "the default is no choice";
+    p.int_def = value >= 0 && value < count ? value : throw "the default is not one of the choices";
     return p;
 }
 

@@ -125,13 +125,13 @@ bool take_all(void* handle, Api& api, std::string& missing) {
 } // namespace
 
 bool load(Api& api, std::string& reason) {
-    std::string broken; // what is there but does not load says more than what is not there
+    std::string broken; // a file that fails to load is a better report than a missing one
     std::error_code ignored;
     for (const fs::path& file : candidates()) {
         std::string why, missing;
         void* handle = open(file, why);
         if (handle && take_all(handle, api, missing)) return true;
-        if (handle) why = file.string() + ": has no function " + missing + "; version 2 is needed";
+        if (handle) why = file.string() + ": lacks the function " + missing + "; version 2 is needed";
         if ((handle || fs::exists(file, ignored)) && broken.empty()) broken = why;
     }
     const char* chosen = std::getenv("RESTAGE_OIDN_PATH");

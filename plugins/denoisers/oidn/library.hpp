@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of Open Image Denoise's C API that this plugin calls, declared by us so that no headers and no link are
+// The part of Open Image Denoise's C API that this plugin calls, declared here so that neither headers nor linking are
 // needed, and the search for the library. Version 2.0 and later.
 #pragma once
 
@@ -40,8 +40,8 @@ struct Api {
     void (*execute_filter)(Filter);
 };
 
-// Opens the library, which then stays in memory until the process ends: its threads do not survive being unmapped.
-// False = not there or not usable, and `reason` is a sentence.
+// Opens the library, which then stays in memory until the process ends: its threads would not survive unloading.
+// False = missing or unusable, and `reason` is a sentence.
 bool load(Api& api, std::string& reason);
 
 } // namespace oidn

@@ -18,10 +18,10 @@ namespace {
 
 using namespace oidn;
 
-struct State { // from the first question until shutdown
+struct State { // from the first query until shutdown
     std::mutex mutex;
     bool tried = false;
-    std::optional<Api> api; // none = not available, and unavailable_reason says why
+    std::optional<Api> api; // none = unavailable, see unavailable_reason
     std::string unavailable_reason, run_reason;
     Device device = nullptr;
     uint32_t device_threads = 0;
@@ -45,14 +45,14 @@ void release_device(State& s) {
     s.device = nullptr;
 }
 
-// "" or why there is no device. Kept between jobs: making one costs threads.
+// "" or why there is no device. Kept between jobs: creating one starts threads.
 std::string ensure_device(State& s, uint32_t threads) {
     if (s.device && s.device_threads == threads) return {};
     release_device(s);
     s.device = s.api->new_device(device_type_cpu);
     if (!s.device) return "Open Image Denoise has no device for this processor: " + device_error(*s.api, nullptr);
     s.device_threads = threads;
-    s.api->set_device_bool(s.device, "setAffinity", false); // the cores are the renderer's as well
+    s.api->set_device_bool(s.device, "setAffinity", false); // the renderer shares the cores
     if (threads > 0) s.api->set_device_int(s.device, "numThreads", static_cast<int>(threads));
     s.api->commit_device(s.device);
     std::string error = device_error(*s.api, s.device);
@@ -127,8 +127,8 @@ int oidn_quality(const State& s, uint32_t quality) {
 
 std::string denoise(State& s, const RestageDenoiseJob& job);
 
-// The network takes what lies outside of a picture for black, so a tiny one is mostly border: its outermost
-// pixels are repeated on all sides until there is something to see.
+// The network treats everything outside a picture as black, so a tiny one is mostly border: its outermost
+// pixels are repeated on all sides until it is large enough.
 constexpr uint32_t least_side = 64;
 
 std::string denoise_padded(State& s, const RestageDenoiseJob& job) {

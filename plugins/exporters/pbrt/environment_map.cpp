@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of all directions in the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
+// Converts a picture of all directions to the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
 // P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008, as in pbrt-v4.
 #include "exporter.hpp"
 

@@ -51,7 +51,7 @@ Kept Exporter::kept(const RestageOrigin& origin, const std::string& what) {
     Kept out;
     const bool ours = std::string_view(origin.format) == format();
     const bool of_pbrt = std::string_view(origin.format).starts_with("pbrt-"); // the other version
-    for (std::uint32_t i = 0; i < origin.value_count; ++i) { // where it is understood; elsewhere the value is written
+    for (std::uint32_t i = 0; i < origin.value_count; ++i) { // if it is understood; else the value is written
         const RestageOriginValue& value = RESTAGE_AT(RestageOriginValue, origin.values, i);
         const std::string_view id = value.id;
         if (id == whole_light) continue; // picture_light's
@@ -61,7 +61,7 @@ Kept Exporter::kept(const RestageOrigin& origin, const std::string& what) {
             out.for_values[std::string(id)] = value.text;
         else
             approximated(what, std::string("what ") + origin.format +
-                                   " had as spectra, or in its own way, is written as this scene shows it");
+                                   " gave as spectra, or in its own form, is written as this scene shows it");
     }
     for (const std::string& line : lines(origin.verbatim)) {
         if (ours) {
@@ -96,16 +96,16 @@ bool Exporter::put_exact(Params& params, const Kept& k, const char* id, const fl
         return true;
     }
     approximated(what, same ? "its light was given in another colour space; its colour in sRGB is written"
-                            : "its light was given by a spectrum or a picture; the colour it has now is written");
+                            : "its light was given by a spectrum or a picture; its present colour is written");
     return false;
 }
 
 void Exporter::tell_missing(const std::string& what, const std::string& file) {
-    if (told_missing_.insert(file).second) dropped(what, "its file is not there, it is named as it was: " + file);
+    if (told_missing_.insert(file).second) dropped(what, "its file is missing, it is named as before: " + file);
 }
 
 std::string Exporter::finished(Params& params, const std::string& what) {
-    for (const std::string& file : params.files()) { // those that are there have absolute paths, or are of this export
+    for (const std::string& file : params.files()) { // existing ones have absolute paths, or belong to this export
         std::error_code code;
         if (!out_.has(file) && !std::filesystem::is_regular_file(file, code)) tell_missing(what, file);
     }

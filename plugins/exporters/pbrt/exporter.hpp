@@ -20,10 +20,10 @@ enum class Files { copy, relative, absolute };
 struct Options {
     Version version = Version::v4;
     Files textures = Files::copy;
-    bool write_meshes = true; // false: refer to the PLY a mesh came from, where it still exists
+    bool write_meshes = true; // false: refer to the PLY a mesh came from, if it still exists
 };
 
-// The values of a material or texture, by id, with the defaults of the plugins' tables where nothing is set.
+// The values of a material or texture, by id, with defaults from the plugins' tables for unset ones.
 class Values {
   public:
     Values(const RestageValue* values, std::uint32_t count) : values_(values), count_(count) {}
@@ -40,19 +40,19 @@ class Values {
     std::uint32_t count_;
 };
 
-// The id of what keeps all of a light with a picture: its value, then the directive.
+// The id of the line that keeps all of a light with a picture: its value, then the directive.
 inline constexpr std::string_view whole_light = "whole";
 
-// What was kept of an imported thing, sorted out. Lines of another version are not usable.
+// What was kept of an imported thing, sorted. Lines of another version are unusable.
 struct Kept {
     std::vector<std::string> lines;                // written back as they are
-    std::map<std::string, std::string> for_values; // instead of what would be written for that value
-    std::vector<std::string> whole;                // instead of everything
+    std::map<std::string, std::string> for_values; // replaces what would be written for that value
+    std::vector<std::string> whole;                // replaces everything
     std::vector<std::string> foreign;              // of another format: comments
 };
 
-// A kept line of one version in the words of the other; "" = it says how, not what, and nothing is lost; nullopt = the
-// other has nothing of the kind.
+// A kept line of one version in the other's syntax; "" = it affects sampling only, so nothing is lost; nullopt = the
+// other has no equivalent.
 std::optional<std::string> in_other_words(const std::string& line, bool to_v3);
 
 struct OwnPicture { // made by the export; RGB, row 0 is the top
@@ -79,7 +79,7 @@ class Exporter {
     Kept kept(const RestageOrigin& text, const std::string& what);
     void comment(const std::vector<std::string>& lines, const char* indent = "");
     std::string unique_name(const char* kind, const std::string& name);
-    // The name of what a missing Include may define, and nobody has edited: it is named, not written. "" = another.
+    // The name of an unedited thing that a missing Include may define: it is named, not written. "" = any other.
     std::string extern_name(const char* kind, const Kept& kept);
     void flag(Params& params, const char* name, bool value) const; // v3 writes "true", v4 true
 
@@ -91,15 +91,15 @@ class Exporter {
     void sampler_and_integrator(const Kept& settings);
     double shutter_time() const;
 
-    // What a light's colour was before it became RGB, if nobody has edited it since; else false.
+    // A light's colour before it became RGB, if unedited since; else false.
     bool put_exact(Params&, const Kept&, const char* id, const float (&value)[3], const std::string& what);
     std::string finished(Params&, const std::string& what); // as text, with the files it names in place
     void tell_missing(const std::string& what, const std::string& file); // once
 
     // write_textures.cpp
     std::string image_file(RestageHandle image);
-    std::string place_file(const std::string& path); // how the scene file names it; copied if that was asked for
-    std::string texture(RestageHandle); // writes it and what it needs first; its name, "" = cannot be
+    std::string place_file(const std::string& path); // how the scene file names it; copied if requested
+    std::string texture(RestageHandle); // writes it and its dependencies first; its name, "" = impossible
     void put_argument(Params&, const Values&, const char* id, const char* name, bool is_float, float otherwise);
     void put_image_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
     void put_mapping(Params&, const Values&, const std::string& what);
@@ -124,7 +124,7 @@ class Exporter {
     void lights();
     void light(RestageHandle);
     void environment();
-    // Its picture in the other mapping, times a colour; "" = there are no pixels.
+    // Its picture in the other mapping, times a colour; "" if there are no pixels.
     std::string environment_file(const RestageEnvironment&, const std::array<float, 3>& tint);
     std::string own_picture(const OwnPicture&, const std::string& name); // its file
 
@@ -151,11 +151,11 @@ class Exporter {
     std::string ply_file(RestageHandle mesh, const RestageMesh&);
     void transform(const double m[16], const char* indent);
     std::vector<std::string> group_path(RestageHandle group);
-    void groups_of_nothing(); // so that they are there again
+    void groups_of_nothing(); // so that reading restores them
 
-    // What pbrt has no place for, in comments that the importer reads (build_names.cpp there says how).
+    // What pbrt cannot express, in comments that the importer reads (see its build_names.cpp).
     void mark(const char* indent, const char* key, const std::vector<std::string>& strings);
-    void only_for_us(std::size_t start); // what was written since `start` becomes lines `#restage ...`
+    void only_for_us(std::size_t start); // turns what was written since `start` into lines `#restage ...`
 
     const RestageSceneReader1& in_;
     const Options options_;

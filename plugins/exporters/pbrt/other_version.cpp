@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was kept of a file of one version of pbrt, in the words of the other. https://pbrt.org/fileformat-v3 and -v4.
+// What was kept of a file of one version of pbrt, in the other's syntax. https://pbrt.org/fileformat-v3 and -v4.
 #include "exporter.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Params only(const Params& given, std::initializer_list<const char*> names) {
     return out;
 }
 
-// Where the samples lie: the picture they converge to is the same.
+// Sample placement only: they converge to the same picture.
 std::string sampler(const KeptLine& line, bool to_v3) {
     Params given;
     given.add_raw(line.rest);

@@ -115,7 +115,7 @@ std::string Output::inside(const fs::path& file) const {
 }
 
 void Output::commit() {
-    // Whatever was staged is complete on disk; the scene file goes last, so that it never names what is not there.
+    // All staged files are complete on disk; the scene file goes last, so that it never names a missing file.
     std::stable_partition(staged_.begin(), staged_.end(), [&](const Staged& s) { return s.target != scene_file_; });
     std::error_code code;
     for (const Staged& file : staged_) {

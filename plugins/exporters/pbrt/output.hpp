@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of one export: each is written under a temporary name beside its place; all are renamed at the end, the
-// scene file last. When something fails nothing of the old export has changed.
+// scene file last. On failure the old export is unchanged.
 #pragma once
 
 #include <filesystem>
@@ -21,17 +21,17 @@ struct ExportError : std::runtime_error { // file and sentence, for error() of t
 class Output {
   public:
     explicit Output(const std::filesystem::path& scene_file);
-    ~Output(); // what was not committed is removed
+    ~Output(); // removes what was not committed
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
     bool has(const std::string& relative) const; // will be, or is, beside the scene
     const std::filesystem::path& folder() const { return folder_; }
-    // "models/chair.ply": a name nothing else of this export has, relative to the folder.
+    // "models/chair.ply": a name unique in this export, relative to the folder.
     std::string unique_file(const std::string& folder, const std::string& stem, const std::string& extension);
     void write(const std::string& relative, std::string_view bytes);
     void copy(const std::filesystem::path& from, const std::string& relative);
-    // Path of `file` as the scene file would name it when it is inside the folder, else "".
+    // Path of `file` as the scene file would name it if it is inside the folder, else "".
     std::string inside(const std::filesystem::path& file) const;
     void commit(); // the scene file must have been written
 

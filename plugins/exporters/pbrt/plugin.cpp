@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exporter's table, its options, and the border that no exception crosses.
+// The exporter's table, its options, and the boundary that no exception crosses.
 #include "exporter.hpp"
 
 namespace restage::pbrt_out {
@@ -9,9 +9,9 @@ namespace {
 const RestageParam options[] = {
     RESTAGE_ENUM_PARAM("version", "pbrt version", "v4|v3", 0, 0, "Which pbrt the file is for."),
     RESTAGE_ENUM_PARAM("textures", "Textures", "copy|relative|absolute", 0, 0,
-                       "Copy image files beside the scene, or name them where they are."),
+                       "Copy image files beside the scene, or refer to them in place."),
     RESTAGE_ENUM_PARAM("meshes", "Meshes", "write|reference", 0, 0,
-                       "Write heavy meshes beside the scene, or name the PLY files they came from."),
+                       "Write heavy meshes beside the scene, or refer to the PLY files they came from."),
 };
 
 Options read_options(const RestageValue* values, std::uint32_t count) {

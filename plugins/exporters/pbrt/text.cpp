@@ -141,7 +141,7 @@ Params& Params::add_raw(std::string_view s) {
             value.pop_back();
         declaration.remove_prefix(std::min(skip_space(declaration, 0), declaration.size()));
         const std::size_t space = declaration.find_first_of(" \t");
-        if (space == std::string_view::npos) return *this; // no parameter: the rest is not understood either
+        if (space == std::string_view::npos) return *this; // not a parameter: the rest is not understood either
         const std::string_view name = declaration.substr(std::min(skip_space(declaration, space), declaration.size()));
         if (!has(name)) add(declaration.substr(0, space), name, value);
     }
@@ -184,7 +184,7 @@ std::vector<std::string> Params::files() const {
         if (!e.value.starts_with('"')) continue;
         const std::string text = unquote(e.value);
         const bool named = e.name.ends_with("filename") || e.name.ends_with("file") || e.name == "mapname";
-        const bool spectrum = text.find_first_of("./\\") != std::string::npos; // no name of pbrt's own has these
+        const bool spectrum = text.find_first_of("./\\") != std::string::npos; // never in pbrt's own names
         if ((e.type == "string" && named && !text.empty()) || (e.type == "spectrum" && spectrum)) out.push_back(text);
     }
     return out;

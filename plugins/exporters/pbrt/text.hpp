@@ -15,7 +15,7 @@ namespace restage::pbrt_out {
 
 std::string number(float);
 std::string number(double);
-std::optional<double> read_number(std::string_view& text); // takes it, and space before it, off the text's beginning
+std::optional<double> read_number(std::string_view& text); // strips it, and space before it, from the start of the text
 std::string quote(std::string_view); // with pbrt's escapes
 std::string plain_name(std::string_view); // fit for a comment and a file: no quotes, slashes or control characters
 std::vector<std::string> lines(std::string_view text); // without empty ones
@@ -23,23 +23,23 @@ std::vector<std::string> lines(std::string_view text); // without empty ones
 // A list of parameters as text: `"float radius" [ 1 ]` each.
 class Params {
   public:
-    Params& add(std::string_view type, std::string_view name, std::string_view value); // value as it stands in brackets
+    Params& add(std::string_view type, std::string_view name, std::string_view value); // value as in the brackets
     Params& add_float(std::string_view name, double value) { return add("float", name, number(value)); }
     Params& add_float(std::string_view name, float value) { return add("float", name, number(value)); }
     Params& add_int(std::string_view name, long long value) { return add("integer", name, std::to_string(value)); }
     Params& add_rgb(std::string_view name, const std::array<float, 3>& rgb);
     Params& add_string(std::string_view name, std::string_view value) { return add("string", name, quote(value)); }
-    Params& add_raw(std::string_view parameters); // one or more, as kept verbatim; names that are there already win
+    Params& add_raw(std::string_view parameters); // one or more, as kept verbatim; existing names win
     void remove(std::string_view name);
     void remove_all_of(const Params& others); // by name
     void retype(bool for_v3); // point, vector and "true" for v3, point3, vector3 and true for v4
     bool has(std::string_view name) const;
-    // Means the same anywhere: no colours, which depend on the ColorSpace around them.
+    // Context-free: no colours, which depend on the current ColorSpace.
     bool stands_alone() const;
-    std::vector<std::string> files() const; // what names one: "string filename", "spectrum eta" of a file, ...
+    std::vector<std::string> files() const; // those naming a file: "string filename", "spectrum eta" of a file, ...
     std::string value(std::string_view name) const; // "" = absent
     std::string string(std::string_view name) const; // without its quotes; "" = absent
-    void map_strings(const std::function<std::string(const std::string&)>&); // each value that is one string
+    void map_strings(const std::function<std::string(const std::string&)>&); // each single-string value
     bool empty() const { return entries_.empty(); }
     std::string text(std::string_view separator = " ") const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands before WorldBegin: options, camera, film, pixel filter, sampler, integrator.
+// What comes before WorldBegin: options, camera, film, pixel filter, sampler, integrator.
 // https://pbrt.org/fileformat-v4, https://pbrt.org/fileformat-v3.
 #include "exporter.hpp"
 
@@ -34,7 +34,7 @@ void Exporter::head() {
         const std::string word = split_directive(line).word;
         if (word != "Film" && word != "PixelFilter" && word != "Integrator" && word != "SurfaceIntegrator" &&
             word != "Sampler")
-            text_ += line + "\n"; // Option, Accelerator, TransformTimes; Include and Import of files that are not there
+            text_ += line + "\n"; // Option, Accelerator, TransformTimes; Include and Import of missing files
         if (word == "Include" || word == "Import") tell_missing("settings", split_directive(line).name);
     }
     if (const RestageHandle active = in_.active_camera(in_.ctx)) camera(active, true);
@@ -65,7 +65,7 @@ double Exporter::shutter_time() const {
     return close > open ? close - open : 1;
 }
 
-// pbrt has one camera, the active one. The others are for us only.
+// pbrt has one camera, the active one. The others are for Restage only.
 void Exporter::camera(RestageHandle handle, bool active) {
     RestageCamera camera{};
     if (!in_.camera(in_.ctx, handle, &camera)) return;
@@ -113,7 +113,7 @@ void Exporter::camera(RestageHandle handle, bool active) {
                    number(w[0]) + " " + number(w[1]) + " " + number(w[2]) + " " + number(w[3]));
     for (const std::string& line : k.lines) {
         const KeptLine l = split_directive(line);
-        if (l.word == "Camera" && !l.name.empty()) { // another kind of camera: only its place is ours
+        if (l.word == "Camera" && !l.name.empty()) { // another kind of camera: only its place is known
             type = l.name;
             params = Params().add_raw(l.rest);
         } else {
@@ -179,7 +179,7 @@ void Exporter::sampler_and_integrator(const Kept& k) {
         const auto kept_number = [&](const char* name) {
             return sampler.has(name) ? std::strtoul(sampler.value(name).c_str(), nullptr, 10) : 4ul;
         };
-        if (kept_number("xsamples") * kept_number("ysamples") != samples) { // edited: as near to a square as it goes
+        if (kept_number("xsamples") * kept_number("ysamples") != samples) { // edited: as near to a square as possible
             auto x = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
             while (samples % x != 0)
                 --x;

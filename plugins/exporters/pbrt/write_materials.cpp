@@ -38,7 +38,7 @@ void Exporter::put_color(Params& params, const Values& values, const char* id, c
     params.add_rgb(name, c);
 }
 
-// Both versions map roughness to the microfacets' alpha, each in its own way. What was meant for the other version is
+// Both versions map roughness to the microfacets' alpha, each in its own way. A roughness for the other version is
 // written as alpha itself, which both take with remaproughness false. Smooth dielectrics (0) stay smooth.
 void Exporter::put_roughness(Params& params, const Values& values, const std::string& what, const char* u_id,
                              const char* v_id, const char* u_name, const char* v_name, bool zero_is_smooth,
@@ -72,7 +72,7 @@ void Exporter::put_common(Params& params, const Values& values, const std::strin
         if (in_.texture(in_.ctx, bump, &t) && t.is_float)
             params.add("texture", v3() ? "bumpmap" : "displacement", quote(texture(bump)));
         else
-            dropped(what, "its bump map is no scalar texture");
+            dropped(what, "its bump map is not a scalar texture");
     }
     if (const RestageHandle normal_map = values.ref("normalmap")) {
         RestageTexture t{};
@@ -86,7 +86,7 @@ void Exporter::put_common(Params& params, const Values& values, const std::strin
     }
 }
 
-// All of its values under the ids of its plugin's table, for our importer, where that plugin is.
+// All of its values under the ids of its plugin's table, for our importer, if that plugin is loaded.
 void Exporter::put_for_plugin(const std::string& name, const RestageMaterialDesc& m) {
     const Values values(m.values, m.value_count);
     Params params;
@@ -116,14 +116,14 @@ std::string Exporter::material(RestageHandle handle) {
     if (const auto it = materials_.find(handle); it != materials_.end()) return it->second;
     RestageMaterialDesc m{};
     if (!in_.material(in_.ctx, handle, &m)) return "";
-    materials_[handle] = ""; // a circle finds nothing
+    materials_[handle] = ""; // breaks cycles
     const std::string what = std::string("material \"") + m.name + "\"";
     const Kept k = kept(*m.origin, what);
     const Values values(m.values, m.value_count);
     if (const std::string name = extern_name("material", k); !name.empty()) return materials_[handle] = name;
     Params params;
     const bool outside = std::exchange(lossy_, false);
-    bool stands_in = false; // pbrt has the nearest only
+    bool stands_in = false; // pbrt has only an approximation
     if (!k.whole.empty()) { // a material of pbrt's that is only approximated here, and was not edited
         for (const std::string& line : k.whole)
             params.add_raw(line);
@@ -132,7 +132,7 @@ std::string Exporter::material(RestageHandle handle) {
         const std::string type = v3() ? material_v3(own, m, values, what) : material_v4(own, m, values, what);
         stands_in = lossy_ && type != "mix" && type != "interface" && type != "none";
         params.add_string("type", type);
-        for (const auto& [id, line] : k.for_values) { // what a value was before it became RGB, and was not edited
+        for (const auto& [id, line] : k.for_values) { // an unedited value from before it became RGB
             Params original;
             original.add_raw(line);
             if (!original.stands_alone()) {

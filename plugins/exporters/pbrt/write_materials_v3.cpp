@@ -33,7 +33,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
     if (type == "conductor" || type == "coatedconductor") {
         const bool coated = type == "coatedconductor", colored = v.boolean("use_reflectance", false);
         unlike(coated ? "pbrt-v3 has no coats on metal; the metal alone is written"
-                      : "pbrt-v3 gives metal by its optical constants; others of that reflectance are written");
+                      : "pbrt-v3 defines metal by its optical constants; others with that reflectance are written");
         if (colored) { // eta = 1: R = k^2 / (k^2 + 4), as pbrt-v4 does it (ConductorMaterial::GetBxDF)
             const auto r =
                 v.ref("reflectance") ? average(v.ref("reflectance")) : v.color("reflectance", {0.9f, 0.9f, 0.9f});
@@ -60,7 +60,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         return "glass";
     }
     if (type == "coateddiffuse") {
-        unlike("pbrt-v3 has no layered materials; an Ashikhmin-Shirley substrate stands for it");
+        unlike("pbrt-v3 has no layered materials; an Ashikhmin-Shirley substrate is used instead");
         color("reflectance", "Kd", 0.5f);
         const double eta = std::max(static_cast<double>(v.ref("eta") ? 1.5f : v.number("eta", 1.5f)), 1.0);
         const auto f0 =
@@ -110,7 +110,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         p.add_rgb("Kd", {1, 1, 1}).add_rgb("Ks", {0, 0, 0});
         return "translucent";
     }
-    if (type == "mix") { // v3's amount is the weight of the first: the two change places
+    if (type == "mix") { // v3's amount is the weight of the first: the two are swapped
         p.add_string("namedmaterial1", material(v.ref("second")))
             .add_string("namedmaterial2", material(v.ref("first")));
         if (v.ref("amount")) {
@@ -125,7 +125,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
     }
     if (type == "interface") return "none";
     if (type == "principled") {
-        unlike("pbrt-v3's disney material is written, which has the same dials and other formulas");
+        unlike("pbrt-v3's disney material is written, which has the same parameters but other formulas");
         color("base_color", "color", 0.8f);
         put_float(p, v, "metallic", "metallic", 0);
         put_float(p, v, "roughness", "roughness", 0.5f); // both square it
@@ -165,7 +165,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         put_color(p, v, "reflectance", "Kd", {0.1f, 0.02f, 0.03f});
         return "matte";
     }
-    dropped(what + " (" + type + ")", "pbrt-v3 has no such material; a grey matte one stands for it");
+    dropped(what + " (" + type + ")", "pbrt-v3 has no such material; a grey matte one is used instead");
     p.add_rgb("Kd", {0.5f, 0.5f, 0.5f});
     return "matte";
 }

@@ -31,7 +31,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
     if (type == "diffuse") {
         put_color(p, v, "reflectance", "reflectance", {0.5f, 0.5f, 0.5f});
         if (v.ref("sigma") || v.number("sigma", 0) != 0)
-            unlike("pbrt-v4 has no Oren-Nayar roughness; Lambert's law stands for it");
+            unlike("pbrt-v4 has no Oren-Nayar roughness; Lambert's law is used instead");
         return "diffuse";
     }
     if (type == "conductor") {
@@ -78,14 +78,14 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         return "mix";
     }
     if (type == "interface") return "interface";
-    if (type == "principled") { // by what there is most of
+    if (type == "principled") { // by the largest component
         const auto mean = [&](const char* id, float otherwise) {
             return v.ref(id) ? average(v.ref(id))[0] : v.number(id, otherwise);
         };
         const bool metallic = mean("metallic", 0) > 0.5f, glass = !metallic && mean("transmission", 0) > 0.5f;
-        unlike(metallic ? "pbrt-v4 does not have it; a conductor of its colour stands for it"
-               : glass  ? "pbrt-v4 does not have it; clear glass stands for it"
-                        : "pbrt-v4 does not have it; a coated diffuse material of its colour stands for it");
+        unlike(metallic ? "pbrt-v4 does not have it; a conductor of its colour is used instead"
+               : glass  ? "pbrt-v4 does not have it; clear glass is used instead"
+                        : "pbrt-v4 does not have it; a coated diffuse material of its colour is used instead");
         if (!glass) put_color(p, v, "base_color", "reflectance", {0.8f, 0.8f, 0.8f});
         if (!metallic) put_float(p, v, "ior", "eta", 1.5f);
         if (glass && v.boolean("thin", false)) return "thindielectric";
@@ -104,7 +104,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         return metallic ? "conductor" : glass ? "dielectric" : "coateddiffuse";
     }
     if (type == "substrate" || type == "plastic" || type == "uber") {
-        unlike("pbrt-v4 does not have it; a coated diffuse material of its colour and roughness stands for it");
+        unlike("pbrt-v4 does not have it; a coated diffuse material of its colour and roughness is used instead");
         put_color(p, v, "kd", "reflectance",
                   type == "substrate" ? std::array{0.5f, 0.5f, 0.5f} : std::array{0.25f, 0.25f, 0.25f});
         if (type == "plastic")
@@ -115,7 +115,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         return "coateddiffuse";
     }
     if (type == "mirror") {
-        unlike("pbrt-v4 does not have it; a smooth conductor of that reflectance stands for it");
+        unlike("pbrt-v4 does not have it; a smooth conductor of that reflectance is used instead");
         put_color(p, v, "kr", "reflectance", {0.9f, 0.9f, 0.9f});
         p.add_float("roughness", 0.f);
         return "conductor";
@@ -150,7 +150,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         put_color(p, v, "reflectance", "reflectance", {0.1f, 0.02f, 0.03f});
         return "diffuse";
     }
-    dropped(what + " (" + type + ")", "pbrt-v4 has no such material; a grey diffuse one stands for it");
+    dropped(what + " (" + type + ")", "pbrt-v4 has no such material; a grey diffuse one is used instead");
     p.add_rgb("reflectance", {0.5f, 0.5f, 0.5f});
     return "diffuse";
 }

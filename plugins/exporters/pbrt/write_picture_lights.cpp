@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goniometric and projection lights, which a point and a spot light stand for here. What the file said of one is kept
-// in a line "=whole COLOUR LightSource ...", and written in the words of either version.
+// Goniometric and projection lights, rendered as point and spot lights here. The file's own text is kept
+// in a line "=whole COLOUR LightSource ...", and written in the syntax of either version.
 //
 // Goniometric (pbrt-v3 12.3.3, v4 12.2.3): both versions swap y and z, so that y is up, and look the direction up in
 // the mapping of their environments; v4's is of one channel, the mean of the picture's. Projection (v3 12.3.2, v4
@@ -59,7 +59,7 @@ RestageHandle Exporter::picture_named(const std::string& file) {
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_IMAGE); ++h) {
         RestageImage image{};
         if (!in_.image(in_.ctx, h, &image)) continue;
-        Params as_written; // what the importer kept of a file it did not find
+        Params as_written; // what the importer kept of a missing file
         for (const std::string& line : lines(image.origin->verbatim))
             as_written.add_raw(line);
         if (image.path == file || as_written.string("filename") == file) return h;
@@ -82,7 +82,7 @@ bool Exporter::picture_light(const RestageLight& light, const std::string& what,
     if (line.name != "goniometric" && line.name != "projection") return false;
     PictureLight p{light, what, std::string_view(light.origin->format) == "pbrt-v3", {}, false, 0, {}};
     p.given.add_raw(line.rest);
-    for (const char* placed : {"from", "to"}) // are in the transform already
+    for (const char* placed : {"from", "to"}) // are already in the transform
         p.given.remove(placed);
     Params colour = p.given, others = p.given;
     for (const char* name : {"mapname", "filename", "fov"}) {
@@ -98,14 +98,14 @@ bool Exporter::picture_light(const RestageLight& light, const std::string& what,
     if (p.image.width == 0 || p.image.height == 0) p.image.pixels = nullptr;
     if (p.is_v3 == v3()) {
         params = p.given;
-        if (p.handle) // found again, perhaps; or not there, which is reported
+        if (p.handle) // possibly relinked; or missing, which is reported
             params.map_strings([&](const std::string& name) { return name == file ? image_file(p.handle) : name; });
     } else if (p.has_file() && !p.image.pixels) {
-        dropped(what, "its picture is not there, and cannot be written for " + std::string(format()) +
-                          "; a light without a picture stands for it");
+        dropped(what, "its picture is missing, and cannot be written for " + std::string(format()) +
+                          "; a light without a picture is used instead");
         return false;
     } else if (!others.empty()) {
-        dropped(what, "parameters that mean nothing to either version: " + others.text());
+        dropped(what, "parameters unknown to either version: " + others.text());
     }
     type = line.name;
     if (type == "goniometric")
@@ -122,7 +122,7 @@ void Exporter::goniometric(PictureLight& p, std::string& type, Params& params) {
     if (!p.as_given) {
         for (const char* name : {"I", "scale", "power"})
             params.remove(name);
-        double factor = 1; // light.value is of an even distribution of this power
+        double factor = 1; // light.value is a uniform distribution's of this power
         if (p.number("power", -1) > 0 && p.image.pixels)
             if (const double mean = p.mean(grey); mean > 0) factor = 1 / mean;
         params.add_rgb("I", p.value(factor));
@@ -148,7 +148,7 @@ void Exporter::goniometric(PictureLight& p, std::string& type, Params& params) {
 }
 
 void Exporter::projection(PictureLight& p, Params& params) {
-    std::array<float, 3> tint{1, 1, 1}; // that the picture itself must have
+    std::array<float, 3> tint{1, 1, 1}; // that the picture itself must contain
     if (!p.as_given) {
         for (const char* name : {"I", "scale", "power"})
             params.remove(name);
@@ -189,12 +189,12 @@ void Exporter::projection(PictureLight& p, Params& params) {
                 for (std::uint32_t c = 0; c < 3; ++c)
                     picture.pixels.push_back(static_cast<float>(
                         p.texel(x, p.is_v3 == v3() ? y : picture.height - 1 - y, c) * static_cast<double>(tint[c])));
-    } else if (p.has_file()) { // v4, of a colour now, and not there
+    } else if (p.has_file()) { // v4, coloured now, and missing
         approximated(p.what,
-                     "pbrt-v4 colours a projected picture by itself only, and it is not there: its colour is lost");
+                     "pbrt-v4 takes colours from the projected picture only, which is missing: its colour is lost");
         return;
     } else if (v3()) {
-        return; // an even one
+        return; // a uniform one
     }
     params.remove(name);
     params.add_string(name, own_picture(picture, p.light.name));

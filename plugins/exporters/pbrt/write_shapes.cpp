@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instances. What several of them share is written once: groups of the same make become instances of one object, and so
+// Instances. Shared things are written once: identical groups become instances of one object, and so
 // do single instances of one mesh and material. Emitters are written one by one: pbrt does not instance them.
 #include "exporter.hpp"
 
@@ -11,12 +11,12 @@ namespace restage::pbrt_out {
 
 namespace {
 
-constexpr std::string_view missing = "missing "; // a placeholder's primitive begins so (scene/placeholder.hpp)
+constexpr std::string_view missing = "missing "; // the prefix of a placeholder's primitive (scene/placeholder.hpp)
 bool is_missing(const RestageMesh& mesh) { return std::string_view(mesh.primitive).starts_with(missing); }
 
 constexpr std::uint32_t most_inline_triangles = 100;
 
-// Everything but the place; equal = may share an object.
+// Everything but the transform; equal = may share an object.
 std::string signature(const RestageInstance& i) {
     std::string key = std::to_string(i.mesh) + " " + std::to_string(i.material) + " " +
                       std::to_string(i.alpha_texture) + " " + number(i.alpha) + " " + std::to_string(i.flags);
@@ -103,7 +103,7 @@ void Exporter::plan_objects() {
         object_of_[group] = name;
     }
 
-    // Single instances that differ in their place only.
+    // Single instances that differ in their transform only.
     std::map<std::string, std::vector<RestageHandle>> alone;
     for (RestageHandle h = 1; h <= instances; ++h)
         if (in_.instance(in_.ctx, h, &i) && shareable(i) && !object_of_.count(i.group))
@@ -123,7 +123,7 @@ void Exporter::plan_objects() {
     }
 }
 
-// Outermost first; a circle ends where it closes.
+// Outermost first; a cycle ends where it closes.
 std::vector<std::string> Exporter::group_path(RestageHandle group) {
     std::vector<std::string> path;
     for (RestageGroup g{}; group && in_.group(in_.ctx, group, &g) && path.size() < 100; group = g.parent) {
@@ -146,7 +146,7 @@ void Exporter::shapes() {
     plan_objects();
     const std::uint32_t instances = in_.count(in_.ctx, RESTAGE_KIND_INSTANCE);
     RestageInstance i{};
-    std::map<RestageHandle, std::string> first_of; // instance -> object to be written before it
+    std::map<RestageHandle, std::string> first_of; // instance -> object to write before it
     for (const auto& [name, handles] : objects_) {
         first_of[handles[0]] = name;
         for (const RestageHandle h : handles)
@@ -222,7 +222,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     const Kept k = kept(*i.origin, what);
     RestageMaterialDesc surface{};
     const bool none = in_.material(in_.ctx, i.material, &surface) && std::string_view(surface.type) == "interface";
-    // pbrt-v4 lets surfaces without a material not emit, but those of alpha 0 do, which let rays pass as well.
+    // pbrt-v4's surfaces without a material do not emit, but those of alpha 0 do, which let rays pass as well.
     const bool lamp_of_nothing = !v3() && none && (i.flags & RESTAGE_INSTANCE_EMITS) && !i.has_medium_interface;
     if (lamp_of_nothing) {
         i.alpha = 0;
@@ -230,15 +230,15 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
         i.flags = (i.flags | RESTAGE_INSTANCE_EMITS_UNSEEN) & ~std::uint32_t{RESTAGE_INSTANCE_ALPHA_MASK};
         approximated(
             std::string("the light of \"") + i.name + "\"",
-            "pbrt-v4 lets surfaces without a material not emit: one of alpha 0 is written, which shines, and is "
-            "not seen");
+            "pbrt-v4's surfaces without a material do not emit: one of alpha 0 is written, which emits, and is "
+            "invisible");
     }
     const auto shape_text = shape_lines(i.mesh, i, k); // may write files and textures first
     const bool many = shape_text.size() > 1; // then the name is the block's
     if (many) mark(indent, "name", {i.name});
     RestageMesh mesh{};
     in_.mesh(in_.ctx, i.mesh, &mesh);
-    // v3 scopes names to attribute blocks: what a file that is missing here defines must outlive its block.
+    // v3 scopes names to attribute blocks: what a missing file defines must outlive its block.
     const bool open = v3() && std::string_view(mesh.primitive).starts_with("missing Include") &&
                       !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_REVERSE_ORIENTATION)) &&
                       !i.has_medium_interface && !relative_to;
@@ -261,10 +261,10 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (i.flags & RESTAGE_INSTANCE_EMITS) {
         if (!v3() && none && !lamp_of_nothing)
             report(RESTAGE_DROPPED, std::string("the light of \"") + i.name + "\"",
-                   "pbrt-v4 lets surfaces without a material not emit");
+                   "pbrt-v4's surfaces without a material do not emit");
         Params light;
         light.add_rgb("L", {i.emission[0], i.emission[1], i.emission[2]});
-        if (i.flags & RESTAGE_INSTANCE_EMITS_BY_MATERIAL) { // our importer leaves it to the material
+        if (i.flags & RESTAGE_INSTANCE_EMITS_BY_MATERIAL) { // our importer takes it from the material
             RestageMaterialDesc m{};
             if (in_.material(in_.ctx, i.material, &m)) mark(deep.c_str(), "emission", {m.type});
         } else if (put_exact(light, k, "emission", i.emission, what) && light.has("filename")) {
@@ -300,8 +300,8 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
     return file;
 }
 
-// The two versions mean different things by alpha: v3's is a mask, of triangles only, and of lamps what is seen; v4's
-// is the share of rays that is stopped, and of lamps what shines, unless it is 0 everywhere.
+// The two versions mean different things by alpha: v3's is a mask, for triangles only, and hides parts of lamps; v4's
+// is the share of rays stopped, and dims lamps, unless it is 0 everywhere.
 void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
     if (!i.alpha_texture && i.alpha >= 1) return;
     const std::string what = std::string("alpha of \"") + i.name + "\"";
@@ -313,7 +313,7 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
             if (!(mask && whole)) approximated(what, "pbrt-v3 has it for triangles only; this shape is opaque there");
             return;
         }
-        if (!mask && (i.alpha_texture || i.alpha > 0)) approximated(what, "in pbrt-v3 whatever is above 0 is opaque");
+        if (!mask && (i.alpha_texture || i.alpha > 0)) approximated(what, "in pbrt-v3 any alpha above 0 is opaque");
         if (lamp && !unseen) approximated(what, "pbrt-v3's lamps shine where alpha makes holes, too");
         return;
     }
@@ -326,10 +326,10 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
     if (lamp && unseen && !zero && !(mask && whole))
         approximated(what, "pbrt-v4's lamps do not shine where alpha makes holes");
     if (lamp && !unseen && !i.alpha_texture && i.alpha <= 0)
-        approximated(what, "a lamp of alpha 0 shines in pbrt-v4, unseen");
+        approximated(what, "a lamp of alpha 0 emits in pbrt-v4, unseen");
 }
 
-// What could not be read, as it was. Shapes take what the instance says of them; Include and ObjectInstance do not.
+// Unreadable things, as they were. Shapes take the instance's properties; Include and ObjectInstance do not.
 std::vector<std::string> Exporter::missing_lines(const RestageMesh& mesh, const RestageInstance& i, const Kept& k) {
     const std::string what = std::string("instance \"") + i.name + "\"";
     const bool ours = std::string_view(mesh.origin->format) == format();
@@ -351,9 +351,9 @@ std::vector<std::string> Exporter::missing_lines(const RestageMesh& mesh, const 
         params.retype(v3());
         out.push_back(shape_line(l.name, params, i, k));
     }
-    if (out.empty()) dropped(what, std::string("what it stands for cannot be written as ") + format());
+    if (out.empty()) dropped(what, std::string("its original cannot be written as ") + format());
     if (*mesh.source_file)
-        dropped(what, std::string("its file is not there, it is named as it was: ") + mesh.source_file);
+        dropped(what, std::string("its file is missing, it is named as before: ") + mesh.source_file);
     return out;
 }
 
@@ -376,7 +376,7 @@ std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const Resta
         throw ExportError("", std::string("instance \"") + i.name + "\" has no mesh");
     if (is_missing(mesh)) return missing_lines(mesh, i, k);
     const auto finish = [&](const std::string& type, Params& params) { return shape_line(type, params, i, k); };
-    std::vector<std::string> out; // the shapes that the triangles stand for: one, or many curves
+    std::vector<std::string> out; // the shapes behind the triangles: one, or many curves
     for (const std::string& primitive : lines(mesh.primitive)) {
         const std::size_t space = std::min(primitive.find(' '), primitive.size());
         const std::string type = primitive.substr(0, space);

@@ -61,8 +61,8 @@ std::string Exporter::image_file(RestageHandle handle) {
         return file;
     }
     dropped(std::string("image \"") + image.name + "\"",
-            std::string("its file is not there, it is named as it was: ") + image.path);
-    Params as_written; // what the importer kept of a file it did not find
+            std::string("its file is missing, it is named as before: ") + image.path);
+    Params as_written; // what the importer kept of a missing file
     for (const std::string& line : lines(image.origin->verbatim))
         as_written.add_raw(line);
     as_written.map_strings([&](const std::string& name) { return file = name; });
@@ -102,9 +102,9 @@ void Exporter::put_image_texture(Params& params, const RestageTexture& t, const 
     const std::string extension = *image.path ? extension_of(image.path) : ".pfm";
     const bool png = extension == ".png", linear = image.encoding == RESTAGE_LINEAR;
     if (is_float_file(extension)) {
-        // linear whatever is said
+        // always linear
     } else if (v3()) {
-        if (image.encoding == RESTAGE_GAMMA) approximated(what, "pbrt-v3 has no gamma but sRGB; that is written");
+        if (image.encoding == RESTAGE_GAMMA) approximated(what, "pbrt-v3 has no gamma but sRGB, which is written");
         if (linear == (png || extension == ".tga")) flag(params, "gamma", !linear);
     } else if (png && image.encoding != RESTAGE_SRGB) {
         params.add_string("encoding", linear ? "linear" : "gamma " + number(image.gamma));
@@ -176,7 +176,7 @@ std::array<float, 3> Exporter::average(RestageHandle handle, int depth) {
         const float w = mix && !values.ref("amount") ? values.number("amount", 0.5f) : 0.5f;
         return {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), a[2] + w * (b[2] - a[2])};
     }
-    return values.color("average", grey); // an imagemap's mean is not known here
+    return values.color("average", grey); // an imagemap's mean is unknown here
 }
 
 // uscale and so on; or the kinds of mapping that are not rendered here.
@@ -184,11 +184,12 @@ void Exporter::put_mapping(Params& params, const Values& values, const std::stri
     for (const auto& [id, otherwise] : {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
         if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
     if (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0)
-        approximated(what,
-                     "it is turned on the surface, and pbrt's mapping only scales and shifts; the turn is left out");
+        approximated(
+            what, "it is rotated on the surface, and pbrt's mapping only scales and shifts; the rotation is left out");
     if (values.number("uvset", 0) == 1)
-        approximated(what,
-                     "it lies on the second texture coordinates of its meshes, and pbrt's have one; it lies on those");
+        approximated(
+            what,
+            "it uses the second texture coordinates of its meshes, and pbrt's have one set, which is used instead");
     const std::string mapping = values.choice("mapping", "uv");
     if (mapping == "uv") return;
     params.add_string("mapping", mapping);
@@ -199,7 +200,7 @@ void Exporter::put_mapping(Params& params, const Values& values, const std::stri
         }
 }
 
-// Classes that are not rendered here, but that both versions have. False: it is another.
+// Classes that are not rendered here, but that both versions have. False: another class.
 bool Exporter::put_procedural(Params& params, const RestageTexture& t, const Values& values, const std::string& what,
                               std::string& type) {
     const bool is_float = t.is_float != 0;
@@ -248,9 +249,9 @@ std::string Exporter::texture(RestageHandle handle) {
     if (const auto it = textures_.find(handle); it != textures_.end()) return it->second;
     RestageTexture t{};
     if (!in_.texture(in_.ctx, handle, &t)) return "";
-    textures_[handle] = ""; // a circle finds nothing
+    textures_[handle] = ""; // breaks cycles
     const std::string what = std::string("texture \"") + t.name + "\"", type = t.type;
-    std::string place, rest; // the transform it is defined in means the same to both versions
+    std::string place, rest; // its transform means the same to both versions
     for (const std::string& line : lines(t.origin->verbatim))
         (line.starts_with("Transform [") ? place : rest) += line + "\n";
     const Kept k = kept({.value_count = t.origin->value_count,
@@ -279,7 +280,7 @@ std::string Exporter::texture(RestageHandle handle) {
         put_mapping(params, values, what);
     } else if (!put_procedural(params, t, values, what, written) && k.lines.empty()) {
         if (std::string_view(t.origin->format) != format()) {
-            written = "constant"; // of the other version: its average is the best there is
+            written = "constant"; // the other version's: its average is the best available
             approximated(what + " (" + type + ")",
                          std::string(format()) + " has no such texture; its average is written");
             put_argument(params, values, "average", "value", is_float, 0.5f);
@@ -305,7 +306,7 @@ std::string Exporter::texture(RestageHandle handle) {
     const std::string scalar = only_scalar ? unique_name("texture", name + " scalar") : name;
     text_ += "Texture " + quote(scalar) + (is_float || only_scalar ? " \"float\" " : " \"spectrum\" ") +
              quote(written) + " " + finished(params, what) + "\n";
-    if (only_scalar) // v4 has them as scalars alone
+    if (only_scalar) // v4 has them as scalars only
         text_ += "Texture " + quote(name) + " \"spectrum\" \"scale\" \"rgb tex\" [ 1 1 1 ] \"texture scale\" [ " +
                  quote(scalar) + " ]\n";
     if (!place.empty()) text_ += std::string(block) + "End\n";

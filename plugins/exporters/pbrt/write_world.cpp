@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media, the environment and lights without a surface. The textures' and materials' files are others.
+// Media, the environment and lights without a surface. Textures and materials have files of their own.
 #include "exporter.hpp"
 
 namespace restage::pbrt_out {
@@ -26,7 +26,7 @@ std::string Exporter::medium(RestageHandle handle) {
     for (const std::string& line : k.lines) {
         Params one;
         one.add_raw(line);
-        if (!one.has("preset")) // its numbers are written; pbrt takes one of both
+        if (!one.has("preset")) // its numbers are written; pbrt takes one of the two
             params.add_raw(line);
     }
     comment(k.foreign);
@@ -40,8 +40,7 @@ void Exporter::environment() {
     if (!in_.environment(in_.ctx, &e)) return;
     const std::string what = std::string("environment \"") + e.name + "\"";
     const Kept k = kept(*e.origin, what);
-    if (e.hidden_from_camera)
-        approximated(what, "pbrt has no sky that shines but is not seen by the camera: there it is seen");
+    if (e.hidden_from_camera) approximated(what, "pbrt has no sky hidden from the camera: it is visible there");
     if (e.sky && *e.sky)
         approximated(what, std::string("pbrt knows no sky \"") + e.sky +
                                "\": the picture that it makes is written, its values are not");
@@ -56,8 +55,9 @@ void Exporter::environment() {
         if (!v3() && !grey && !file.empty()) scale = {1, 1, 1};
         if (file.empty())
             dropped(what,
-                    v3() ? "pbrt-v3 reads equirectangular pictures, this one is octahedral; a constant stands for it"
-                         : "pbrt-v4 reads octahedral pictures, this one is equirectangular; a constant stands for it");
+                    v3()
+                        ? "pbrt-v3 reads equirectangular pictures, this one is octahedral; a constant is used instead"
+                        : "pbrt-v4 reads octahedral pictures, this one is equirectangular; a constant is used instead");
     }
     if (file.empty()) {
         params.add_rgb("L", scale);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of vertices or faces as a picture: the engine has none of its own, but every material takes a texture.
+// Colours of vertices or faces as a picture: meshes have no vertex colours, but every material takes a texture.
 #pragma once
 
 #include "common/mesh.hpp"
@@ -14,10 +14,10 @@ using CornerColor = std::function<Rgb(std::size_t triangle, std::size_t corner)>
 
 // Of 2 x 2 texels a triangle, read at their centres: bilinear filtering of c0, c1, c2 and c1 + c2 - c0 is the linear
 // interpolation over the triangle. The mesh shares no corners afterwards and has new uv. Returns the image; 0 and an
-// unchanged mesh where there are more triangles than a picture of this kind should hold (4 million, 200 MB).
+// unchanged mesh if there are more triangles than a picture of this kind should hold (4 million, 200 MB).
 RestageHandle bake_colors(const RestageSceneWriter1&, const std::string& name, MeshBuffer&, const CornerColor&);
 
-// Corners that share nothing: what belongs to triangles becomes something of vertices.
+// Unshares corners: what belongs to triangles can then belong to vertices.
 void unshare_corners(MeshBuffer&);
 
 } // namespace restage::importing

@@ -16,7 +16,7 @@ namespace restage::importing {
 
 namespace {
 
-// A gzip bomb ends here instead of in the memory of the machine.
+// Limits gzip bombs.
 constexpr std::size_t max_inflated_size = std::size_t(2) << 30;
 
 std::optional<std::vector<char>> inflate(std::string_view packed, std::string& reason) {

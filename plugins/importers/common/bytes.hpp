@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are looked at as they lie on the disk.
+// Raw bytes of files.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace restage::importing {
 // Bytes of a regular file: mapped where possible, inflated when it starts with the gzip magic number.
 class FileBytes {
   public:
-    // nullopt and a reason when the file cannot be read.
+    // nullopt and a reason if the file cannot be read.
     static std::optional<FileBytes> open(const std::filesystem::path& path, std::string& reason);
     static FileBytes from_memory(std::string text);
     FileBytes(FileBytes&& other) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ends an import: the file is ours but malformed. Thrown inside an importer, caught where its load() begins.
+// Ends an import: the file is ours but malformed. Thrown inside an importer, caught in its load().
 #pragma once
 
 #include <restage/scene_io.h>
@@ -13,17 +13,17 @@ namespace restage::importing {
 struct ImportError {
     std::string message{};
     std::uint32_t line = 0, column = 0; // 0 = of the whole file
-    std::string file{};                 // "" = the one that is being loaded
+    std::string file{};                 // "" = the file being loaded
 };
-struct Cancelled {}; // the user wants to stop
+struct Cancelled {}; // the user cancelled
 
-// Runs body() -> void; 1 = done, 0 = broken or stopped. Nothing gets through.
+// Runs body() -> void; 1 = done, 0 = broken or stopped. Lets no exception through.
 template <class Body>
 int guarded_load(const char* path, const RestageSceneWriter1& out, Body&& body) noexcept {
     try {
         body();
         return 1;
-    } catch (const Cancelled&) { // NOLINT(bugprone-empty-catch): 0 says it
+    } catch (const Cancelled&) { // NOLINT(bugprone-empty-catch): returns 0
     } catch (const ImportError& error) {
         out.error(out.ctx, error.file.empty() ? path : error.file.c_str(), error.line, error.column,
                   error.message.c_str());

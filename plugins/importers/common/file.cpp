@@ -24,7 +24,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{16} << 30;
 
 #if !defined(_WIN32)
 int open_regular_file(const fs::path& path, std::uint64_t& size, std::string& reason) {
-    // O_NONBLOCK: a pipe without a writer, or a device, must not keep us in open; of regular files it means nothing.
+    // O_NONBLOCK: a pipe without a writer, or a device, must not block open; no effect on regular files.
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     struct stat info{};
     if (fd < 0) {
@@ -40,7 +40,7 @@ int open_regular_file(const fs::path& path, std::uint64_t& size, std::string& re
     else if (!S_ISREG(info.st_mode))
         reason = S_ISFIFO(info.st_mode) ? "it is a pipe, not a regular file" : "it is a device, not a regular file";
     else if (static_cast<std::uint64_t>(info.st_size) > most_bytes)
-        reason = "it has " + std::to_string(info.st_size) + " bytes, more than are read";
+        reason = "it has " + std::to_string(info.st_size) + " bytes, more than the limit";
     else {
         size = static_cast<std::uint64_t>(info.st_size);
         return fd;
@@ -79,7 +79,7 @@ std::optional<std::string> read_file(const fs::path& path, std::string& reason) 
         if (bytes.size() > most_bytes) break;
     }
     if (std::ferror(file) || bytes.size() > most_bytes) {
-        reason = std::ferror(file) ? "it cannot be read" : "it has more bytes than are read";
+        reason = std::ferror(file) ? "it cannot be read" : "it has more bytes than the limit";
         return std::nullopt;
     }
     return bytes;
@@ -104,7 +104,7 @@ fs::path find_file(const fs::path& folder, const std::string& name) {
         const fs::path full = fs::weakly_canonical(path, code);
         return code ? path : full;
     };
-    const fs::path as_written = folder / fs::path(name); // an absolute name stays itself
+    const fs::path as_written = folder / fs::path(name); // an absolute name stays as it is
     if (fs::exists(as_written, code)) return absolute(as_written);
     std::string slashes = name;
     std::replace(slashes.begin(), slashes.end(), '\\', '/');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How deep JSON is nested, before a reader that works by recursion gets it.
+// How deep JSON is nested, before a recursive reader gets it.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace restage::importing {
 
-// The byte at which [ and { outside strings are nested deeper than `most`, if they are. Any text will do.
+// The byte at which [ and { outside strings are nested deeper than `most`, if any. Accepts any text.
 inline std::optional<std::size_t> too_deep_json(std::string_view text, std::size_t most) {
     std::size_t depth = 0;
     bool in_string = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coordinates of maps (UTM, millions of metres) have digits that a float cannot hold: the mesh is kept about a point of
+// Map coordinates (UTM, millions of metres) have more digits than a float: the mesh is kept about a point of
 // its own, and the instance's transform, which is double, puts it back.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace restage::importing {
 
-// 3 a vertex, finite. `origin` stays 0 where floats are good enough: their rounding, 2^-24 of the largest coordinate,
+// 3 a vertex, finite. `origin` stays 0 if floats are good enough: their rounding, 2^-24 of the largest coordinate,
 // is below a millionth of the size of what they describe.
 inline std::vector<float> recentred(const std::vector<double>& positions, Vec3& origin) {
     Bounds bounds;

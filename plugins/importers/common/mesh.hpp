@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of one object while an importer makes them.
+// The triangles of one object while an importer builds them.
 #pragma once
 
 #include "common/matrix.hpp"

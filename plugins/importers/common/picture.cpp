@@ -63,7 +63,7 @@ double Picture::value(std::size_t pixel, unsigned channel) const {
 }
 
 std::optional<Picture> decode_picture(std::string_view bytes, const std::string& name, std::string& reason) {
-    static constexpr char nothing = 0; // null means a file
+    static constexpr char nothing = 0; // null = a file
     return decode(bytes.empty() ? &nothing : bytes.data(), bytes.size(), name, reason);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures decoded for the importer: where it must look inside (alpha, one channel, an average), or where there is no
-// file the host could read (embedded ones). The host's decoder does it; everything else goes to the host by its path.
+// Pictures decoded for the importer: if it needs the texels (alpha, one channel, an average), or if there is no file
+// for the host to read (embedded ones). The host's decoder does it; all other pictures go to the host by path.
 #pragma once
 
 #include "common/values.hpp"
@@ -20,13 +20,13 @@ int use_host_pictures(const RestageHost*);
 // Row 0 is the top. Copies share the texels; none may outlive the plugin.
 struct Picture {
     std::uint32_t width = 0, height = 0, channels = 0; // 1 grey, 2 grey + alpha, 3, 4 with alpha
-    std::string problem{};                             // what is wrong with a file that can be shown all the same
+    std::string problem{};                             // what is wrong with a file that is still usable
     std::shared_ptr<const RestageDecodedImage> texels{};
 
     bool has_alpha() const { return channels == 2 || channels == 4; }
-    bool alpha_varies() const; // not the same everywhere and not opaque
-    // Colour as an sRGB file has it, 0..1 (16 bits in full; of float files, which are linear, what sRGB would make of
-    // it, and it may be above 1); grey for all of r, g, b. Channel 3 is alpha, 1 where there is none.
+    bool alpha_varies() const; // neither uniform nor opaque
+    // Colour sRGB-encoded, 0..1 (16 bits in full; float files, which are linear, are encoded, and
+    // may exceed 1); grey for all of r, g, b. Channel 3 is alpha, 1 if there is none.
     double value(std::size_t pixel, unsigned channel) const;
 };
 

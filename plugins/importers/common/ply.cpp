@@ -21,7 +21,7 @@ int find(const PlyElement& element, std::string_view name, bool list = false) {
     return -1;
 }
 
-// What an integer colour is divided by.
+// Divisor of integer colours.
 double white(PlyType type) {
     switch (type) {
         case PlyType::u8:
@@ -59,7 +59,7 @@ class Reader {
                 skip(element);
         }
         if (mesh_.positions.empty()) throw PlyProblem{"it has no vertices"};
-        for (const auto* list : {&mesh_.indices, &mesh_.edges}) // where they stood before the vertices
+        for (const auto* list : {&mesh_.indices, &mesh_.edges}) // if they came before the vertices
             for (const std::uint32_t i : *list)
                 if (i >= mesh_.vertex_count()) throw PlyProblem{no_vertex(i)};
         mesh_.textures = std::move(header_.textures);
@@ -178,7 +178,7 @@ class Reader {
             see_through("vertex", value);
     }
 
-    // Colours are written with an opacity that nearly always says nothing.
+    // Colours are written with an opacity that is nearly always meaningless.
     void see_through(const std::string& what, double opacity) {
         if (opacity < 0.999) ++mesh_.not_read[what + " property \"alpha\""];
     }
@@ -235,7 +235,7 @@ class Reader {
         }
         Face face;
         for (std::size_t i = 0; i < element.count; ++i) {
-            // Triangles of nothing but 32-bit indices: nearly every PLY there is.
+            // Triangles of 32-bit indices only: nearly every PLY in practice.
             std::uint32_t three[3];
             if (plain && rows_.take_plain_triangle(three)) {
                 for (const std::uint32_t c : three)
@@ -300,7 +300,7 @@ class Reader {
         }
     }
 
-    // Each next corner makes a triangle with the two before it, turned every second time; -1 begins anew (Stanford).
+    // Each next corner makes a triangle with the two before it, flipped every second time; -1 restarts (Stanford).
     void strips(const PlyElement& element) {
         const int list = index_list(element);
         if (list < 0) rows_.fail("its triangle strips have no list 'vertex_indices'");
@@ -322,7 +322,7 @@ class Reader {
                     }
                     const std::uint32_t c = index(value);
                     ++length;
-                    if (length >= 3 && a != b && b != c && a != c) // doubled corners turn around an end
+                    if (length >= 3 && a != b && b != c && a != c) // repeated corners turn around an end
                         mesh_.indices.insert(mesh_.indices.end(), {length % 2 ? a : b, length % 2 ? b : a, c});
                     a = b, b = c;
                 }
@@ -357,7 +357,7 @@ class Reader {
 } // namespace
 
 PlyMesh read_ply(std::string_view bytes, const PlyWanted& wanted) {
-    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3); // a byte order mark, as Windows' editors put it
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3); // a byte order mark, as Windows editors write it
     return Reader(bytes, wanted).read();
 }
 

@@ -15,7 +15,7 @@
 namespace restage::importing {
 
 struct PlyWanted {
-    bool colors = false;   // and what belongs to faces and edges; else only vertices and triangles are kept
+    bool colors = false;   // also data of faces and edges; else only vertices and triangles are kept
     bool recentre = false; // coordinates too large for float precision become small ones about `origin`
 };
 
@@ -23,10 +23,10 @@ struct PlyMesh {
     std::vector<float> positions, normals, uvs; // 3, 3 and 2 a vertex; the last two may be empty
     std::vector<std::uint32_t> indices;         // 3 a triangle, < vertex_count()
     Vec3 origin{};                              // to be added to the positions
-    bool has_bent_polygons = false;             // some were not flat before they were cut
+    bool has_bent_polygons = false;             // some were not flat before triangulation
 
-    // Empty unless the file has them and they were wanted.
-    std::vector<float> colors;                    // 3 a vertex, 0..1, as they are stored (sRGB by custom)
+    // Empty unless the file has them and they were requested.
+    std::vector<float> colors;                    // 3 a vertex, 0..1, as stored (sRGB by convention)
     std::vector<float> corner_uvs;                // 6 a triangle
     std::vector<float> triangle_colors;           // 3 a triangle
     std::vector<std::uint32_t> triangle_textures; // 1 a triangle: index of `textures`
@@ -38,7 +38,7 @@ struct PlyMesh {
     std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-// Every size is checked against the bytes that are there before memory is asked for. There may be no triangles.
+// Every size is checked against the available bytes before memory is allocated. There may be no triangles.
 // Throws PlyProblem.
 PlyMesh read_ply(std::string_view bytes, const PlyWanted&);
 

@@ -25,7 +25,7 @@ class HeaderReader {
 
     PlyHeader read() {
         if (words(line()) != std::vector<std::string_view>{"ply"})
-            fail("it is no PLY file (the first line is not 'ply')");
+            fail("it is not a PLY file (the first line is not 'ply')");
         bool has_format = false;
         while (true) {
             const auto part = words(line());

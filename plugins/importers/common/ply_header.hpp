@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a PLY file says it holds.
+// What a PLY header declares.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct PlyProperty {
     PlyType type{};
     bool is_list = false;
     PlyType count_type{};
-    std::size_t offset = 0; // in the row, when the element has no lists
+    std::size_t offset = 0; // in the row, if the element has no lists
 };
 
 struct PlyElement {

@@ -73,7 +73,7 @@ void PlyRows::check_count(const PlyElement& element) const {
     std::size_t row = 0;
     for (const PlyProperty& property : element.properties)
         row += ascii_ ? 2 : (property.is_list ? size_of(property.count_type) : size_of(property.type));
-    // The last number of an ascii file may lack the blank after it.
+    // The last number of an ascii file may lack the trailing blank.
     if (row > 0 && element.count > (left() + 1) / row)
         fail(std::to_string(element.count) + " '" + element.name +
              "' elements are promised, but the file ends before them (truncated?)");
@@ -92,10 +92,10 @@ double PlyRows::ascii_number() {
     double value = 0;
     const auto [stop, code] = std::from_chars(begin, end, value);
     if (code == std::errc::result_out_of_range)
-        value = 0; // 1e-400; 1e400 becomes a visible wrong point
+        value = 0; // 1e-400; 1e400 becomes a visibly wrong point
     else if (code != std::errc())
         fail("'" + std::string(begin, std::min<std::size_t>(20, static_cast<std::size_t>(end - begin))) +
-             "' is no number");
+             "' is not a number");
     position_ = static_cast<std::size_t>(stop - bytes_.data());
     return value;
 }
@@ -128,7 +128,7 @@ const char* PlyRows::plain(const PlyElement& element) {
     if (!is_plain(element) || element.count == 0) return nullptr;
     const char* rows = bytes_.data() + position_;
     last_ = position_;
-    position_ += element.count * element.stride; // check_count has seen that they are there
+    position_ += element.count * element.stride; // check_count has checked that they exist
     return rows;
 }
 

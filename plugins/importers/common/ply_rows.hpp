@@ -15,19 +15,19 @@ class PlyRows {
   public:
     PlyRows(std::string_view bytes, const PlyHeader& header);
 
-    // At the line or byte that was read last.
+    // At the line or byte read last.
     [[noreturn]] void fail(const std::string& what) const;
     static std::string shortest(double); // of a number, in messages
 
-    // Rows that cannot be there are refused before memory is asked for.
+    // Rows that cannot exist are refused before memory is allocated.
     void check_count(const PlyElement&) const;
     double number(PlyType);
     std::size_t list_count(const PlyProperty&);
     void skip(const PlyProperty&);
 
-    // Rows of a binary element without lists lie at equal distances: plain() gives them all, and goes behind them.
+    // Rows of a binary element without lists lie at equal distances: plain() returns them all, and skips past them.
     bool is_plain(const PlyElement& element) const { return !ascii_ && !element.has_lists; }
-    const char* plain(const PlyElement&); // null: it is not so, or there are none
+    const char* plain(const PlyElement&); // null if lists occur or there are no rows
     bool skip_plain(const PlyElement& element) { return plain(element) != nullptr; }
     bool swaps() const { return swap_; } // the file's byte order is not this machine's
     double load(PlyType, const char* from) const;

@@ -40,7 +40,7 @@ class EarCutter {
             --left, misses = 0;
             at = next_[next_[at]]; // not the neighbour: slivers around one corner are avoided
         }
-        for (std::uint32_t first = at; left >= 3; --left) { // the last triangle, or what cannot be cut
+        for (std::uint32_t first = at; left >= 3; --left) { // the last triangle, or an uncuttable rest
             out_.insert(out_.end(), {first, next_[first], next_[next_[first]]});
             next_[first] = next_[next_[first]];
         }
@@ -52,7 +52,7 @@ class EarCutter {
     bool is_ear(std::uint32_t i) const {
         const Point &a = points_[before_[i]], &b = points_[i], &c = points_[next_[i]];
         if (turn(a, b, c) < 0) return false;
-        return std::none_of(reflex_.begin(), reflex_.end(), [&](std::uint32_t r) { // others cannot be in the way
+        return std::none_of(reflex_.begin(), reflex_.end(), [&](std::uint32_t r) { // others cannot obstruct
             const Point& p = points_[r];
             if (r == before_[i] || r == i || r == next_[i] || p == a || p == b || p == c) return false;
             return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
@@ -74,7 +74,7 @@ class EarCutter {
 } // namespace
 
 double cut_polygon(std::span<const Vec3> all, std::vector<std::uint32_t>& out) {
-    // A corner that is where the one before it is says nothing, and would hide which way the polygon turns there.
+    // A corner that repeats the previous one adds nothing, and would hide which way the polygon turns there.
     std::vector<std::uint32_t> which;
     std::vector<Vec3> corners;
     for (std::uint32_t i = 0; i < all.size(); ++i)
@@ -96,7 +96,7 @@ double cut_polygon(std::span<const Vec3> all, std::vector<std::uint32_t>& out) {
         fan();
         return 0;
     }
-    Vec3 normal{}, center{}; // Newell: the areas of the projections, whatever the shape; about a corner, for precision
+    Vec3 normal{}, center{}; // Newell: the areas of the projections, for any shape; about a corner, for precision
     double size = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 a = corners[i] - corners[0], b = corners[(i + 1) % n] - corners[0];

@@ -4,7 +4,7 @@
 namespace restage::importing {
 
 void Report::add(RestageFate fate, std::string what, std::string note, std::uint32_t line, std::string file) {
-    // What is folded: everything of `what` but quoted names.
+    // The folding key: everything in `what` but quoted names.
     std::string key = std::to_string(fate) + '\n' + note + '\n';
     bool quoted = false;
     for (const char c : what) {

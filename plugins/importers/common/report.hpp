@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The import report of one file. Lines that say the same of the same kind of thing are folded into the first one.
+// The import report of one file. Lines that repeat a note about the same kind of thing are folded into the first.
 #pragma once
 
 #include <restage/scene_io.h>

@@ -63,7 +63,7 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
     }
     distance *= 1.08;
     const Matrix placed = look_at(center + from * distance, center, stage.column(1));
-    // The frame is what the corners fill from there, so that a picture of any other aspect shows them all, too.
+    // The frame is what the corners fill from there, so that any other aspect shows them all as well.
     double half_x = 0, half_y = 0;
     for (std::size_t i = 0; i < 8 && !bounds.empty(); ++i) {
         const Vec3 corner = bounds.corner(i) - center;

@@ -11,8 +11,8 @@ namespace restage::importing {
 
 enum class Up { y, z };
 
-// Columns right, up, forward: what the ABI's cameras (which look along +z, y up, x right) are in a right-handed world.
-// Mirrored, therefore.
+// Columns right, up, forward: axes of the ABI's cameras (which look along +z, y up, x right) in a right-handed world,
+// hence mirrored.
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up);
 
 // A camera in front of `bounds`, a little from above and from the right, with the whole of it in a picture of any

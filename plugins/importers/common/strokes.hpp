@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points and lines have no surface that light could meet: where a file holds nothing else they get a thickness.
+// Points and lines have no surface that light could meet: if a file holds nothing else they get a thickness.
 #pragma once
 
 #include "common/mesh.hpp"
@@ -15,7 +15,7 @@ struct Strokes {
     MeshBuffer mesh;
     double radius = 0;
     std::size_t triangles_each = 0; // of the k-th point or line: triangles k * triangles_each and on
-    std::size_t step = 1;           // every step-th was taken
+    std::size_t step = 1;           // every step-th was kept
 };
 
 // An octahedron a point; a third of the mean distance of points that are spread over a surface of the cloud's size.

@@ -15,9 +15,9 @@ namespace {
 Vec3 vec3_at(const std::vector<float>& v, std::size_t i) { return {v[3 * i], v[3 * i + 1], v[3 * i + 2]}; }
 Vec3 across(Vec3 v, Vec3 n) { return v - n * dot(v, n); }
 
-// Vertices that are the same point to a tangent frame: numbers of classes.
+// Classes of vertices that share one tangent frame point.
 std::vector<std::uint32_t> weld(const MeshBuffer& mesh, const std::vector<float>& uv) {
-    using Key = std::array<std::uint32_t, 8>; // by bits: an order also where a number is none
+    using Key = std::array<std::uint32_t, 8>; // by bits: a total order even with NaN
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.f); }; // -0 is 0
     std::vector<Key> keys(mesh.vertex_count());
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -40,8 +40,8 @@ std::vector<std::uint32_t> weld(const MeshBuffer& mesh, const std::vector<float>
 }
 
 struct Triangle {
-    Vec3 tangent{}; // unit, along u; zero where uv say nothing
-    int side = 0;   // 1, or -1 where uv are mirrored; 0: not known
+    Vec3 tangent{}; // unit, along u; zero if uv are degenerate
+    int side = 0;   // 1, or -1 if uv are mirrored; 0: unknown
 };
 
 class Groups { // of corners; union-find
@@ -89,7 +89,7 @@ std::vector<Triangle> triangles_of(const MeshBuffer& mesh, const std::vector<flo
     return triangles;
 }
 
-struct Edge { // of welded vertices, and whose it is
+struct Edge { // of welded vertices, and the triangle's corner
     std::uint32_t low, high, triangle;
     bool turned; // runs from high to low there
     auto key() const { return std::tuple(low, high, triangle); }
@@ -141,7 +141,7 @@ void make_tangents(MeshBuffer& mesh, std::vector<float> uv) {
             const Edge &a = edges[i - 1], &b = edges[i];
             if (a.low != b.low || a.high != b.high || a.turned == b.turned) continue;
             int &x = triangles[a.triangle].side, &y = triangles[b.triangle].side;
-            if (x == 0) x = y; // uv say nothing there: it goes with its neighbour
+            if (x == 0) x = y; // degenerate uv: it joins its neighbour
             if (y == 0) y = x;
             if (x != y) continue;
             groups.unite(corner_at(a, a.low), corner_at(b, a.low));

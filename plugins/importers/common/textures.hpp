@@ -29,7 +29,7 @@ RestageHandle add_imagemap(const RestageSceneWriter1&, const std::string& name, 
 // texture * texture.
 RestageHandle add_product(const RestageSceneWriter1&, const std::string& name, RestageHandle, RestageHandle,
                           bool is_float);
-// texture * factor; the texture itself where that is white.
+// texture * factor; the texture itself if the factor is white.
 RestageHandle add_scaled(const RestageSceneWriter1&, const std::string& name, RestageHandle texture, bool is_float,
                          const Rgb& factor);
 

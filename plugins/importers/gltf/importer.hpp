@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One import: the model, and what has been made of it so far. Each kind of thing has a file of its own.
+// One import: the model, and what has been built from it so far. Each kind of thing has a file of its own.
 #pragma once
 
 #include "common/mesh.hpp"
@@ -21,7 +21,7 @@ struct UvTransform {
     double a = 1, b = 0, c = 0, d = 1, x = 0, y = 0; // u' = a u + b v + x, v' = c u + d v + y
 };
 
-struct TextureUse { // a textureInfo, wherever in the file it stands
+struct TextureUse { // a textureInfo from anywhere in the file
     int index = -1, set = 0;
     UvTransform transform;
     std::string slot; // "base colour", for messages
@@ -34,7 +34,7 @@ struct UvSets {
     int find(int set) const { return set == texcoord[0] ? 0 : set == texcoord[1] ? 1 : -1; }
 };
 
-// What vertex colours do to a material: the same everywhere, or pictures made of them (Importer::vertex_color).
+// How vertex colours modify a material: by one factor, or by pictures made of them (Importer::vertex_color).
 struct VertexColor {
     Rgb factor{1, 1, 1};
     double alpha = 1;
@@ -43,14 +43,14 @@ struct VertexColor {
     auto key() const { return std::tuple(factor, alpha, image, alpha_image, set); }
 };
 
-struct MadeMaterial { // a material, and what of it the scene says of an instance
+struct MadeMaterial { // a material, and the part of it that the scene stores per instance
     std::string name;
     RestageHandle material = 0, alpha_texture = 0, interior = 0;
     float alpha = 1;
     bool has_interior = false, two_sided = false;
     bool needs_tangents = false;
-    TextureUse normal; // the normal map, where there is one
-    Rgb emission{}; // of the instances; where a picture shines it is the material's
+    TextureUse normal; // the normal map, if any
+    Rgb emission{}; // of the instances; an emissive picture is the material's
     UvSets uv;
 };
 
@@ -81,7 +81,7 @@ class Importer {
     void camera(int node);
 
     // meshes.cpp
-    struct Piece { // what becomes an instance
+    struct Piece { // the sources of instances
         RestageHandle mesh = 0;
         Bounds bounds;
         const MadeMaterial* material = nullptr;
@@ -110,7 +110,7 @@ class Importer {
         Rgb factor{1, 1, 1};
         double alpha = 1;
         TextureUse use;
-        bool metal = false; // of specular-glossiness: no diffuse colour, so it is a metal of the specular one
+        bool metal = false; // specular-glossiness without diffuse colour: a metal of the specular one
     };
     BaseColor base_color(const tinygltf::Material&) const;
     void put_base(Values&, const char* id, const BaseColor&, const VertexColor&, const MadeMaterial&);
@@ -145,7 +145,7 @@ class Importer {
     Report report_;
     std::vector<Matrix> world_;     // of each node
     std::vector<int> visits_;       // of each node: 0 = not in the scene
-    std::vector<char> hidden_;      // of each node: KHR_node_visibility, its own or that of one above
+    std::vector<char> hidden_;      // of each node: KHR_node_visibility, its own or an ancestor's
     std::map<std::tuple<int, decltype(VertexColor().key())>, MadeMaterial> materials_;
     std::map<std::pair<int, std::size_t>, std::optional<Piece>> pieces_;
     std::map<int, std::optional<Picture>> pictures_;

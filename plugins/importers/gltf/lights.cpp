@@ -64,7 +64,7 @@ void Importer::camera(int index) {
     const double fov = aspect >= 1 ? yfov : 2 * std::atan(std::tan(yfov / 2) * aspect);
     camera.fov = static_cast<float>(fov * degrees);
     camera.focal_distance = static_cast<float>(away);
-    camera.fit_aspect = static_cast<float>(aspect); // what the file frames is seen in any picture
+    camera.fit_aspect = static_cast<float>(aspect); // the file's framing is visible at any aspect
     std::copy(placed.m.begin(), placed.m.end(), camera.camera_to_world);
     if (!out_.camera(out_.ctx, &camera)) return;
     if (cameras_++ == 0) aspect_ = aspect;
@@ -95,7 +95,7 @@ void Importer::light(int index, int light_index) {
         return;
     }
     if (hidden_[static_cast<std::size_t>(index)]) light.flags |= RESTAGE_LIGHT_HIDDEN;
-    if (in.range > 0) report_.dropped(what + ": range", "light reaches as far as it does");
+    if (in.range > 0) report_.dropped(what + ": range", "light is not cut off at a range");
     report_.kept(what,
                  "1 lux or candela is taken as 1 W/m^2 or W/sr, so that a surface of 1 nit (emissive factor 1) "
                  "has the value 1 in the picture");

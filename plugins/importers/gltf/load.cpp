@@ -17,7 +17,7 @@ void Importer::progress(float done, const char* what) const {
     if (!out_.progress(out_.ctx, std::min(done, 1.f), what)) throw Cancelled{};
 }
 
-// What a file requires and is not known here is refused (glTF 2.0, 3.12); what it merely uses is reported.
+// Unknown required extensions are refused (glTF 2.0, 3.12); those merely used are reported.
 void Importer::check_extensions() {
     static constexpr std::string_view known[] = {
         "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
@@ -25,7 +25,7 @@ void Importer::check_extensions() {
         "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_clearcoat", "KHR_materials_sheen",
         "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_emissive_strength",
         "KHR_materials_variants", "KHR_materials_pbrSpecularGlossiness",
-        // what is said of them where they are met
+        // they are reported where they occur
         "KHR_materials_dispersion", "KHR_materials_diffuse_transmission", "KHR_texture_basisu", "EXT_texture_webp",
         "KHR_draco_mesh_compression", "EXT_meshopt_compression"};
     const auto is_known = [](const std::string& name) {
@@ -35,7 +35,7 @@ void Importer::check_extensions() {
     for (const std::string& name : model_.extensionsRequired)
         if (!is_known(name)) missing += (missing.empty() ? "" : ", ") + name;
     if (!missing.empty())
-        throw ImportError{"the file requires what is not known here: " + missing +
+        throw ImportError{"the file requires unknown extensions: " + missing +
                           "; save it without, or with a version for programs that lack it"};
     std::string unread;
     for (const std::string& name : model_.extensionsUsed)
@@ -46,20 +46,20 @@ void Importer::check_extensions() {
 void Importer::tell_leftovers() {
     if (!model_.animations.empty())
         report_.dropped("animations",
-                        std::to_string(model_.animations.size()) + "; things stand as the file places them");
+                        std::to_string(model_.animations.size()) + "; objects stay where the file places them");
     if (!model_.skins.empty())
         report_.approximated("skins",
                              std::to_string(model_.skins.size()) + "; bodies are held in the pose of the file's nodes");
     std::size_t outside = 0;
     for (std::size_t i = 0; i < model_.nodes.size(); ++i)
         outside += visits_[i] == 0 && model_.nodes[i].mesh >= 0;
-    if (outside) report_.dropped("nodes", std::to_string(outside) + " with a mesh stand outside the scene");
+    if (outside) report_.dropped("nodes", std::to_string(outside) + " with a mesh are outside the scene");
     if (hidden_objects_)
         report_.kept("hidden objects", std::to_string(hidden_objects_) + " of " + std::to_string(objects_) +
                                            ", as KHR_node_visibility has it; they can be shown");
     const bool single =
         std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return !m.second.two_sided; });
-    if (single) report_.kept("single-sided materials", "both sides of a surface are seen; nothing is culled");
+    if (single) report_.kept("single-sided materials", "both sides of a surface are visible; nothing is culled");
 }
 
 void Importer::run() {
@@ -89,7 +89,7 @@ void Importer::run() {
                               std::to_string(lights_) + " lights, " + std::to_string(cameras_) + " cameras");
     tell_leftovers();
     if (cameras_ == 0) add_camera(out_, report_, bounds_, Up::y);
-    // A camera of its own may stand in a closed room; ours sees everything from outside, in the studio.
+    // The file's own camera may be in a closed room; ours sees everything from outside, in the studio.
     add_film(out_, aspect_, lights_ > 0 || cameras_ > 0);
     if (lights_ == 0) add_studio(out_, report_, Up::y);
 }
@@ -98,7 +98,7 @@ int probe(const char* path, const void* head, std::size_t head_size) {
     const std::string_view text(static_cast<const char*>(head), head ? head_size : 0);
     if (text.starts_with("glTF")) return 100;
     if (has_extension(path, "gltf")) return 100;
-    if (has_extension(path, "glb")) return 60; // without its magic number: broken, but whose else?
+    if (has_extension(path, "glb")) return 60; // without the magic number: broken, but still ours by name
     return text.find("\"asset\"") != text.npos && text.find("\"version\"") != text.npos && text.find('{') != text.npos
                ? 60
                : 0;

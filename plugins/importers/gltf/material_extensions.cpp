@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_materials_*: into the principled material where it has the same, else the nearest and a line in the report.
+// KHR_materials_*: into the principled material if it has the same, else the nearest and a line in the report.
 #include "importer.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials: metallic-roughness as our principled one, which is the same; alpha and even emission go to the instances.
+// Materials: metallic-roughness as our principled one, which matches it; alpha and even emission go to the instances.
 #include "importer.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::vector<TextureUse> Importer::texture_uses(const tinygltf::Material& m) cons
     return uses;
 }
 
-// The first two sets that textures lie on, in the order of what they are to the picture.
+// The first two sets that textures use, in order of visual importance.
 UvSets Importer::uv_sets(int index) const {
     UvSets sets;
     if (index < 0) return sets;
@@ -48,7 +48,7 @@ UvSets Importer::uv_sets(int index) const {
 
 RestageHandle Importer::color_texture(const char* id, const Rgb& factor, const TextureUse& use,
                                       const MadeMaterial& made) {
-    // Times nothing is nothing: no texture is needed, nor its code.
+    // Times 0 is 0: no texture is needed, nor its code.
     const RestageHandle handle = use && largest(factor) > 0 ? texture(use, Purpose::srgb, made.uv, made.name) : 0;
     return add_scaled(out_, made.name + " " + id, handle, false, factor);
 }
@@ -67,7 +67,7 @@ void Importer::put_scalar(Values& values, const char* id, double factor, const T
                           const MadeMaterial& made) {
     static constexpr Purpose purposes[] = {Purpose::red, Purpose::green, Purpose::blue, Purpose::alpha};
     factor = std::clamp(factor, 0.0, 1.0);
-    // Times nothing is nothing: no texture is needed, nor its code.
+    // Times 0 is 0: no texture is needed, nor its code.
     RestageHandle handle = use && factor > 0 ? texture(use, purposes[channel], made.uv, made.name) : 0;
     handle = add_scaled(out_, made.name + " " + id, handle, true, {factor, factor, factor});
     if (handle)
@@ -156,7 +156,7 @@ void Importer::put_base(Values& values, const char* id, const BaseColor& base, c
         values.color(id, factor);
 }
 
-// An even light is the instances'; a picture that shines is the material's.
+// Uniform emission is the instances'; an emissive picture is the material's.
 void Importer::emission(const tinygltf::Material& m, MadeMaterial& made, Values& values) {
     const Rgb factor = factor_of(m.emissiveFactor, {0, 0, 0});
     double strength = 1;
@@ -165,7 +165,7 @@ void Importer::emission(const tinygltf::Material& m, MadeMaterial& made, Values&
     if (largest(factor) <= 0 || strength <= 0) return;
     if (const TextureUse use = use_of(m.emissiveTexture, "emissive")) {
         const int image = image_of(use);
-        if (image < 0 || !picture(image)) return; // reported; what cannot be read does not shine
+        if (image < 0 || !picture(image)) return; // reported; an unreadable picture emits nothing
         put_color(values, "emission_color", factor, use, made);
         values.number("emission_scale", std::min(strength, 1e6));
         values.boolean("emission_two_sided", m.doubleSided);
@@ -175,7 +175,7 @@ void Importer::emission(const tinygltf::Material& m, MadeMaterial& made, Values&
         made.emission[i] = factor[i] * strength;
 }
 
-// A colour that no light changes: it emits it and reflects nothing.
+// An unlit colour: emitted, with nothing reflected.
 void Importer::unlit(const BaseColor& base, const VertexColor& color, MadeMaterial& made, Values& values,
                      const char*& type) {
     values.color("reflectance", {0, 0, 0});

@@ -81,7 +81,7 @@ void Importer::morph(const tinygltf::Primitive& p, const std::string& who, int n
     }
 }
 
-// Vertices in world space, as the skeleton's nodes stand (glTF 2.0, 3.7.3.1).
+// Vertices in world space, in the skeleton's current pose (glTF 2.0, 3.7.3.1).
 void Importer::pose(const tinygltf::Primitive& p, const std::string& who, int node, MeshBuffer& buffer) {
     const int index = model_.nodes[static_cast<std::size_t>(node)].skin;
     const auto& skin = at(model_.skins, index, "skin", who);
@@ -107,7 +107,7 @@ void Importer::pose(const tinygltf::Primitive& p, const std::string& who, int no
         for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
             if (weights[k] == 0) continue;
             if (joints[k] >= matrices.size())
-                throw ImportError{who + ": vertex " + std::to_string(i) + " hangs on joint " +
+                throw ImportError{who + ": vertex " + std::to_string(i) + " is bound to joint " +
                                   std::to_string(joints[k]) + " of " + std::to_string(matrices.size())};
             const double w = static_cast<double>(weights[k]);
             position = position + transform_point(matrices[joints[k]], vec3(buffer.positions, i)) * w;
@@ -128,7 +128,7 @@ void Importer::pose(const tinygltf::Primitive& p, const std::string& who, int no
     }
 }
 
-// v upwards. `set` -1: no texture asks, but somebody may put one on later.
+// v upwards. `set` -1: no texture uses them, but the user may add one later.
 std::vector<float> Importer::read_uvs(const tinygltf::Primitive& p, const std::string& who, int set,
                                       std::size_t vertices) {
     auto it = p.attributes.find("TEXCOORD_" + std::to_string(std::max(set, 0)));
@@ -137,8 +137,8 @@ std::vector<float> Importer::read_uvs(const tinygltf::Primitive& p, const std::s
         const std::string name = "TEXCOORD_" + std::to_string(set);
         report_.approximated(who,
                              it == p.attributes.end()
-                                 ? "its textures lie on " + name + ", which it has not: they show one of their corners"
-                                 : "a texture lies on " + name + ", which it has not; it lies on TEXCOORD_0");
+                                 ? "its textures lie on " + name + ", which it lacks: they show one of their corners"
+                                 : "a texture lies on " + name + ", which it lacks; it lies on TEXCOORD_0");
         if (it == p.attributes.end()) return std::vector<float>(2 * vertices, 0.f);
     }
     if (it == p.attributes.end()) return {};
@@ -166,7 +166,7 @@ std::optional<MeshBuffer> Importer::read_primitive(const tinygltf::Primitive& p,
     buffer.positions = read_floats(model_, accessor("POSITION"), 3, who + ": POSITION");
     const std::size_t vertices = buffer.vertex_count();
     if (accessor("NORMAL") >= 0) buffer.normals = read_floats(model_, accessor("NORMAL"), 3, who + ": NORMAL");
-    if (accessor("TANGENT") >= 0 && !buffer.normals.empty()) // without normals they do not count (3.7.2.1)
+    if (accessor("TANGENT") >= 0 && !buffer.normals.empty()) // ignored without normals (3.7.2.1)
         buffer.tangents = read_floats(model_, accessor("TANGENT"), 4, who + ": TANGENT");
     buffer.uvs = read_uvs(p, who, sets.texcoord[0], vertices);
     if (sets.texcoord[1] >= 0) buffer.uvs2 = read_uvs(p, who, sets.texcoord[1], vertices);
@@ -266,7 +266,7 @@ VertexColor Importer::vertex_color(const tinygltf::Primitive& p, const std::stri
     return result;
 }
 
-// The frame of normal maps: the file's tangents, else what MikkTSpace's rules make of the normal map's coordinates.
+// The frame of normal maps: the file's tangents, else computed by MikkTSpace's rules from the normal map's coordinates.
 void Importer::tangents(const tinygltf::Primitive& p, const std::string& who, const MadeMaterial& made,
                         MeshBuffer& buffer) {
     if (!made.needs_tangents) {
@@ -277,10 +277,10 @@ void Importer::tangents(const tinygltf::Primitive& p, const std::string& who, co
         const bool finite =
             std::all_of(buffer.tangents.begin(), buffer.tangents.end(), [](float x) { return std::isfinite(x); });
         if (finite) return;
-        report_.approximated(who + ": TANGENT", "not all are finite numbers; they are computed anew");
+        report_.approximated(who + ": TANGENT", "not all are finite; they are recomputed");
         buffer.tangents.clear();
     }
-    if (made.normal.index < 0 && !p.attributes.contains("TEXCOORD_0")) return; // brushed along what the engine takes
+    if (made.normal.index < 0 && !p.attributes.contains("TEXCOORD_0")) return; // the engine's brushing direction
     const std::vector<float>& lies = made.uv.find(made.normal.set) == 1 ? buffer.uvs2 : buffer.uvs;
     if (lies.empty()) return;
     const UvTransform& t = made.normal.transform;

@@ -22,7 +22,7 @@ bool is_picture(const std::string& path) {
     return false;
 }
 
-// What a buffer in a file of its own is called in the scene file, and how long it is; by the name tinygltf makes of it.
+// The name in the scene file, and the length, of a buffer in a file of its own; by the name tinygltf makes of it.
 struct BufferFiles {
     struct Buffer {
         fs::path path;
@@ -39,7 +39,7 @@ struct BufferFiles {
     }
 };
 
-// As tinygltf decodes URIs, so that its question can be answered for the file that is meant.
+// Decodes URIs as tinygltf does, so that its queries map to the right file.
 std::string tinygltf_name(const std::string& uri) {
     std::string plus = uri;
     std::replace(plus.begin(), plus.end(), '+', ' ');
@@ -62,7 +62,7 @@ std::string tinygltf_name(const std::string& uri) {
     return result;
 }
 
-// Only the buffers of the JSON; everything else is passed over.
+// Only the buffers of the JSON; everything else is skipped.
 BufferFiles buffer_files(const fs::path& folder, std::string_view text) {
     BufferFiles files;
     files.folder = folder;
@@ -83,8 +83,8 @@ BufferFiles buffer_files(const fs::path& folder, std::string_view text) {
     return files;
 }
 
-// tinygltf's way to files: buffers are read here, pictures are not there. A buffer may be longer than it is said to be
-// (glTF 2.0, 3.6.1.1); what is too much is cut, for tinygltf does not know that.
+// tinygltf's file access: buffers are read here, pictures are hidden. A buffer may be longer than declared
+// (glTF 2.0, 3.6.1.1); the excess is cut, as tinygltf does not allow it.
 tinygltf::FsCallbacks file_access(BufferFiles& files) {
     return {.FileExists =
                 [](const std::string& path, void* user) {
@@ -112,7 +112,7 @@ tinygltf::FsCallbacks file_access(BufferFiles& files) {
             .user_data = &files};
 }
 
-// Pictures in data URIs are kept as they are; those in buffer views are looked up later, with the checks this lacks.
+// Pictures in data URIs are kept as they are; those in buffer views are looked up later, with checks missing here.
 bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
                   int size, void*) {
     if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
@@ -133,12 +133,12 @@ bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*,
     while (!message.empty() && std::strchr("\n\r ", message.back()))
         message.pop_back();
     std::replace(message.begin(), message.end(), '\n', ' ');
-    throw ImportError{message.empty() ? "the file cannot be understood" : message, line, column, {}};
+    throw ImportError{message.empty() ? "the file cannot be parsed" : message, line, column, {}};
 }
 
 void check_header(std::string_view bytes) { // of a GLB: magic, version, length, then chunks of length, type, data
     const auto word = [&](std::size_t at) {
-        std::uint32_t value = 0; // little-endian, as the machines we run on
+        std::uint32_t value = 0; // little-endian, like the supported machines
         std::memcpy(&value, bytes.data() + at, 4);
         return value;
     };
@@ -157,7 +157,7 @@ void check_header(std::string_view bytes) { // of a GLB: magic, version, length,
     }
 }
 
-// The first chunk of a GLB whose header is sound.
+// The first chunk of a GLB with a valid header.
 std::string_view json_of(std::string_view bytes) {
     std::uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, 4);
@@ -166,7 +166,7 @@ std::string_view json_of(std::string_view bytes) {
 
 // tinygltf turns JSON into values of its own by recursion. Of a GLB only the first chunk is JSON.
 void check_depth(std::string_view bytes, bool binary) {
-    constexpr std::size_t most = 256; // glTF's own is 10 or so; extensions and extras have theirs
+    constexpr std::size_t most = 256; // glTF's own depth is about 10; extensions and extras add theirs
     const std::string_view json = binary ? json_of(bytes) : bytes;
     const auto at = too_deep_json(json, most);
     if (!at) return;
@@ -229,7 +229,7 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
             : reader.LoadASCIIFromString(&model, &errors, &warnings,
                                          bytes.data(), // NOLINT(bugprone-suspicious-stringview-data-usage): with size
                                          size, folder);
-    for (const std::string& name : model.extensionsRequired) // known even when the rest could not be read for it
+    for (const std::string& name : model.extensionsRequired) // reported even if it made the rest unreadable
         if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
             throw ImportError{"its geometry is compressed (" + name +
                               "), which is not read; save it without compression"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glTF file as tinygltf reads it, and typed reading of its accessors, every index and length checked: tinygltf checks
-// neither. What is wrong is thrown as an ImportError that names the thing as glTF counts them ("accessor 3").
+// neither. Faults are thrown as an ImportError that names the thing by its glTF index ("accessor 3").
 #pragma once
 
 #include "common/error.hpp"
@@ -33,7 +33,7 @@ using namespace importing;
 // Parses .gltf or .glb (told apart by their first bytes) and reads its buffers. External pictures are left alone.
 tinygltf::Model parse_model(const std::filesystem::path&, std::string_view bytes, const RestageSceneWriter1&);
 
-// "accessor 3" etc. of a vector, or an ImportError in which `who` asks for what is not there.
+// "accessor 3" etc. of a vector, or an ImportError in which `who` refers to a missing one.
 template <class T>
 const T& at(const std::vector<T>& things, int index, const char* kind, const std::string& who) {
     if (index >= 0 && static_cast<std::size_t>(index) < things.size()) return things[static_cast<std::size_t>(index)];
@@ -49,12 +49,12 @@ std::span<const unsigned char> view_bytes(const tinygltf::Model&, int view, cons
 
 // All elements of an accessor, `components` numbers each, as floats (integers normalised where the accessor says so).
 std::vector<float> read_floats(const tinygltf::Model&, int accessor, int components, const std::string& who);
-// VEC3 or VEC4 alike, as colours: four numbers each, alpha 1 where there is none.
+// VEC3 or VEC4 alike, as colours: four numbers each, alpha 1 if there is none.
 std::vector<float> read_colors(const tinygltf::Model&, int accessor, const std::string& who);
 std::vector<std::uint32_t> read_integers(const tinygltf::Model&, int accessor, int components, const std::string& who);
 
 std::string decode_uri(std::string_view); // %20 -> blank
-// The file a URI in a file of `folder` means: percent-decoded, or where there is none of that name, as it is written.
+// The file a URI in a file of `folder` means: percent-decoded, or, if no such file exists, as written.
 std::filesystem::path find_named(const std::filesystem::path& folder, const std::string& uri);
 
 } // namespace restage::gltf

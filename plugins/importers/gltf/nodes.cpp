@@ -11,7 +11,7 @@ namespace {
 
 constexpr int deepest = 512; // nodes below each other
 
-Matrix rotation(double x, double y, double z, double w) { // of a unit quaternion; a longer one is made one
+Matrix rotation(double x, double y, double z, double w) { // of a unit quaternion; others are normalised
     const double n = x * x + y * y + z * z + w * w, s = n > 0 ? 2 / n : 0;
     Matrix m;
     m.set_column(0, {1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)});
@@ -55,7 +55,7 @@ std::string Importer::node_name(int index) const {
     return "node " + std::to_string(index);
 }
 
-// The nodes to begin at: those of the default scene; without scenes, those that hang on no other (3.5.1).
+// The nodes to begin at: those of the default scene; without scenes, those without a parent (3.5.1).
 std::vector<int> Importer::choose_roots() {
     if (model_.scenes.empty()) {
         std::vector<char> child(model_.nodes.size());
@@ -65,7 +65,7 @@ std::vector<int> Importer::choose_roots() {
         std::vector<int> roots;
         for (std::size_t i = 0; i < child.size(); ++i)
             if (!child[i]) roots.push_back(static_cast<int>(i));
-        if (roots.empty()) throw ImportError{"the file holds no scene and no node that hangs on no other"};
+        if (roots.empty()) throw ImportError{"the file holds no scene and no root node"};
         report_.kept("scene", "the file names none; its " + std::to_string(roots.size()) + " root nodes are shown");
         return roots;
     }
@@ -77,7 +77,7 @@ std::vector<int> Importer::choose_roots() {
             ++index;
         if (model_.scenes.size() > 1)
             report_.kept("scene " + quote(scene_name(index)),
-                         "the file says no default; the first with something in it");
+                         "the file names no default; the first non-empty one is opened");
     }
     const auto& scene = at(model_.scenes, index, "scene", "the file");
     for (std::size_t i = 0; i < model_.scenes.size(); ++i)
@@ -96,7 +96,7 @@ void Importer::find_transforms(int index, const Matrix& parent, bool hidden, int
     const std::string who = "node " + std::to_string(index);
     const auto& node = at(model_.nodes, index, "node", "the scene");
     auto& visits = visits_[static_cast<std::size_t>(index)];
-    if (visits++ > 0) throw ImportError{who + " stands in the hierarchy twice, or below itself"};
+    if (visits++ > 0) throw ImportError{who + " occurs in the hierarchy twice, or below itself"};
     if (depth > deepest) throw ImportError{who + ": nodes lie more than " + std::to_string(deepest) + " deep"};
     world_[static_cast<std::size_t>(index)] = parent * local_transform(node, who);
     if (const auto v = node.extensions.find("KHR_node_visibility"); v != node.extensions.end() && v->second.IsObject())
@@ -155,7 +155,7 @@ void Importer::mesh_node(int index, RestageHandle group, const std::string& name
         group = out_.group(out_.ctx, &g);
     }
     for (Matrix place : places) {
-        // Skinned vertices are in world space; the node of the mesh has no say (glTF 2.0, 3.7.3.3).
+        // Skinned vertices are in world space; the mesh's node is ignored (glTF 2.0, 3.7.3.3).
         if (node.skin >= 0 && !mesh.primitives.empty() && mesh.primitives[0].attributes.contains("JOINTS_0"))
             place = Matrix();
         if (!(std::abs(determinant(place)) > 0)) {
@@ -163,7 +163,7 @@ void Importer::mesh_node(int index, RestageHandle group, const std::string& name
             continue;
         }
         for (const Piece& piece : pieces) {
-            if (!piece.mesh || !piece.material || !piece.material->material) continue; // the host has said why
+            if (!piece.mesh || !piece.material || !piece.material->material) continue; // the host has reported why
             const MadeMaterial& m = *piece.material;
             RestageInstance instance{};
             instance.name = name.c_str();

@@ -51,7 +51,7 @@ TextureUse Importer::use_of(const tinygltf::Value& owner, const char* key, const
 
 int Importer::image_of(const TextureUse& use) {
     const auto& texture = at(model_.textures, use.index, "texture", use.slot + " texture");
-    const auto webp = texture.extensions.find("EXT_texture_webp"); // source: what readers without it take instead
+    const auto webp = texture.extensions.find("EXT_texture_webp"); // source: the fallback for other readers
     const int source =
         webp == texture.extensions.end() ? texture.source : static_cast<int>(number_of(webp->second, "source", -1));
     if (source < 0) {
@@ -113,7 +113,7 @@ RestageHandle Importer::image(int index, Purpose purpose, double number, bool mi
         switch (purpose) {
             case Purpose::srgb:
                 return srgb_to_linear(p->value(from, channel));
-            case Purpose::mask: // number: the least alpha that is seen
+            case Purpose::mask: // number: the smallest visible alpha
                 return p->value(from, 3) >= number ? 1.0 : 0.0;
             case Purpose::normal: // number: scale of x and y (glTF 2.0, 3.9.3)
                 return channel == 2 ? p->value(from, 2)

@@ -35,7 +35,7 @@ Content from_ply(std::string_view bytes) {
         for (const auto& [what, count] : ply.not_read)
             content.not_read.emplace_back(what, std::to_string(count) + " values are not read");
         if (ply.has_bent_polygons)
-            content.notes.emplace_back("some polygons are not flat; they are cut as seen along their normal");
+            content.notes.emplace_back("some polygons are not flat; they are cut in projection along their normal");
         return content;
     } catch (const PlyProblem& problem) {
         if (problem.line > 0) throw ImportError{problem.what, problem.line, 1, {}};

@@ -50,7 +50,7 @@ class Maker {
         if (!in_.edges.empty() && !thick_)
             report_.dropped("edges", std::to_string(in_.edges.size() / 2) + " lines have no surface");
         if (in_.origin != Vec3{})
-            report_.kept("coordinates", "they are large for their differences; the mesh is kept about a point of it");
+            report_.kept("coordinates", "they are large for the mesh's size; it is kept relative to a point of it");
         return bounds_;
     }
 
@@ -79,7 +79,8 @@ class Maker {
             for (std::size_t c = 0; c < 3; ++c)
                 n[c] = static_cast<float>(mean[c]);
         }
-        report_.approximated("normals", std::to_string(bad) + " are zero or not finite; the faces' own stand for them");
+        report_.approximated("normals",
+                             std::to_string(bad) + " are zero or not finite; the faces' own are used instead");
     }
 
     // Points or lines only: with a radius, and the colours of their points.
@@ -117,7 +118,7 @@ class Maker {
         return out_.material(out_.ctx, &desc);
     }
 
-    // `source`: the file an exporter may refer to instead, while the mesh is what is in it.
+    // `source`: the file an exporter may refer to instead, while the mesh equals its contents.
     void object(const MeshBuffer& mesh, const std::string& name, RestageHandle material, const std::string& source) {
         const Matrix to_world = placement_.of(translation(in_.origin));
         RestageInstance instance{};
@@ -137,8 +138,8 @@ class Maker {
 
     void plain(bool has_colors) {
         if (!in_.pictures.empty())
-            report_.dropped("texture files", std::to_string(in_.pictures.size()) +
-                                                 " are named, but nothing says where they lie on the mesh");
+            report_.dropped("texture files",
+                            std::to_string(in_.pictures.size()) + " are named, but there are no texture coordinates");
         const std::string what = counts();
         if (has_colors) {
             const bool faces = !in_.triangle_colors.empty();
@@ -200,7 +201,7 @@ class Maker {
                         part.indices.insert(part.indices.end(), &in_.mesh.indices[3 * t], &in_.mesh.indices[3 * t] + 3);
                 }
             } else if (p > 0) {
-                report_.dropped("texture " + quote(in_.pictures[p]), "no face says that it is on it");
+                report_.dropped("texture " + quote(in_.pictures[p]), "no face uses it");
                 continue;
             }
             if (part.indices.empty()) continue;
@@ -208,8 +209,7 @@ class Maker {
             object(part, materials.size() > 1 ? name_ + " " + in_.pictures[p] : name_, materials[p],
                    whole ? source() : "");
         }
-        if (without)
-            report_.approximated("textures", std::to_string(without) + " triangles name one that is not there");
+        if (without) report_.approximated("textures", std::to_string(without) + " triangles name a missing one");
         report_.kept("mesh", what + ", textured");
     }
 

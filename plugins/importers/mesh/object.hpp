@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh file holds, and the objects it becomes.
+// The contents of a mesh file, and the objects made from them.
 #pragma once
 
 #include "common/mesh.hpp"
@@ -28,7 +28,7 @@ struct Content {
 };
 
 // An object a picture, or one of its colours, or grey. A file of points or lines only gets thick ones. Returns where
-// they are. Throws ImportError where there is nothing to be seen.
+// they are. Throws ImportError if there is nothing to show.
 importing::Bounds add_objects(const RestageSceneWriter1&, importing::Report&, const std::filesystem::path&, Content,
                               const importing::Placement&);
 

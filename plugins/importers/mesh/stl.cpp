@@ -55,13 +55,13 @@ class Welder {
     std::unordered_map<Point, std::uint32_t, PointHash> known_;
 };
 
-std::uint32_t facet_count(std::string_view bytes) { // little-endian, as the machines we run on
+std::uint32_t facet_count(std::string_view bytes) { // little-endian, like the supported machines
     std::uint32_t count = 0;
     std::memcpy(&count, bytes.data() + header - 4, 4);
     return count;
 }
 
-// Two bytes behind each facet are nobody's by the format. VisCAM and SolidView: 15 bits blue, green, red from the
+// The format leaves two bytes behind each facet unused. VisCAM and SolidView: 15 bits blue, green, red from the
 // lowest on, valid where the highest is set. Magics, whose header has "COLOR=" and a colour for the rest: red, green,
 // blue, and valid where it is not.
 class FacetColors {
@@ -85,7 +85,7 @@ class FacetColors {
         if (valid_ > 0 || magics_)
             out.colors = std::move(colors_);
         else if (any_)
-            out.notes.emplace_back("facets have attribute bytes that are no colours; they are not read");
+            out.notes.emplace_back("facets have attribute bytes that are not colours; they are not read");
     }
 
   private:
@@ -100,7 +100,7 @@ Stl read_binary(std::string_view bytes) {
     const std::size_t found = (bytes.size() - header) / facet;
     std::size_t count = facet_count(bytes);
     Stl result;
-    if (count == 0 && found > 0 && bytes.size() == header + found * facet) { // written before it was known
+    if (count == 0 && found > 0 && bytes.size() == header + found * facet) { // written before the count was known
         result.notes.emplace_back("the header promises no facets; the " + std::to_string(found) +
                                   " that follow are read");
         count = found;
@@ -130,7 +130,7 @@ Stl read_binary(std::string_view bytes) {
     return result;
 }
 
-bool same(std::string_view word, std::string_view lower) { // whatever the case
+bool same(std::string_view word, std::string_view lower) { // in any case
     if (word.size() != lower.size()) return false;
     for (std::size_t i = 0; i < word.size(); ++i)
         if ((word[i] | 32) != lower[i]) return false;
@@ -198,7 +198,7 @@ double number(Words& words) {
         problem == std::errc::result_out_of_range && (said.find("e-") != said.npos || said.find("E-") != said.npos);
     if (end != word.data() + word.size() || word.empty() || (problem != std::errc() && !tiny) ||
         !(std::abs(value) <= double(std::numeric_limits<float>::max())))
-        words.fail(said.empty() ? "the file ends inside a facet" : "\"" + said + "\" is no finite number");
+        words.fail(said.empty() ? "the file ends inside a facet" : "\"" + said + "\" is not a finite number");
     return tiny ? 0 : value;
 }
 
@@ -228,7 +228,7 @@ Stl read_ascii(std::string_view text) {
         } else if (same(word, "facet")) {
             expect(words, "normal");
             for (int i = 0; i < 3; ++i)
-                words.next(); // the triangle itself says it better
+                words.next(); // the triangle itself is more accurate
             expect(words, "outer");
             expect(words, "loop");
             for (int corner = 0; corner < 3; ++corner) {
@@ -244,11 +244,11 @@ Stl read_ascii(std::string_view text) {
     }
 }
 
-std::string_view without_mark(std::string_view bytes) { // a byte order mark, as Windows' editors put it
+std::string_view without_mark(std::string_view bytes) { // a byte order mark, as Windows editors write it
     return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
 }
 
-bool contains(std::string_view text, std::string_view lower) { // whatever the case
+bool contains(std::string_view text, std::string_view lower) { // in any case
     return std::search(text.begin(), text.end(), lower.begin(), lower.end(),
                        [](char a, char b) { return (a | 32) == b; }) != text.end();
 }

@@ -11,18 +11,18 @@
 
 namespace restage::mesh {
 
-// By the size that its count of facets asks for; text files of that very size do not occur.
+// By the size that its facet count implies; text files of exactly that size do not occur.
 bool is_binary_stl(std::string_view bytes);
-bool is_ascii_stl(std::string_view bytes); // a head will do
+bool is_ascii_stl(std::string_view bytes); // the first bytes are enough
 
 struct Stl {
     importing::MeshBuffer mesh;
     importing::Vec3 origin{}; // to be added to the positions
     std::vector<float> colors; // 3 a triangle, 0..1 (sRGB), where facets have some (VisCAM, Magics)
-    std::vector<std::string> notes; // what was wrong with the file, or is not known of it
+    std::vector<std::string> notes; // faults of the file, and unknown parts
 };
 
-// Vertices at the same place are one. Throws ImportError when it is broken.
+// Vertices at the same place are merged. Throws ImportError if it is broken.
 Stl read_stl(std::string_view bytes);
 
 } // namespace restage::mesh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One import: what was read, and what has been made of it so far.
+// One import: what was read, and what has been built from it so far.
 #pragma once
 
 #include "common/error.hpp"
@@ -23,7 +23,7 @@ namespace restage::obj {
 
 using namespace importing;
 
-struct MadeMaterial { // a material, and what of it the scene says of an instance
+struct MadeMaterial { // a material, and the part of it that the scene stores per instance
     RestageHandle material = 0, alpha_texture = 0;
     float alpha = 1;
     bool emits = false;
@@ -45,7 +45,7 @@ class Importer {
     void smooth(); // normals of smoothing groups, over all shapes
     MeshBuffer mesh(const Shape&, int material, std::vector<std::uint32_t>& vertices) const;
     MadeMaterial colored(MeshBuffer&, const std::vector<std::uint32_t>& vertices, int material,
-                         const std::string& name); // the material, with the colours of vertices where it can show them
+                         const std::string& name); // the material, with vertex colours if it can show them
     struct Object {
         std::string name;
         RestageHandle group = 0;

@@ -18,7 +18,7 @@ struct Statement {
 class Statements {
   public:
     explicit Statements(std::string_view text);
-    bool next(Statement&); // comments and empty lines are passed over
+    bool next(Statement&); // skips comments and empty lines
     std::size_t position() const { return at_; } // [byte] behind the last statement
 
   private:
@@ -35,7 +35,7 @@ class Words {
     Words(std::string_view rest, std::uint32_t column) : rest_(rest), first_column_(column) {}
     std::optional<std::string_view> next();
     std::optional<std::string_view> peek() const { return Words(*this).next(); }
-    std::string_view remainder() const; // what has not been taken, without the blanks in front
+    std::string_view remainder() const; // the remaining text, without leading blanks
     std::uint32_t column() const { return first_column_ + static_cast<std::uint32_t>(start_); } // of the last word
 
   private:

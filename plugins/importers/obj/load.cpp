@@ -27,7 +27,7 @@ Importer::Importer(const RestageSceneWriter1& writer, const fs::path& path, std:
 
 namespace {
 
-// What two spellings of a material's name have in common: not the case, the number of blanks, or a comment behind.
+// A material's name normalised: ignores case, the number of blanks, and a trailing comment.
 std::string bare(const std::string& name) {
     std::string result;
     std::istringstream words(lower(name));
@@ -51,7 +51,7 @@ void Importer::read_libraries() {
             std::error_code code;
             return fs::exists(find_file(path_.parent_path(), file), code);
         };
-        // One name with blanks, or several; the longest that is there counts.
+        // One name with blanks, or several; the longest that exists counts.
         std::vector<std::string> words;
         std::istringstream stream(name);
         for (std::string word; stream >> word && (words.empty() || word[0] != '#');)
@@ -79,7 +79,7 @@ void Importer::read_libraries() {
     }
 }
 
-// The last of that name counts, as when they are read one after the other.
+// The last of that name counts, as if they were read in sequence.
 const Mtl* Importer::find(const std::string& name) const {
     const Mtl* found = nullptr;
     for (const bool exact : {true, false})
@@ -89,7 +89,7 @@ const Mtl* Importer::find(const std::string& name) const {
     return found;
 }
 
-// What the file says and the scene has no place for.
+// Statements for which the scene has no place.
 void Importer::tell_leftovers() {
     std::map<std::string, const char*> notes = {
         {"l", "lines have no surface"},
@@ -116,9 +116,11 @@ void Importer::tell_leftovers() {
             "faces", model_.absent.first + "; such corners (" + std::to_string(model_.absent_count) + ") go without",
             model_.absent.second);
     if (model_.has_bent_polygons)
-        report_.approximated("polygons", "some are not flat; they are cut into triangles as seen along their normal");
+        report_.approximated("polygons",
+                             "some are not flat; they are cut into triangles in projection along their normal");
     for (const auto& [name, line] : model_.materials)
-        if (!find(name)) report_.approximated("material " + quote(name), "no library has it; grey stands for it", line);
+        if (!find(name))
+            report_.approximated("material " + quote(name), "no library has it; grey is used instead", line);
     std::size_t unused = 0, all = 0;
     for (const Library& library : libraries_)
         for (const Mtl& m : library.materials) {
@@ -130,14 +132,15 @@ void Importer::tell_leftovers() {
     if (unused)
         report_.dropped("materials", std::to_string(unused) + " of " + std::to_string(all) + " are used by no face");
     if (model_.origin != Vec3{})
-        report_.kept("coordinates", "they are large for their differences; objects are kept about a point among them");
+        report_.kept("coordinates",
+                     "they are large for the objects' size; these are kept relative to a point among them");
 }
 
 void Importer::run() {
     if (text_.starts_with("\xfe\xff") || text_.starts_with("\xff\xfe"))
         throw ImportError{"the file is UTF-16 text; save it as UTF-8", 1, 1, {}};
     if (const auto zero = text_.find('\0'); zero != text_.npos)
-        throw ImportError{"byte " + std::to_string(zero) + " is zero: this is no text file", 0, 0, {}};
+        throw ImportError{"byte " + std::to_string(zero) + " is zero: this is not a text file", 0, 0, {}};
     model_ = read_model(text_, [&](double done) {
         return out_.progress(out_.ctx, static_cast<float>(0.7 * done), "reading the model") != 0;
     });
@@ -181,7 +184,7 @@ bool begins_with_numbers(std::string_view line, char letter, int count) {
 int probe(const char* path, const void* head, std::size_t head_size) {
     if (has_extension(path, "obj")) return 90;
     if (!head) return 0;
-    // Some other name: count lines that can only be of this format.
+    // Any other extension: count lines that only this format has.
     const std::string_view text(static_cast<const char*>(head), head_size);
     if (text.find('\0') != text.npos) return 0;
     int vertices = 0, faces = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MTL materials as the nearest of ours: principled where the PBR extension is used, else by what the classic statements
+// MTL materials as the nearest of ours: principled if the PBR extension is used, else by what the classic statements
 // describe. Bourke's page on MTL and Alias|Wavefront's manual, appendix B, say what they mean.
 #include "common/file.hpp"
 #include "importer.hpp"
@@ -68,13 +68,13 @@ RestageHandle Importer::scalar_texture(const Slot& slot, double factor, bool inv
     return add_imagemap(out_, slot.material + " " + slot.key, image, true, mapping(slot), factor, invert);
 }
 
-// map_d: the alpha channel where the picture has one that says something, else its brightness.
+// map_d: the alpha channel if the picture has a meaningful one, else its brightness.
 RestageHandle Importer::alpha_texture(const Slot& slot, double factor) {
     const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     std::string reason;
     const auto picture = read_picture(path, reason);
     if (!picture || !picture->alpha_varies())
-        return scalar_texture(slot, factor); // the host says what is wrong with it
+        return scalar_texture(slot, factor); // the host reports what is wrong with it
     const std::string name = slot.material + " " + slot.key;
     const RestageHandle image = add_pixels(out_, name, picture->width, picture->height, 1,
                                            [&](std::size_t pixel, unsigned) { return picture->value(pixel, 3); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading OBJ. Not through tinyobjloader: it holds coordinates as floats, at most 255 corners a face, ends names at
-// blanks, joins no lines, and says neither lines nor columns. Bourke's page on OBJ and Alias|Wavefront's manual,
+// blanks, joins no lines, and reports neither lines nor columns. Bourke's page on OBJ and Alias|Wavefront's manual,
 // appendix B, say what the statements mean.
 #include "model.hpp"
 
@@ -83,7 +83,7 @@ class Reader {
             if (!word) break;
             const auto value = number(*word);
             if (count < 3 && (!value || std::abs(*value) > double(std::numeric_limits<float>::max())))
-                fail("the coordinate \"" + std::string(*word) + "\" is no finite number", now_.line, words.column());
+                fail("the coordinate \"" + std::string(*word) + "\" is not a finite number", now_.line, words.column());
             values[count] = value.value_or(0);
         }
         if (count < 3) fail("a vertex has three coordinates; this one has fewer", now_.line, now_.column);
@@ -95,7 +95,7 @@ class Reader {
             model_.colors.push_back(colored ? static_cast<float>(std::clamp(values[c] / top, 0.0, 1.0)) : 1);
     }
 
-    void numbers(std::vector<float>& to, std::size_t width, bool all) { // those that are missing are 0
+    void numbers(std::vector<float>& to, std::size_t width, bool all) { // missing ones are 0
         Words words(now_.rest, now_.column);
         for (std::size_t i = 0; i < width; ++i) {
             const auto word = words.next();
@@ -130,7 +130,7 @@ class Reader {
         if (model_.absent_count++ == 0) model_.absent = {what, now_.line};
     }
 
-    // "7/2/-1": index by index; a slash at the end says nothing. Negative ones count back from here.
+    // "7/2/-1": index by index; a trailing slash is ignored. Negative ones count back from here.
     Corner corner(std::string_view word, std::uint32_t column) {
         Corner result;
         std::size_t from = 0;
@@ -149,7 +149,7 @@ class Reader {
             if (digits.empty() && kind > 0) {
                 // without it
             } else if (!whole) {
-                says("the face names \"" + std::string(digits) + "\", which is no index");
+                says("the face names \"" + std::string(digits) + "\", which is not an index");
             } else if (index == 0 || index < -count(kind) || index > std::numeric_limits<int>::max()) {
                 says(names(kind, index));
             } else {
@@ -193,7 +193,7 @@ class Reader {
         ++entry.second;
     }
 
-    void resolve(std::vector<std::uint32_t>& vertices) const { // faces may name what follows, and so may these
+    void resolve(std::vector<std::uint32_t>& vertices) const { // like faces, these may name later vertices
         for (const std::uint32_t i : vertices)
             if (i >= count(0))
                 throw ImportError{"a line or point names vertex " + std::to_string(i + 1) + " of " +
@@ -213,7 +213,7 @@ class Reader {
         bool fresh = true;
     };
 
-    // Where in the text the face of this line names that vertex.
+    // The place in the text where this line's face names that vertex.
     [[noreturn]] void fail_at(const Face& face, std::size_t which) const {
         Statements again(text_);
         Statement s;

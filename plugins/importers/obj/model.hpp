@@ -37,14 +37,14 @@ struct Model {
     std::vector<std::pair<std::string, std::uint32_t>> libraries; // the rest of each `mtllib`, and its line
     std::vector<std::uint32_t> points, lines;                     // 1 a point and 2 a line: vertices
     std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> skipped; // statement -> first line, how often
-    std::pair<std::string, std::uint32_t> absent; // the first corner whose coordinate or normal is not there, its line
+    std::pair<std::string, std::uint32_t> absent; // the first corner with a missing coordinate or normal, its line
     std::uint32_t absent_count = 0;
     bool has_bent_polygons = false;
 };
 
-// goes_on(0..1) is asked now and then; false stops it (Cancelled). What is malformed is an ImportError with its place:
-// a vertex that is no three finite numbers, a face that names a vertex that is not there. Texture coordinates and
-// normals that are not there are done without, and counted.
+// goes_on(0..1) is called now and then; false stops it (Cancelled). Malformed input is an ImportError with its place:
+// a vertex that is not three finite numbers, a face that names a missing vertex. Missing texture coordinates and
+// normals are left out, and counted.
 Model read_model(std::string_view text, const std::function<bool(double)>& goes_on);
 
 } // namespace restage::obj

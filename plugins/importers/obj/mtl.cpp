@@ -84,7 +84,7 @@ double read_number(Words& words, double otherwise) {
     return *read;
 }
 
-// Takes the options that are next.
+// Takes the options that follow.
 void read_options(Words& words, MtlTexture& result, bool name_follows) {
     while (const auto option = words.peek()) {
         const std::string name = importing::lower(*option);

@@ -17,7 +17,7 @@ struct MtlTexture {
     std::array<double, 3> scale{1, 1, 1}, offset{}, turbulence{};
     double base = 0, gain = 1, bump = 1;
     bool clamp = false;
-    std::string colorspace, channel; // "" = not said
+    std::string colorspace, channel; // "" = not given
 };
 
 struct Mtl {
@@ -44,7 +44,7 @@ struct Mtl {
     }
 };
 
-// In the order of the file. Any text will do: what is no MTL gives no materials.
+// In file order. Accepts any text: text that is not MTL gives no materials.
 std::vector<Mtl> read_mtl(std::string_view text);
 
 } // namespace restage::obj

@@ -12,10 +12,10 @@ namespace restage::obj {
 
 namespace {
 
-struct Key { // what makes two corners the same vertex
+struct Key { // equal keys = the same vertex
     int vertex, coordinate, normal;
     std::uint64_t smoothing; // of a corner without a normal: 0 = flat
-    std::size_t face;        // of a flat corner among smooth ones: it is nobody else's
+    std::size_t face;        // of a flat corner among smooth ones: not shared
     bool operator==(const Key&) const = default;
 };
 struct KeyHash {
@@ -115,7 +115,7 @@ MeshBuffer Importer::mesh(const Shape& in, int material, std::vector<std::uint32
     return result;
 }
 
-// Vertices with colours (v x y z r g b) show them where the material has no picture; where it has one, that.
+// Vertices with colours (v x y z r g b) show them if the material has no picture; else the picture wins.
 MadeMaterial Importer::colored(MeshBuffer& buffer, const std::vector<std::uint32_t>& vertices, int id,
                                const std::string& name) {
     const auto rgb = [&](std::uint32_t vertex) {
@@ -129,7 +129,7 @@ MadeMaterial Importer::colored(MeshBuffer& buffer, const std::vector<std::uint32
         report_.dropped("object " + quote(name) + ": vertex colours", "its material has textures, which are shown");
         return material(id);
     }
-    const std::vector<std::uint32_t> corners = buffer.indices; // bake_colors makes others
+    const std::vector<std::uint32_t> corners = buffer.indices; // bake_colors replaces them
     const RestageHandle image = bake_colors(out_, name + " colours", buffer,
                                             [&](std::size_t t, std::size_t c) { return rgb(corners[3 * t + c]); });
     if (!image) {
@@ -145,7 +145,7 @@ MadeMaterial Importer::colored(MeshBuffer& buffer, const std::vector<std::uint32
 
 void Importer::object(const MeshBuffer& buffer, const MadeMaterial& made, const Object& what) {
     const RestageHandle handle = buffer.push(out_, what.name, "");
-    if (!handle || !made.material) return; // the host has said why
+    if (!handle || !made.material) return; // the host has reported why
     RestageInstance instance{};
     instance.name = what.name.c_str();
     instance.mesh = handle;

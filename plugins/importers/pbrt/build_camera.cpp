@@ -35,13 +35,13 @@ void Builder::camera(const Directive& d) {
         fov = 45;
         const bool known = realistic_camera(d, out);
         import_.approximated(d.at, what,
-                             known ? "a thin lens of the same focal length and aperture stands for it"
-                                   : "a pinhole camera with fov 45 stands for it; its lenses are not simulated");
+                             known ? "a thin lens of the same focal length and aperture is used instead"
+                                   : "a pinhole camera with fov 45 is used instead; its lenses are not simulated");
     } else {
-        import_.approximated(d.at, what, "there is no such camera in pbrt; a perspective one stands for it");
+        import_.approximated(d.at, what, "there is no such camera in pbrt; a perspective one is used instead");
         if (!(fov > 0 && fov < 180)) fov = 90;
     }
-    if (!(out.fov > 0)) { // no lens file has said it
+    if (!(out.fov > 0)) { // not given by a lens file
         out.fov = static_cast<float>(fov);
         out.lens_radius = static_cast<float>(d.params.number("lensradius", 0));
         out.focal_distance = static_cast<float>(d.params.number("focaldistance", 1e6));
@@ -64,7 +64,7 @@ void Builder::camera(const Directive& d) {
         }
     }
     for (const char* name : {"shutteropen", "shutterclose"})
-        d.params.find(name); // the film asks for them
+        d.params.find(name); // the film uses them
     std::string verbatim;
     const bool known = d.name == "perspective" || out.projection != RESTAGE_PERSPECTIVE;
     if (!known) {
@@ -124,7 +124,7 @@ void Builder::film_and_settings() {
         exposure = iso / 100 * time;
         const std::string sensor = p.string("sensor", "cie1931");
         if (sensor != "cie1931")
-            import_.approximated(film.at, "Film sensor " + quote(sensor), "the CIE 1931 observer stands for it");
+            import_.approximated(film.at, "Film sensor " + quote(sensor), "the CIE 1931 observer is used instead");
         if (p.number("whitebalance", 0) != 0)
             import_.approximated(film.at, "Film whitebalance", "colours are not balanced");
     }
@@ -144,7 +144,7 @@ void Builder::film_and_settings() {
     auto known = filters.find(filter.name);
     if (known == filters.end()) {
         import_.approximated(filter.at, "PixelFilter " + quote(filter.name),
-                             "there is no such filter in pbrt; a box stands for it");
+                             "there is no such filter in pbrt; a box is used instead");
         known = filters.find("box");
     }
     out.filter = known->first.c_str();
@@ -182,10 +182,11 @@ void Builder::film_and_settings() {
     const bool film_in_pbrt =
         film.name == "image" || (!import_.v3() && (film.name == "gbuffer" || film.name == "spectral"));
     if (film_ && film.name != "rgb" && !film_in_pbrt) {
-        import_.warned(film.at, "Film " + quote(film.name), "there is no such film in pbrt; an RGB film stands for it");
+        import_.warned(film.at, "Film " + quote(film.name),
+                       "there is no such film in pbrt; an RGB film is used instead");
     } else if (film_ && film.name != "rgb" && film.name != "image") {
         kept += "Film " + quote(film.name) + "\n";
-        import_.approximated(film.at, "Film " + quote(film.name), "an RGB film stands for it");
+        import_.approximated(film.at, "Film " + quote(film.name), "an RGB film is used instead");
     }
     for (const Directive* part : {&film, &filter}) {
         import_.keep_unused(part->params, part->word);

@@ -57,7 +57,7 @@ void Builder::curve(const Directive& d, const Matrix& to_world, const std::strin
     try {
         group->batch.add(d, to_batch);
     } catch (const ImportError&) {
-        if (is_new) { // nothing is in it
+        if (is_new) { // it is empty
             std::erase_if(curves_by_state_, [&](const auto& entry) { return entry.second == group; });
             curves_.pop_back();
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera "realistic": its lens file gives the focal length and the stop of the thin lens that stands for it.
+// Camera "realistic": its lens file gives the focal length and the stop of the thin lens used instead.
 #include "builder.hpp"
 #include "lexer.hpp"
 
@@ -37,7 +37,7 @@ std::optional<ThinLens> reduce(const std::vector<double>& rows) {
 
 } // namespace
 
-// Angle of the shorter side of the film, lens and focus; false: the lens file is not there or says nothing.
+// Angle of the shorter side of the film, lens and focus; false: the lens file is missing or unusable.
 bool Builder::realistic_camera(const Directive& d, RestageCamera& out) {
     const std::string file = d.params.string("lensfile", "");
     const double aperture = d.params.number("aperturediameter", 1), focus = d.params.number("focusdistance", 10);
@@ -57,8 +57,8 @@ bool Builder::realistic_camera(const Directive& d, RestageCamera& out) {
     try {
         for (double value = 0; lexer.number(value);)
             rows.push_back(value);
-    } catch (const ImportError&) { // NOLINT(bugprone-empty-catch): a word among the numbers: reduce refuses what is
-                                   // left, or it is enough
+    } catch (const ImportError&) { // NOLINT(bugprone-empty-catch): a word among the numbers: reduce refuses the
+                                   // rest, or it suffices
     }
     const auto lens = reduce(rows);
     if (!lens) {

@@ -18,7 +18,7 @@ double Builder::light_scale(const Directive& d, Rgb& color) {
     return 1;
 }
 
-// "=id r g b parameters": what `value` was before it became RGB. The numbers tell the exporter whether it still is.
+// "=id r g b parameters": what `value` was before it became RGB. The numbers tell the exporter whether it still holds.
 std::string Builder::exact_light(const Directive& d, const char* id, const char* name, const float (&value)[3],
                                  double scale) {
     const auto reduced = [&](const char* of) {
@@ -56,9 +56,9 @@ void Builder::light(const Directive& d) {
     const auto from = d.params.triple("from", {0, 0, 0}), to = d.params.triple("to", {0, 0, 1});
     const Vec3 origin{from[0], from[1], from[2]}, direction = Vec3{to[0], to[1], to[2]} - origin;
     const bool aims = d.name == "spot" || is_distant, is_placed = aims || d.name == "point";
-    if (aims && !(length(direction) > 0)) { // no direction: pbrt goes on with one that is no number
+    if (aims && !(length(direction) > 0)) { // no direction: pbrt continues with NaN
         d.params.mark_all_used();
-        import_.lost(d.at, what, "\"from\" and \"to\" are the same point; it does not shine, its place is kept");
+        import_.lost(d.at, what, "\"from\" and \"to\" are the same point; it emits nothing, its place is kept");
         placeholder(d, d.name + " light", what + " " + to_text(d.params, " "));
         return;
     }
@@ -71,7 +71,7 @@ void Builder::light(const Directive& d) {
             cone = d.params.number("fov", d.params.has("fov") ? 45 : import_.v3() ? 45 : 90) / 2;
             delta = 0;
             d.params.mark_all_used();
-            import_.approximated(d.at, what, "a spot light stands for it; the picture it throws is not rendered");
+            import_.approximated(d.at, what, "a spot light is used instead; the picture it throws is not rendered");
         }
         out.cone_angle = static_cast<float>(cone);
         out.cone_delta = static_cast<float>(delta);
@@ -92,7 +92,7 @@ void Builder::light(const Directive& d) {
         if (power > 0) scale *= power / (4 * std::numbers::pi);
         if (d.name == "goniometric") {
             d.params.mark_all_used();
-            import_.approximated(d.at, what, "a point light stands for it; its distribution is not rendered");
+            import_.approximated(d.at, what, "a point light is used instead; its distribution is not rendered");
         }
     } else {
         d.params.mark_all_used();
@@ -105,12 +105,12 @@ void Builder::light(const Directive& d) {
     out.value[1] = static_cast<float>(value.g);
     out.value[2] = static_cast<float>(value.b);
     std::memcpy(out.light_to_world, to_world.m.data(), sizeof out.light_to_world);
-    // For the exporter, and so that it can be found where it is missing. v3 takes it as it is, v4 decodes 8-bit ones.
+    // For the exporter, and so that a missing one can be relinked. v3 takes it as it is, v4 decodes 8-bit ones.
     if (const std::string file = d.params.string(import_.v3() ? "mapname" : "filename", "");
         !file.empty() && (d.name == "goniometric" || d.name == "projection"))
         image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, true);
     std::string verbatim = import_.keep_unused(d.params, what);
-    if (d.name == "goniometric" || d.name == "projection") { // `whole`: all of it, as long as the colour is this
+    if (d.name == "goniometric" || d.name == "projection") { // `whole`: all of it, while the colour is unchanged
         std::string numbers;
         for (const float x : out.value)
             numbers += " " + shortest(static_cast<double>(x));
@@ -131,9 +131,9 @@ void Builder::infinite_light(const Directive& d) {
     Rgb value = import_.color(d.params, "L", Role::light, {1, 1, 1});
     double scale = light_scale(d, value);
     for (const char* name : {"samples", "nsamples"})
-        d.params.find(name); // how, not what
+        d.params.find(name); // affects sampling only
     const std::string file = d.params.string(d.params.has("filename") ? "filename" : "mapname", "");
-    std::string kept; // of what is only pbrt's
+    std::string kept; // of pbrt-only parameters
     if (const Param* portal = d.params.find("portal")) {
         import_.approximated(d.at, what, "the light is not limited to its portal; written back as it is");
         kept += to_text(*portal) + "\n";
@@ -145,7 +145,7 @@ void Builder::infinite_light(const Directive& d) {
         pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, true);
         if (illuminance > 0)
             import_.approximated(d.at, what,
-                                 "\"illuminance\" of a picture is not reached; the picture's own values are used");
+                                 "\"illuminance\" of a picture is not applied; the picture's own values are used");
         if (illuminance > 0) kept += to_text(*d.params.find("illuminance")) + "\n";
     } else if (illuminance > 0) {
         scale *= illuminance / std::numbers::pi;
@@ -170,7 +170,7 @@ void Builder::infinite_light(const Directive& d) {
         return;
     }
     if (pending.set)
-        displace_environment(pending.is_missing ? "there is one environment only, and one that is there follows"
+        displace_environment(pending.is_missing ? "there is one environment only, and one whose picture exists follows"
                                                 : "there is one environment only, and one with a picture follows");
     pending.lines.clear();
     pending.lines.emplace_back(line, std::array<Matrix, 2>{state_.ctm[0], state_.ctm[1]});
@@ -191,7 +191,7 @@ void Builder::infinite_light(const Directive& d) {
     std::memcpy(pending.value.light_to_world, to_world.m.data(), sizeof pending.value.light_to_world);
 }
 
-// The lights that the environment was made of so far keep their places.
+// The lights merged into the environment so far keep their places.
 void Builder::displace_environment(const std::string& why) {
     import_.dropped(environment_.at, "LightSource \"infinite\"", why + "; its place is kept");
     for (const auto& [line, ctm] : environment_.lines) {

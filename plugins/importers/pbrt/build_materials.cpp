@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials: what both versions share. Names decide which version's parameters are meant; where a name is known to both
+// Materials: what both versions share. Names decide which version's parameters are meant; for names known to both
 // (mix, hair, subsurface), the version of the file does. Defaults are written out, since they differ between versions.
 #include "builder.hpp"
 
@@ -38,7 +38,7 @@ void Builder::put_index(Values& values, const char* id, const Directive& d, cons
     put_float(values, id, d, name, otherwise);
 }
 
-// "roughness" stands for the missing ones of uroughness and vroughness.
+// "roughness" replaces missing uroughness and vroughness.
 void Builder::put_roughness(Values& values, const Directive& d, const std::string& prefix, double otherwise,
                             const char* u_id, const char* v_id) {
     const std::string both = prefix + "roughness", u = prefix + "uroughness", v = prefix + "vroughness";
@@ -64,7 +64,7 @@ void Builder::put_common(Values& values, const Directive& d) {
 }
 
 // A conductor's index. pbrt-v4: spectra become the RGB index with the metal's own reflectance (rgb_of_metal), since a
-// renderer in RGB that averaged eta and k apart would tint gold and copper wrongly. v3 averages them apart itself.
+// renderer in RGB that averaged eta and k apart would tint gold and copper wrongly. v3 itself averages them apart.
 void Builder::put_metal(Values& values, const Directive& d, const char* eta, const char* k, const char* eta_id,
                         const char* k_id) {
     const bool old = import_.v3() || d.word == "v3 metal";
@@ -157,7 +157,7 @@ RestageHandle Builder::material_of_shape(const Directive& shape) {
 
 RestageHandle Builder::material(const Directive& d, const std::string& name, const std::string& type,
                                 const std::string& wanted_label) {
-    // The same anonymous material over and over (Material "diffuse" before each lamp) is one.
+    // A repeated anonymous material (Material "diffuse" before each lamp) is shared.
     const bool anonymous = name.empty();
     std::string key;
     if (anonymous) {
@@ -165,7 +165,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
         for (const Param& param : d.params.params)
             key += '\n' + std::to_string(static_cast<int>(param.color_space));
         for (const Param& param : d.params.params)
-            if (param.type == "texture" && !param.strings.empty()) { // the same name may mean another texture by now
+            if (param.type == "texture" && !param.strings.empty()) { // the name may mean another texture by now
                 const auto& names = *state_.names;
                 for (const auto* map : {&names.float_textures, &names.color_textures})
                     if (const auto found = map->find(param.strings[0]); found != map->end())
@@ -194,7 +194,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
         if (!import_.v3()) other_version("pbrt-v4 has no material of that name, and stops");
     } else if (!material_of_plugin(d, type, values, plugin)) {
         approximated_material(d, type, values, plugin);
-        // The whole of it goes back out as it came, unless it is edited ("=*": instead of all that would be written).
+        // All of it is written back verbatim unless edited ("=*": replaces everything that would be written).
         exact_ = "=* \"string type\" [ " + quote(type) + " ]\n";
         for (const Param& param : d.params.params)
             if (param.name != "type") exact_ += "=* " + to_text(param) + "\n";
@@ -222,7 +222,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
     return handle;
 }
 
-// The colour that many strands together have: Chiang et al. 2016, "A Practical and Controllable Hair and Fur Model for
+// The colour of many strands together: Chiang et al. 2016, "A Practical and Controllable Hair and Fur Model for
 // Production Path Tracing", Eq. 9, solved for the colour; pigments as in pbrt (hair.cpp, SigmaAFromConcentration).
 Rgb Builder::hair_color(const Directive& d) {
     for (const char* name : {"reflectance", "color"})
@@ -243,22 +243,23 @@ Rgb Builder::hair_color(const Directive& d) {
 void Builder::approximated_material(const Directive& d, const std::string& type, Values& values, std::string& plugin) {
     const std::string what = d.name == type ? "Material " + quote(type) : "material " + quote(d.name);
     const Rgb half{0.5, 0.5, 0.5};
-    std::string note = "there is no such material in pbrt; a diffuse one stands for it";
+    std::string note = "there is no such material in pbrt; a diffuse one is used instead";
     plugin = "diffuse";
     Rgb color = half;
     if (type == "subsurface" || type == "kdsubsurface") {
         note = subsurface(d, type, values, plugin);
-    } else if (type == "hair") { // material_of_plugin reads it where the plugin is there
-        note = "no plugin provides hair; a diffuse one of the hair's colour stands for it";
+    } else if (type == "hair") { // material_of_plugin reads it if the plugin is loaded
+        note = "no plugin provides hair; a diffuse one of the hair's colour is used instead";
         color = hair_color(d);
     } else if (type == "disney") {
         note =
-            "Disney's model: the principled material stands for it; its diffuse has no retro-reflection, its sheen and "
+            "Disney's model: the principled material is used instead; its diffuse has no retro-reflection, its sheen "
+            "and "
             "coat are other formulas, light under the surface is not simulated";
         plugin = "principled";
         disney(d, values);
     } else if (type == "shinymetal") { // pbrt-v2: a rough and a smooth layer, each a metal of that colour
-        note = "of pbrt-v2; a rough metal of its colour Ks stands for it, its mirror is left out";
+        note = "of pbrt-v2; a rough metal of its colour Ks is used instead, its mirror is left out";
         plugin = "conductor";
         values.boolean("use_reflectance", true);
         put_color(values, "reflectance", d, "Ks", Role::albedo, {1, 1, 1});
@@ -270,12 +271,12 @@ void Builder::approximated_material(const Directive& d, const std::string& type,
         values.choice("remap", "none");
         values.choice("distribution", "ggx");
     } else if (type == "fourier") {
-        note = "measured data is not read; a grey diffuse one stands for it";
+        note = "measured data is not read; a grey diffuse one is used instead";
     } else if (type == "measured") {
-        note = is_rgl(d) ? "data of RGL (.bsdf) is not read, only MERL's (.binary); a grey diffuse one stands for it"
-                         : "no plugin provides measured; a grey diffuse one stands for it";
+        note = is_rgl(d) ? "data of RGL (.bsdf) is not read, only MERL's (.binary); a grey diffuse one is used instead"
+                         : "no plugin provides measured; a grey diffuse one is used instead";
     } else if (import_.v3()) { // api.cpp, MakeMaterial
-        note = "there is no such material in pbrt; matte with its parameters stands for it, as in pbrt";
+        note = "there is no such material in pbrt; matte with its parameters is used instead, as in pbrt";
         material_v3(d, "matte", values, plugin);
     }
     if (plugin == "diffuse" && values.size() == 0) values.color("reflectance", color);
@@ -300,9 +301,9 @@ RestageHandle Builder::named_material(const Directive& directive, const std::str
         return handle;
     }
     import_.warned(directive.at, directive.word + " " + quote(name),
-                   "no material has that name; a grey diffuse one stands for it");
+                   "no material has that name; a grey diffuse one is used instead");
     if (!files_are_missing_) return default_material(directive);
-    // A missing file may define it: it keeps its name, and is not defined when it is written ("extern").
+    // A missing file may define it: it keeps its name, and is not defined on export ("extern").
     Values values;
     values.color("reflectance", {0.5, 0.5, 0.5});
     values.number("sigma", 0);

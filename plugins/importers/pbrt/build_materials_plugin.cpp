@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials pbrt does not know but a plugin of the host does: Material "velvet" "float fuzz" 0.5. Parameters go by the
-// ids of the plugin's table; what is not in it is reported, as ever. So does `"string plugin" "velvet"`, which our
-// exporter writes into a line `#restage MakeNamedMaterial` before the nearest thing that pbrt has.
+// Materials pbrt does not know but a plugin of the host does: Material "velvet" "float fuzz" 0.5. Parameters have the
+// ids of the plugin's table; others are reported, as usual. So does `"string plugin" "velvet"`, which our
+// exporter writes into a line `#restage MakeNamedMaterial` before the nearest material that pbrt has.
 #include "builder.hpp"
 
 #include <algorithm>
@@ -52,10 +52,10 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
                     else
                         import_.approximated(d.at, "material " + quote(type),
                                              quote(line->id) + " cannot be " + quote(word->strings[0]) + "; " +
-                                                 line->choices + " are possible; the default stands for it");
+                                                 line->choices + " are possible; the default is used instead");
                 }
                 break;
-            case RESTAGE_TABLE: // the host reads it, and says what is wrong with it
+            case RESTAGE_TABLE: // the host reads it, and reports what is wrong with it
                 if (const std::string file = d.params.string(line->id, ""); !file.empty())
                     values.table(line->id, import_.resolve(file, d.at).string());
                 break;
@@ -64,7 +64,7 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
         }
     }
     if (ours) return true;
-    if (type == "hair") { // pbrt's own, which may say its colour otherwise
+    if (type == "hair") { // pbrt's own, which may give its colour differently
         if (d.params.has("reflectance")) {
             put_color(values, "color", d, "reflectance", Role::albedo, {0.5, 0.5, 0.5});
         } else if (!d.params.has("color")) {
@@ -74,7 +74,7 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
         }
         return true;
     }
-    // Back out it goes as it came, unless it is edited ("=*": instead of all that would be written).
+    // It is written back verbatim unless edited ("=*": replaces everything that would be written).
     exact_ = "=* \"string type\" [ " + quote(type) + " ]\n";
     for (const Param& param : d.params.params)
         if (param.name != "type") exact_ += "=* " + to_text(param) + "\n";

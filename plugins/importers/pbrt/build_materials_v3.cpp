@@ -72,14 +72,14 @@ bool Builder::material_v3(const Directive& d, const std::string& type, Values& v
         put_float(values, "roughness", d, "roughness", 0.1);
         remap();
     } else if (type == "mix") {
-        // v3's amount is the weight of the first material, the host's that of its second: the two change places.
+        // v3's amount is the weight of the first material, the host's that of its second: the two are swapped.
         values.material("first", named_material(d, d.params.string("namedmaterial2", "")));
         values.material("second", named_material(d, d.params.string("namedmaterial1", "")));
         const Argument amount = color_argument(d, "amount", Role::unbounded, grey(0.5));
         if (amount.texture) {
             values.texture("amount", RESTAGE_FLOAT, amount.texture);
             import_.approximated(d.at, "material " + quote(d.name) + " (mix)",
-                                 "its colour texture \"amount\" is used as one number a point");
+                                 "its colour texture \"amount\" is used as a scalar");
         } else {
             const Rgb a = amount.value;
             values.number("amount", luminance(a));
@@ -93,7 +93,7 @@ bool Builder::material_v3(const Directive& d, const std::string& type, Values& v
     return true;
 }
 
-// Burley 2012 and 2015, as pbrt-v3's disney.cpp has them, by the principled material's dials.
+// Burley 2012 and 2015, as in pbrt-v3's disney.cpp, by the principled material's parameters.
 void Builder::disney(const Directive& d, Values& values) {
     const auto number = [&](const char* name, double otherwise) { return float_argument(d, name, otherwise).value.r; };
     put_color(values, "base_color", d, "color", Role::albedo, {0.5, 0.5, 0.5});

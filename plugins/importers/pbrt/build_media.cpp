@@ -5,7 +5,7 @@
 
 namespace restage::pbrt {
 
-// Files that a thing kept verbatim names, and that are not there.
+// Missing files that a verbatim line names.
 void Builder::missing_files_of(const Directive& d, const std::string& what) {
     for (const Param& param : d.params.params) {
         const bool is_file = param.name.ends_with("filename") || param.name == "bsdffile";
@@ -20,7 +20,7 @@ void Builder::missing_files_of(const Directive& d, const std::string& what) {
 void Builder::medium(const Directive& d) {
     const std::string what = "medium " + quote(d.name);
     const std::string type = d.params.string("type", "homogeneous");
-    if (type != "homogeneous") { // clear, and the whole of it goes back out as it came
+    if (type != "homogeneous") { // clear, and written back verbatim
         std::string whole;
         for (const Param& param : d.params.params)
             whole += "=* " + to_text(param) + "\n";
@@ -40,10 +40,9 @@ void Builder::medium(const Directive& d) {
             absorption = found->absorption;
             scattering = found->scattering;
         }
-        if (!found)
-            import_.warned(d.at, what, "preset " + quote(preset) + " is not known here; whole milk stands for it");
+        if (!found) import_.warned(d.at, what, "preset " + quote(preset) + " is unknown; whole milk is used instead");
     }
-    // v4: given alone, the other is what the preset or the default says; v3 alike.
+    // v4: given alone, the other comes from the preset or the default; so too in v3.
     absorption = import_.color(d.params, "sigma_a", Role::unbounded, absorption);
     scattering = import_.color(d.params, "sigma_s", Role::unbounded, scattering);
     const double scale = d.params.number("scale", 1);
@@ -80,7 +79,7 @@ RestageHandle Builder::medium_named(const std::string& name, const Directive& di
         return media_[name];
     }
     import_.lost(directive.at, "medium " + quote(name) + " of " + directive.word,
-                 "no medium has that name; vacuum stands for it");
+                 "no medium has that name; vacuum is used instead");
     if (!files_are_missing_) return 0;
     const std::string verbatim = "=* extern " + quote(name) + "\n"; // a missing file may define it
     const RestageMedium clear{.name = name.c_str(), .origin = import_.origin(verbatim)};

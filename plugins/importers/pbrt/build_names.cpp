@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What things are called. Our exporter says it in comments that are read back here:
+// Names of things. Our exporter writes them in comments that are read back here:
 //   # name: "cup"              (or without quotes) the next thing: a shape, light, camera, environment or
 //   ObjectInstance;
-//                              before an AttributeBegin: whatever is in that block
-//   # mesh: "cup mesh"         the mesh of the next shape, where its name is another
-//   # names: "cup" "saucer"    the members of the next ObjectInstance, where the object names them otherwise
+//                              before an AttributeBegin: the contents of that block
+//   # mesh: "cup mesh"         the mesh of the next shape, if its name differs
+//   # names: "cup" "saucer"    the members of the next ObjectInstance, if the object names them differently
 //   # alone: "cup 2"           the next ObjectInstance is one thing, no group
-//   # group: "kitchen" "table" what follows in this block is in these groups, outermost first
-// Others' comments are guessed at: "# Name: cup", "# Object cup", or a few words before the thing or its block.
+//   # group: "kitchen" "table" the rest of this block is in these groups, outermost first
+// Foreign comments are guessed at: "# Name: cup", "# Object cup", or a few words before the thing or its block.
 #include "builder.hpp"
 #include "lexer.hpp"
 
@@ -35,7 +35,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-// `"a" "b"`; none when it is anything else.
+// `"a" "b"`; none for anything else.
 std::vector<std::string> quoted_strings(std::string_view text) {
     std::vector<std::string> out;
     for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
@@ -50,7 +50,7 @@ std::vector<std::string> quoted_strings(std::string_view text) {
     return out;
 }
 
-// Is it words for a human, such as "left wall", and neither a sentence, a ruler nor pbrt text that is switched off?
+// Is it words for people, such as "left wall", and not a sentence, a ruler or commented-out pbrt text?
 std::string guessed_label(std::string_view comment) {
     std::string_view text = trimmed(comment, " \t\r#-=*/_:");
     const std::size_t key_end = text.find_first_of(" \t:=");
@@ -107,7 +107,7 @@ RestageHandle Builder::group_at(const std::vector<std::string>& path) {
     return group;
 }
 
-// Before the directive is done. A block takes the words before it as the label of what is in it.
+// Before the directive runs. A block takes the words before it as the label of its contents.
 void Builder::read_comments(const Directive& d) {
     std::string label;
     for (const std::string_view comment : d.comments) {
@@ -151,7 +151,7 @@ void Builder::read_comments(const Directive& d) {
         case Verb::world_begin:
             next_ = {};
             return;
-        case Verb::make_named_material: // what is said there is about those
+        case Verb::make_named_material: // comments there are about the contents
         case Verb::make_named_medium:
         case Verb::texture:
             return;

@@ -64,8 +64,8 @@ void Builder::pop(const Directive& directive, bool only_transform) {
     stack_.pop_back();
 }
 
-// pbrt-v3 keeps two stacks: AttributeBegin puts onto both, TransformBegin onto that of transforms. An End that does not
-// fit takes the top of its own.
+// pbrt-v3 keeps two stacks: AttributeBegin puts onto both, TransformBegin onto that of transforms. A mismatched End
+// takes the top of its own.
 void Builder::pop_v3(const Directive& directive) {
     Saved& top = stack_.back();
     import_.warned(directive.at, directive.word,
@@ -88,7 +88,7 @@ void Builder::pop_v3(const Directive& directive) {
     state_.ctm[0] = ctm[0];
     state_.ctm[1] = ctm[1];
     state_.active = active;
-    // What is left of the two is a transform, that of the AttributeBegin.
+    // What remains of the two is the transform of the AttributeBegin.
     attributes->opened = inner;
     attributes->state.ctm[0] = below[0];
     attributes->state.ctm[1] = below[1];

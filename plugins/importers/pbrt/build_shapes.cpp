@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes become a mesh (shared by all that are made from the same) and an instance; ObjectInstance repeats instances.
+// Shapes become a mesh (shared by identical shapes) and an instance; ObjectInstance repeats instances.
 #include "builder.hpp"
 #include "curves.hpp"
 
@@ -17,7 +17,7 @@ std::string stem_of(const std::string& file) { // "models/cup.ply.gz" -> "cup"
     return stem;
 }
 
-// The shape as it stands in the file, but what the instance holds of it.
+// The shape as in the file, without what the instance holds of it.
 std::string shape_line(const Directive& d, bool v3) {
     std::string line = "Shape " + quote(d.name);
     for (const Param& param : d.params.params) {
@@ -28,7 +28,7 @@ std::string shape_line(const Directive& d, bool v3) {
     return line;
 }
 
-// Which broken shapes pbrt leaves out with a message, and goes on, or hits nowhere. The others end it.
+// The broken shapes that pbrt skips with a message, or never hits. Others make it stop.
 bool goes_on_without(const std::string& shape, bool v3) {
     for (const char* quadric : {"sphere", "disk", "cylinder", "cone", "paraboloid", "hyperboloid"})
         if (shape == quadric) return true;
@@ -120,13 +120,13 @@ RestageHandle Builder::ply_mesh(const Directive& d, const std::string& name, con
 RestageHandle Builder::mesh(const Directive& d, const std::string& name, const Mesh*& data) {
     if (d.name == "plymesh") return ply_mesh(d, name, data);
     Mesh mesh;
-    std::string key; // the shape's own line, for what is more than triangles
+    std::string key; // the shape's own line, for shapes beyond triangles
     const bool is_triangles = d.name == "trianglemesh";
     const auto is_own = [&](const Param& param) {
         return param.name != "alpha" && param.name != "shadowalpha" &&
                !(import_.v3() && is_material_parameter(param.name));
     };
-    const auto line = [&](bool all) { // or of those that count
+    const auto line = [&](bool all) { // or of those that are used
         std::string text = d.name;
         for (const Param& param : d.params.params)
             if (is_own(param) && (all || (param.used && !param.misfit))) (text += ' ') += to_text(param);
@@ -173,7 +173,7 @@ RestageHandle Builder::mesh(const Directive& d, const std::string& name, const M
         return 0;
     }
     const std::string primitive = is_triangles ? "" : line(false);
-    for (const Param& param : d.params.params) // what does not count goes with the instance
+    for (const Param& param : d.params.params) // ignored parameters go with the instance
         if (is_own(param) && (!param.used || param.misfit)) odd_parameters_[key][param.name] = param.misfit;
     const RestageMesh out{.name = name.c_str(),
                           .origin = import_.origin(),
@@ -245,7 +245,7 @@ RestageInstance Builder::instance_of(const Directive& d, const Matrix& to_world)
     RestageInstance instance{};
     instance.alpha = 1;
     instance.material = material_of_shape(d);
-    // pbrt-v3 has it for triangles only, and there whatever is above 0 is opaque (Triangle::Intersect).
+    // pbrt-v3 has it for triangles only, and there any alpha above 0 is opaque (Triangle::Intersect).
     const bool has_alpha = !import_.v3() || d.name == "trianglemesh" || d.name == "plymesh";
     if (d.params.has("alpha") && has_alpha) {
         const Argument alpha = float_argument(d, "alpha", 1);
@@ -306,9 +306,9 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
         return std::string();
     };
     if (!open_object_.empty())
-        return no_light("AreaLightSource in ObjectBegin", "pbrt lets objects that are instanced not emit");
+        return no_light("AreaLightSource in ObjectBegin", "pbrt's instanced objects do not emit");
     if (!import_.v3() && interfaces_.count(instance.material))
-        return no_light("AreaLightSource on an interface", "pbrt lets surfaces without a material not emit");
+        return no_light("AreaLightSource on an interface", "pbrt's surfaces without a material do not emit");
     if (d.name != "diffuse" && d.name != "area")
         return no_light("AreaLightSource " + quote(d.name), "there is no such area light in pbrt");
     Rgb radiance = import_.color(d.params, "L", Role::light, {1, 1, 1});
@@ -329,25 +329,26 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
     if (power > 0 && !has_area) scale = 1; // goes with the power
     radiance = radiance * scale;
     for (const char* name : {"samples", "nsamples"})
-        d.params.find(name); // how, not what
+        d.params.find(name); // affects sampling only
     Matrix placed;
     std::memcpy(placed.m.data(), instance.object_to_world, sizeof instance.object_to_world);
     const std::optional<double> grown = similarity(placed);
     const bool quadric = shape.name == "sphere" || shape.name == "disk" || shape.name == "cylinder";
     if (quadric && !(grown && std::abs(*grown - 1) < 1e-3))
         import_.approximated(shape.at, "AreaLightSource on a scaled " + quote(shape.name),
-                             "it shines by its size in the world; pbrt samples such a light as if nothing scaled it, "
+                             "it emits by its size in the world; pbrt samples such a light as if unscaled, "
                              "and warns that its picture may have errors");
-    // Lamps that are not seen: v3's shine whatever alpha is (DiffuseAreaLight does not know it), v4's of alpha 0.
+    // Invisible lamps: v3's emit for any alpha (DiffuseAreaLight ignores it), v4's for alpha 0.
     const bool holes = instance.alpha_texture != 0 || instance.alpha < 1;
     const bool gone =
         instance.alpha_texture != 0 ? zero_textures_.contains(instance.alpha_texture) : instance.alpha == 0;
     if (import_.v3() ? holes : gone) instance.flags |= RESTAGE_INSTANCE_EMITS_UNSEEN;
-    // DiffuseAreaLight::L asks alpha after the primitive has; SampleLi alone asks it once.
+    // DiffuseAreaLight::L applies alpha after the primitive has; only SampleLi applies it once.
     if (!import_.v3() && holes && !gone)
-        import_.approximated(shape.at, "AreaLightSource on a Shape with alpha",
-                             "where it is seen, alpha counts once, as where it is sampled; pbrt counts it twice there, "
-                             "and shows a lamp of alpha 0.5 at a quarter");
+        import_.approximated(
+            shape.at, "AreaLightSource on a Shape with alpha",
+            "where it is visible, alpha counts once, as where it is sampled; pbrt counts it twice there, "
+            "and shows a lamp of alpha 0.5 at a quarter");
     instance.flags |= RESTAGE_INSTANCE_EMITS | (two_sided ? std::uint32_t(RESTAGE_INSTANCE_TWO_SIDED) : 0u);
     instance.emission[0] = static_cast<float>(radiance.r);
     instance.emission[1] = static_cast<float>(radiance.g);
@@ -359,7 +360,7 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
                              "emits evenly, with the strength of a white picture; written back as it is");
         missing_files_of(d, "AreaLightSource");
     }
-    if (picture || (power > 0 && !has_area)) { // all of it, as long as the colour is this
+    if (picture || (power > 0 && !has_area)) { // the whole line, valid while the colour is unchanged
         exact = "=emission";
         for (const float x : instance.emission)
             exact += " " + shortest(static_cast<double>(x));
@@ -369,7 +370,7 @@ std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageI
         exact += "\n";
     }
     import_.keep_unused(d.params, "AreaLightSource " + quote(d.name));
-    d.params.mark_all_used(); // said once
+    d.params.mark_all_used(); // reported once
     return exact;
 }
 
@@ -382,7 +383,7 @@ void Builder::object_instance(const Directive& d) {
     if (!open_object_.empty())
         throw ImportError{d.at, "ObjectInstance inside ObjectBegin; pbrt does not nest objects: move it out"};
     const auto found = objects_.find(d.name.empty() ? " " : d.name);
-    if (found == objects_.end() && later_objects_.count(d.name)) { // v4 looks when it has read the file
+    if (found == objects_.end() && later_objects_.count(d.name)) { // v4 resolves names after reading the file
         late_instances_.push_back({&d, state_, next_});
         return;
     }

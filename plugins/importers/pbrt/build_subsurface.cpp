@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light under the surface is not simulated: an opaque material that sends back as much, of the same colour, stands for
+// Light under the surface is not simulated: an opaque material that reflects as much, of the same colour, replaces
 // pbrt's subsurface and kdsubsurface.
 #include "builder.hpp"
 #include "medium_data.hpp"
@@ -24,7 +24,7 @@ double diffuse_reflectance(double absorption, double reduced_scattering, double 
     return albedo / 2 * (1 + std::exp(-4.0 / 3 * a * t)) * std::exp(-t);
 }
 
-// The albedo of a diffuse base that sends back `all` through a smooth coat, what is reflected back inside counted.
+// The albedo of a diffuse base that reflects `all` through a smooth coat, including interreflection under the coat.
 double base_under_coat(double all, double eta) {
     const double inside = internal_reflectance(eta);
     return all / (1 - inside + inside * all);
@@ -32,7 +32,7 @@ double base_under_coat(double all, double eta) {
 
 } // namespace
 
-// What of the light that enters comes out again, as a colour or a texture of it.
+// The share of entering light that leaves again, as a colour or a texture.
 Argument Builder::subsurface_reflectance(const Directive& d, const std::string& type, double eta) {
     const Rgb half{0.5, 0.5, 0.5};
     if (type == "kdsubsurface") return color_argument(d, "Kd", Role::albedo, half);
@@ -40,13 +40,13 @@ Argument Builder::subsurface_reflectance(const Directive& d, const std::string& 
     const MediumPreset* preset = medium_preset(name.empty() ? default_medium : name);
     if (!preset) {
         import_.warned(d.at, "Material " + quote(type),
-                       "no medium is called " + quote(name) + "; whole milk stands for it");
+                       "no medium is called " + quote(name) + "; whole milk is used instead");
         preset = medium_preset(default_medium);
     }
     const bool measured = import_.v3() || d.params.has("sigma_a") || d.params.has("sigma_s");
     if (name.empty() && !measured && d.params.has("reflectance"))
         return color_argument(d, "reflectance", Role::albedo, half);
-    // v4: a name excludes the coefficients; v3: they are what the name says unless they are given.
+    // v4: a name excludes the coefficients; v3: they default to the name's.
     const bool given = name.empty() || import_.v3();
     const auto coefficient = [&](const char* of, Rgb otherwise) {
         Argument out{0, otherwise};
@@ -60,7 +60,7 @@ Argument Builder::subsurface_reflectance(const Directive& d, const std::string& 
     };
     const Rgb absorption = coefficient("sigma_a", preset->absorption),
               scattering = coefficient("sigma_s", preset->scattering);
-    const double g = name.empty() ? d.params.number("g", 0) : 0; // those of a name are reduced already
+    const double g = name.empty() ? d.params.number("g", 0) : 0; // a name's are already reduced
     const auto of = [&](double absorbed, double scattered) {
         return diffuse_reflectance(absorbed, scattered * (1 - g), eta);
     };
@@ -75,7 +75,7 @@ std::string Builder::subsurface(const Directive& d, const std::string& type, Val
     put_index(values, "eta", d, "eta", 1.33);
     put_roughness(values, d, "", 0);
     values.choice("remap", !d.params.boolean("remaproughness", true) ? "none" : import_.v3() ? "v3" : "v4");
-    if (all.texture) { // the way through a coat is not linear in the texture: a gloss over it, which only adds, stands
+    if (all.texture) { // transmission through a coat is not linear in the texture: use a gloss over it, which only adds
         plugin = "uber";
         const bool rough = d.params.has("roughness") || d.params.has("uroughness") || d.params.has("vroughness");
         const double facing = (eta - 1) / (eta + 1) * ((eta - 1) / (eta + 1));
@@ -85,12 +85,12 @@ std::string Builder::subsurface(const Directive& d, const std::string& type, Val
             values.color(lobe, {share, share, share});
         }
         values.color("opacity", {1, 1, 1});
-        return "light under the surface is not simulated; an opaque one with its texture under a gloss stands for it";
+        return "light under the surface is not simulated; an opaque one with its texture under a gloss is used instead";
     }
     plugin = "coateddiffuse";
     const Rgb c = all.value;
     values.color("reflectance", {base_under_coat(c.r, eta), base_under_coat(c.g, eta), base_under_coat(c.b, eta)});
-    return "light under the surface is not simulated; a coated diffuse one that reflects as much stands for it";
+    return "light under the surface is not simulated; a coated diffuse one that reflects as much is used instead";
 }
 
 } // namespace restage::pbrt

@@ -36,7 +36,7 @@ RestageHandle Builder::find_texture(const Directive& d, const char* name, bool i
     if (const auto found = own.find(texture); found != own.end()) {
         if (found->second == 0)
             import_.lost(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
-                         "it could not be made; the default stands for it");
+                         "it could not be created; the default is used instead");
         return found->second;
     }
     if (const auto later = later_textures_.find({texture, is_float}); later != later_textures_.end()) {
@@ -55,9 +55,9 @@ RestageHandle Builder::find_texture(const Directive& d, const char* name, bool i
     const bool wrong_kind = other.count(texture) > 0;
     import_.lost(d.at, "texture " + quote(texture) + " of \"" + name + "\"",
                  wrong_kind
-                     ? (is_float ? "it is a spectrum texture where a float one is needed; the default stands for it"
-                                 : "it is a float texture where a spectrum one is needed; the default stands for it")
-                     : "no texture has that name; the default stands for it");
+                     ? (is_float ? "it is a spectrum texture where a float one is needed; the default is used instead"
+                                 : "it is a float texture where a spectrum one is needed; the default is used instead")
+                     : "no texture has that name; the default is used instead");
     return 0;
 }
 
@@ -109,7 +109,7 @@ void Builder::put_color(Values& values, const char* id, const Directive& d, cons
 void Builder::keep_exact(const char* id, const Directive& d, const char* name) {
     if (!d.params.has(name)) return;
     const Param& param = *d.params.find(name);
-    if (param.type == "texture" && files_are_missing_ && param.strings.size() == 1) { // one of them may define it
+    if (param.type == "texture" && files_are_missing_ && param.strings.size() == 1) { // a missing file may define it
         for (const auto* map : {&state_.names->float_textures, &state_.names->color_textures})
             if (map->count(param.strings[0])) return;
         exact_ += std::string("=") + id + " " + to_text(param) + "\n";
@@ -124,7 +124,7 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
                              bool keep_missing) {
     const std::string path = import_.resolve(file, d.at).string();
     std::error_code code;
-    std::string as_written; // of what is not there
+    std::string as_written; // of missing files
     if (!std::filesystem::is_regular_file(path, code)) {
         const bool there = std::filesystem::exists(path, code);
         import_.lost(d.at, "image " + quote(file),
@@ -156,7 +156,7 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
         import_.lost(d.at, std::string(what) + " " + quote(d.name), "it names no file");
         return 0;
     }
-    // How 8-bit texels are encoded; float files are linear whatever this says. pbrt-v3 imagemap.cpp: "gamma" is sRGB,
+    // How 8-bit texels are encoded; float files are always linear. pbrt-v3 imagemap.cpp: "gamma" is sRGB,
     // default true for TGA and PNG. pbrt-v4 textures.cpp: PNG obeys "encoding" (default sRGB), while all that stb
     // reads (TGA, JPEG, BMP) is sRGB always (image.cpp). Scalar and colour textures are alike in both.
     RestageEncoding encoding = RESTAGE_SRGB;
@@ -186,7 +186,7 @@ RestageHandle Builder::image_texture(const Directive& d, const char* what) {
     return image(d, file, encoding, gamma, true);
 }
 
-// Shapes of pbrt's texture classes in the host's terms; what has none keeps its text and shades as an average.
+// Shapes of pbrt's texture classes in the host's terms; those without one keep their text and shade as an average.
 void Builder::texture(const Directive& d) {
     const bool is_float = d.second == "float";
     if (!is_float && d.second != "spectrum" && d.second != "color")
@@ -243,12 +243,12 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
             }
         placed = true;
     };
-    // What is not rendered: its own values, for exporters, and an average to be seen.
+    // An unrendered class: its own values, for exporters, and an average to show.
     const auto put_average = [&](Rgb average, const char* note) {
         values.color("average", average);
         if (!type_is_rendered) import_.approximated(d.at, what + " (" + d.third + ")", note);
     };
-    const auto put_noise = [&](bool has_octaves) { // in space: where the texture's transform puts it
+    const auto put_noise = [&](bool has_octaves) { // in space: placed by the texture's transform
         placed = true;
         if (const auto to_texture = table ? inverse(ctm(d)) : std::nullopt; to_texture && !(*to_texture == Matrix{})) {
             const char* const ids[3][4] = {{"x_from_x", "x_from_y", "x_from_z", "origin_x"},
@@ -300,7 +300,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         if (mode == std::end(modes)) import_.warned(d.at, what, "wrap " + quote(wrap) + " is done as repeat");
         values.choice("wrap", mode == std::end(modes) ? "repeat" : *mode);
         put_mapping();
-        for (const char* quiet : {"filter", "maxanisotropy", "trilinear"}) // how, not what
+        for (const char* quiet : {"filter", "maxanisotropy", "trilinear"}) // affects sampling only
             if (d.params.has(quiet)) (kept += to_text(*d.params.find(quiet))) += '\n';
     } else if (type == "checkerboard" || type == "dots" || type == "bilerp" || type == "directionmix") {
         const char *corners[] = {"v00", "v01", "v10", "v11"}, *sides[] = {"inside", "outside"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directive by directive: what each does to the graphics state, and who makes a thing of it. The stack of states is
+// What each directive does to the graphics state, and which function makes a thing of it. The stack of states is
 // build_scopes.cpp's.
 #include "builder.hpp"
 
@@ -39,7 +39,7 @@ bool Builder::run(SceneFile& scene) {
             later_textures_.emplace(std::pair(directive.name, directive.second == "float"), &directive);
     }
     for (const Directive& directive : scene.directives)
-        if (directive.verb == Verb::film) film_ = &directive; // a camera before it may ask for its size
+        if (directive.verb == Verb::film) film_ = &directive; // a camera before it may use its size
     std::size_t done = 0;
     for (Directive& directive : scene.directives) {
         ++done;
@@ -54,7 +54,7 @@ bool Builder::run(SceneFile& scene) {
         if (directive.verb != Verb::shape && directive.verb != Verb::film)
             import_.make_files_absolute(directive.params);
         step(directive);
-        if (directive.verb == Verb::shape) directive.params = {}; // done with: the host has its copy
+        if (directive.verb == Verb::shape) directive.params = {}; // no longer needed: the host has its copy
     }
     finish(scene);
     return true;
@@ -63,7 +63,7 @@ bool Builder::run(SceneFile& scene) {
 void Builder::finish(const SceneFile& scene) {
     if (!scene.has_world_begin)
         throw ImportError{scene.end,
-                          "there is no WorldBegin: this file is no whole scene; open the file that includes it" +
+                          "there is no WorldBegin: this file is not a whole scene; open the file that includes it" +
                               std::string(scene.has_missing_file ? ", or find the files that it includes" : "")};
     for (; import_.v3() && !stack_.empty(); stack_.pop_back()) { // api.cpp, pbrtWorldEnd
         const Directive& opened = *stack_.back().opened;
@@ -88,8 +88,8 @@ void Builder::finish(const SceneFile& scene) {
     flush_environment();
 }
 
-// An Include or Import that is not there. Before WorldBegin it can only be settings; after it, it is placed where it
-// was.
+// A missing Include or Import. Before WorldBegin it can only hold settings; after it, it keeps its
+// place.
 void Builder::missing_file(const Directive& d) {
     import_.lost(d.at, d.word + " " + quote(d.name), d.third + ": " + d.second + "; its place is kept");
     const std::string line = d.word + " " + quote(d.name);
@@ -108,7 +108,7 @@ bool Builder::in_world(const Directive& directive) {
     throw ImportError{directive.at, directive.word + " must come after WorldBegin"};
 }
 
-// As in_world, of what may stand before WorldBegin here in v4.
+// As in_world, for directives that v4 here also allows before WorldBegin.
 bool Builder::in_world_v3(const Directive& d) { return !import_.v3() || d.ours || in_world(d); }
 
 const Matrix& Builder::ctm(const Directive& directive) {
@@ -119,7 +119,7 @@ const Matrix& Builder::ctm(const Directive& directive) {
 }
 
 Names& Builder::writable_names() {
-    // v3: copied when an enclosing block shares it. v4: there is only one.
+    // v3: copied if an enclosing block shares it. v4: there is only one.
     if (import_.v3() && state_.names.use_count() > 1) state_.names = std::make_shared<Names>(*state_.names);
     return *state_.names;
 }
@@ -127,7 +127,7 @@ Names& Builder::writable_names() {
 void Builder::add_attributes(Directive& directive, const char* target) {
     const auto found = state_.attributes.find(target);
     if (found == state_.attributes.end()) return;
-    // In front, so that what the directive says itself wins.
+    // In front, so that the directive's own parameters win.
     auto& own = directive.params.params;
     own.insert(own.begin(), found->second.params.begin(), found->second.params.end());
     directive.params.keep_last();
@@ -222,7 +222,7 @@ void Builder::step(Directive& d) {
                 state_.color_space = *space;
             else
                 import_.warned(d.at, "ColorSpace " + quote(d.name),
-                               "pbrt knows srgb, dci-p3, rec2020, aces2065-1; the one before goes on");
+                               "pbrt knows srgb, dci-p3, rec2020, aces2065-1; the previous one stays");
             break;
         case Verb::attribute:
             if (d.name != "shape" && d.name != "light" && d.name != "material" && d.name != "medium" &&
@@ -248,7 +248,7 @@ void Builder::step(Directive& d) {
             missing_file(d);
             break;
         case Verb::ignored:
-            import_.dropped(d.at, d.word + " " + quote(d.name), "of pbrt-v1 and v2; nothing stands for it");
+            import_.dropped(d.at, d.word + " " + quote(d.name), "of pbrt-v1 and v2; nothing replaces it");
             break;
         case Verb::world_begin:
             if (world_ && import_.v3()) {
@@ -299,7 +299,7 @@ void Builder::step(Directive& d) {
             break;
         case Verb::object_end:
             if (!in_world(d)) break;
-            if (open_object_.empty() && import_.v3()) { // it closes the block all the same
+            if (open_object_.empty() && import_.v3()) { // it still closes the block
                 import_.warned(d.at, d.word, "without an ObjectBegin before it");
                 if (stack_.empty()) break;
             }
@@ -314,9 +314,9 @@ void Builder::step(Directive& d) {
             state_.exterior = d.second;
             break;
         case Verb::make_named_medium:
-            if (!import_.v3() && later_media_.erase(d.name) == 0) { // made ahead, or there twice
+            if (!import_.v3() && later_media_.erase(d.name) == 0) { // created ahead, or duplicate
                 if (made_media_.erase(d.name) == 0)
-                    import_.lost(d.at, "medium " + quote(d.name), "there is one of that name already; that one counts");
+                    import_.lost(d.at, "medium " + quote(d.name), "that name exists already; the first one counts");
                 break;
             }
             add_attributes(d, "medium");
@@ -341,15 +341,14 @@ void Builder::step(Directive& d) {
             }
             if (later_materials_.erase(d.name) == 0 && !import_.v3() && state_.names->materials.count(d.name)) {
                 if (made_materials_.erase(d.name) == 0)
-                    import_.lost(d.at, "material " + quote(d.name),
-                                 "there is one of that name already; that one counts");
+                    import_.lost(d.at, "material " + quote(d.name), "that name exists already; the first one counts");
                 break; // made ahead
             }
             if (import_.v3() && state_.names->materials.count(d.name))
                 import_.warned(d.at, "material " + quote(d.name), "is defined again; from here on this one counts");
             if (import_.v3() && !d.params.has("type") && !d.params.has("plugin"))
                 import_.warned(d.at, "material " + quote(d.name),
-                               "it has no \"string type\"; it is no surface, as in pbrt");
+                               "it has no \"string type\"; it is a null surface, as in pbrt");
             const RestageHandle handle = material(d, d.name, d.params.string("type", ""));
             writable_names().materials[d.name] = handle;
             writable_names().material_sources[d.name] = &d;
@@ -359,7 +358,7 @@ void Builder::step(Directive& d) {
             if (!in_world_v3(d)) break;
             if (import_.v3() && !state_.names->materials.count(d.name) && !files_are_missing_) {
                 import_.warned(d.at, "NamedMaterial " + quote(d.name),
-                               "no material has that name; the one before goes on");
+                               "no material has that name; the previous one stays");
                 break;
             }
             state_.material = named_material(d, d.name);

@@ -19,10 +19,10 @@ struct State { // pbrt's graphics state
     Matrix ctm[2]; // at the start and end of the shutter
     unsigned active = 3;
     bool reverse_orientation = false;
-    RestageHandle material = 0; // 0 = the default, made when first needed
-    const Directive* material_from = nullptr; // what made it; v3: shapes may override its parameters
+    RestageHandle material = 0; // 0 = the default, created when first needed
+    const Directive* material_from = nullptr; // its directive; v3: shapes may override its parameters
     RestageHandle group = 0; // of comments `# group: ...`
-    std::string label, name; // words before the block; what things in it are called, by `# name:`
+    std::string label, name; // words before the block; names of its contents, from `# name:`
     const Directive* area_light = nullptr;
     std::string interior, exterior;
     ColorSpace color_space = ColorSpace::srgb;
@@ -53,7 +53,7 @@ class Builder {
     void add_attributes(Directive& directive, const char* target);
     Names& writable_names();
     const Matrix& ctm(const Directive& directive); // at shutter opening; motion is reported
-    bool in_world(const Directive& directive); // v3: false where it must be left out
+    bool in_world(const Directive& directive); // v3: false if it must be left out
     bool in_world_v3(const Directive& directive);
     void missing_file(const Directive& directive);
 
@@ -71,7 +71,7 @@ class Builder {
 
     // build_textures.cpp
     void texture(const Directive& directive);
-    // A file that is missing is reported; `keep_missing`: its name is kept, so that it can be found later.
+    // A file that is missing is reported; `keep_missing`: its name is kept, so that it can be relinked later.
     RestageHandle image(const Directive& directive, const std::string& file, RestageEncoding encoding, float gamma,
                         bool keep_missing);
     RestageHandle image_texture(const Directive& directive, const char* what);
@@ -93,7 +93,7 @@ class Builder {
     bool material_v3(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool material_of_plugin(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     bool is_rgl(const Directive& d) const; // pbrt-v4's own measured data: another format than MERL's
-    bool is_for_plugin(const Directive& d) const; // names one, and it is there
+    bool is_for_plugin(const Directive& d) const; // names one that exists
     Rgb hair_color(const Directive& d);
     std::string subsurface(const Directive& d, const std::string& type, Values& values, std::string& plugin);
     Argument subsurface_reflectance(const Directive& d, const std::string& type, double eta);
@@ -110,13 +110,13 @@ class Builder {
 
     // build_shapes.cpp
     void shape(const Directive& directive);
-    // What could not be read stays: a mesh without triangles that stands for these lines, and an instance of it.
+    // Unreadable things stay: a mesh without triangles that stands in for these lines, and an instance of it.
     RestageHandle missing_mesh(const std::string& name, const std::string& line, const std::string& file = "");
     void placeholder(const Directive& directive, const std::string& name, const std::string& line,
                      const std::string& file = "");
     RestageHandle mesh(const Directive& directive, const std::string& name, const Mesh*& data);
     RestageHandle ply_mesh(const Directive& directive, const std::string& name, const Mesh*& data);
-    // All of an instance but mesh, name and emission.
+    // All of an instance except mesh, name and emission.
     RestageInstance instance_of(const Directive& shape, const Matrix& to_world);
     void place(RestageInstance instance, const std::string& name, const std::string& verbatim);
     void curve(const Directive& directive, const Matrix& to_world, const std::string& name,
@@ -157,7 +157,7 @@ class Builder {
     std::string camera_exterior_;
     std::string option_lines_; // verbatim, of directives that only pbrt understands
     std::map<std::string, const Directive*> later_materials_; // v4: NamedMaterial may come first
-    std::set<std::string> materials_of_plugins_; // by such a line; pbrt's own of that name is skipped
+    std::set<std::string> materials_of_plugins_; // defined by such a line; pbrt's own of that name is skipped
     std::set<std::string> made_materials_, made_media_; // ahead of their line
     int material_depth_ = 0;                                  // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
@@ -165,8 +165,8 @@ class Builder {
     std::map<std::pair<std::string, bool>, const Directive*> later_textures_; // v4: by name and "is of floats"
     std::set<std::pair<std::string, bool>> made_textures_; // ahead of their line
     int texture_depth_ = 0; // of textures made ahead
-    std::map<RestageHandle, double> missing_texels_; // images that are not there: what pbrt-v3 has in their place
-    bool files_are_missing_ = false; // of Include and Import: what they define is kept by its name
+    std::map<RestageHandle, double> missing_texels_; // missing images: what pbrt-v3 puts in their place
+    bool files_are_missing_ = false; // missing Include and Import: what they define is kept by name
     std::set<RestageHandle> interfaces_; // materials without a surface
     std::set<RestageHandle> zero_textures_; // constants of 0: pbrt-v4 knows lamps of such an alpha
     std::set<RestageHandle> hair_;
@@ -188,8 +188,8 @@ class Builder {
     std::deque<CurveGroup> curves_;
     std::multimap<std::string, CurveGroup*> curves_by_state_;
     std::string open_object_;
-    std::map<std::string, RestageHandle> mesh_cache_; // by what they are made from
-    std::map<std::string, std::map<std::string, bool>> odd_parameters_; // of those: not asked for, "and misfit"
+    std::map<std::string, RestageHandle> mesh_cache_; // by their source
+    std::map<std::string, std::map<std::string, bool>> odd_parameters_; // of those: unused, "and misfit"
     std::map<std::string, Mesh> emitter_meshes_;
     std::map<std::string, RestageHandle> images_, materials_by_content_;
     std::map<std::pair<RestageHandle, double>, RestageHandle> scaled_textures_;
@@ -198,11 +198,11 @@ class Builder {
     RestageHandle default_material_ = 0;
     std::map<RestageHandle, std::string> material_names_; // of named ones
 
-    struct Next { // what comments say of the next thing
+    struct Next { // from comments, for the next thing
         std::string name, label, mesh; // label: guessed
         std::vector<std::string> members;
         bool alone = false;
-        bool material_shines = false; // an area light that is written for other programs
+        bool material_shines = false; // an area light written for other programs
     } next_;
     struct Late { // an ObjectInstance before its ObjectBegin
         const Directive* directive;
@@ -220,10 +220,10 @@ class Builder {
         RestageEnvironment value{};
         std::string name, verbatim;
         Location at;
-        // As they stand in the file, with their transforms: what another light takes the place of.
+        // As in the file, with their transforms: lights that another one replaces.
         std::vector<std::pair<std::string, std::array<Matrix, 2>>> lines;
         const Directive* from = nullptr;
-        bool is_missing = false; // its picture is not there
+        bool is_missing = false; // its picture is missing
     } environment_;
     void displace_environment(const std::string& why);
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_text = std::size_t(256) << 20; // [byte] kept for export
 
-// What a batch may cost in triangles at each level of detail; the last level has no limit.
+// A batch's triangle budget at each level of detail; the last level has no limit.
 struct Level {
     int sides;
     double error; // of the widths
@@ -36,7 +36,7 @@ struct Bezier {
     }
 };
 
-// The Bezier points of the segment after `have` points are there: B-splines by Boehm 1981 for uniform knots, degree 2
+// The Bezier points of the segment after the first `have` points: B-splines by Boehm 1981 for uniform knots, degree 2
 // by raising it.
 void add_segment(std::vector<Vec3>& out, const Vec3* p, int degree, bool bspline) {
     Vec3 b[4];
@@ -112,7 +112,7 @@ void CurveBatch::add(const Directive& d, const Matrix& to_batch) {
     const double scale = moved ? similarity(to_batch).value_or(1) : 1;
     const double width = params.number("width", 1);
     const double w[2] = {params.number("width0", width) * scale, params.number("width1", width) * scale};
-    params.find("splitdepth"); // how, not what
+    params.find("splitdepth"); // affects tessellation only
 
     const auto order = static_cast<std::size_t>(degree);
     std::vector<Vec3> given = triples(params.has("P") ? params.find("P") : nullptr, d);
@@ -138,7 +138,7 @@ void CurveBatch::add(const Directive& d, const Matrix& to_batch) {
     for (std::size_t s = 0; s < segments; ++s)
         add_segment(bezier, given.data() + s * (bspline ? 1 : order), degree, bspline);
     keep_text(params, given, normals, w, moved);
-    // One that lies on another of the same shape is not seen; but each of thousands would be asked for every ray.
+    // A duplicate curve is invisible; but thousands of them would be intersected by every ray.
     std::vector<float> shape{static_cast<float>(w[0]), static_cast<float>(w[1]), is_ribbon ? 1.f : 0.f};
     for (const Vec3 p : bezier)
         push(shape, p);

@@ -13,7 +13,7 @@ namespace restage::pbrt {
 
 class CurveBatch {
   public:
-    // `to_batch`: from the curve's frame to the batch's; must be a similarity. Throws ImportError for what is no curve.
+    // `to_batch`: from the curve's frame to the batch's; must be a similarity. Throws ImportError for an invalid curve.
     void add(const Directive& shape, const Matrix& to_batch);
     std::size_t size() const { return strands_.size(); }
     std::size_t coincident() const { return coincident_; } // left out: they lie on others
@@ -46,7 +46,7 @@ class CurveBatch {
     bool too_many_for_text_ = false;
 };
 
-// Uniform scaling, rotation, mirror, translation; gives the scale.
+// Uniform scaling, rotation, mirror, translation; returns the scale.
 std::optional<double> similarity(const Matrix& matrix);
 
 } // namespace restage::pbrt

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene file as a flat list of directives: syntax checked, Include and Import resolved, nothing interpreted yet. The
-// list exists because defaults depend on the version of pbrt, and the version may show only at the last line.
+// list exists because defaults depend on the version of pbrt, and the last line alone may reveal the version.
 #pragma once
 
 #include "params.hpp"
@@ -34,7 +34,7 @@ enum class Verb {
     make_named_medium,
     material,
     medium_interface,
-    missing_file, // an Include or Import: `name` as it is written, `second` where it was looked for, `third` why not
+    missing_file, // an Include or Import: `name` as written, `second` the path tried, `third` why it failed
     named_material,
     object_begin,
     object_end,
@@ -78,16 +78,16 @@ struct SceneFile {
 };
 
 // Parses file 0 of `sources` and what it includes; throws ImportError. `folder`: of the main file, where pbrt looks for
-// everything the scene names. `goes_on` is asked now and then; when it says no, parsing stops and nullopt is returned.
+// everything the scene names. `goes_on` is called now and then; if it returns false, parsing stops and returns nullopt.
 std::optional<SceneFile> parse(Sources& sources, const std::filesystem::path& folder,
                                const std::function<bool()>& goes_on);
 
-// Is there a Sampler, Integrator or Accelerator of that name? Others are v2's, or slips; pbrt stops at them.
+// Is there a Sampler, Integrator or Accelerator of that name? Others are v2's, or typos; pbrt stops at them.
 bool pbrt_has(Verb kind, std::string_view name, bool v3);
 
 bool is_directive(std::string_view word);
 
-// pbrt-v3 or v4, by what only one of them knows; v4 when there is no evidence. `evidence` is one sentence of proof.
+// pbrt-v3 or v4, by what only one of them knows; v4 if there is no evidence. `evidence` is one sentence of proof.
 Version detect_version(const SceneFile& scene, const Sources& sources, std::string& evidence);
 
 } // namespace restage::pbrt

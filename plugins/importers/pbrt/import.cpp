@@ -31,7 +31,7 @@ void Values::material(const char* id, RestageHandle handle) {
 }
 
 void Import::report(RestageFate fate, Location at, std::string what, std::string note) {
-    // What is folded: everything of `what` but quoted names, so `Shape "curve"` of many lines is one line.
+    // The folding key: everything in `what` but quoted names, so `Shape "curve"` of many lines is one line.
     std::string kind;
     bool quoted = false;
     for (const char c : what) {
@@ -94,9 +94,9 @@ std::string Import::keep_unused(const ParamList& params, const std::string& what
             return;
         }
         if (param.misfit)
-            warned(param.at, what, name + "has a value of the wrong kind; the default stands for it");
+            warned(param.at, what, name + "has a value of the wrong kind; the default is used instead");
         else if (!is_pbrt_parameter(param.name))
-            warned(param.at, what, name + "is none that pbrt has; written back as it is");
+            warned(param.at, what, name + "is unknown to pbrt; written back as it is");
         else if (!quiet)
             kept(param.at, what, name + "means nothing to the renderer; written back as it is");
         (verbatim += to_text(param)) += '\n';
@@ -116,7 +116,7 @@ std::filesystem::path Import::resolve(const std::string& name, Location at) cons
         return fs::exists(beside_file, code) ? beside_file : beside_main;
     };
     fs::path path = find(name);
-    if (name.find('\\') != name.npos && !fs::exists(path, code)) { // written on Windows
+    if (name.find('\\') != name.npos && !fs::exists(path, code)) { // a path from Windows
         std::string slashes = name;
         std::replace(slashes.begin(), slashes.end(), '\\', '/');
         path = find(slashes);
@@ -144,8 +144,8 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
     std::optional<Spectrum>& out_spectrum = spectra_[path];
     std::string reason;
     auto bytes = FileBytes::open(path, reason);
-    // pbrt-v3 goes on with a black one (paramset.cpp, AddSampledSpectrumFiles).
-    const char* stand_in = v3() ? "; it is black" : "; the default stands for it";
+    // pbrt-v3 continues with a black one (paramset.cpp, AddSampledSpectrumFiles).
+    const char* stand_in = v3() ? "; it is black" : "; the default is used instead";
     const auto black = [&] {
         if (v3()) out_spectrum = from_pairs({360, 0, 830, 0}, Ends::constant);
         return out_spectrum;
@@ -167,7 +167,7 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
         if (lexer.peek().kind == TokenKind::end_of_file)
             out_spectrum = from_pairs(pairs, v3() ? Ends::constant : Ends::zero);
         else
-            reason = "line " + std::to_string(lexer.here().line) + " is no number";
+            reason = "line " + std::to_string(lexer.here().line) + " is not a number";
     } catch (const ImportError& error) {
         reason = "line " + std::to_string(error.at.line) + ": " + error.message;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all parts of one import share: the host's writer, the report, the version's conventions, where files are found,
-// and colours. It knows no directive.
+// and colours. It does not know directives.
 #pragma once
 
 #include "directives.hpp"
@@ -45,10 +45,10 @@ class Import {
     bool v3() const { return version == Version::v3; }
     const char* format() const { return v3() ? "pbrt-v3" : "pbrt-v4"; }
 
-    // A line of the report. Lines that say the same of the same kind of thing are folded into the first one.
+    // A line of the report. Lines that repeat a note about the same kind of thing are folded into the first.
     void report(RestageFate fate, Location at, std::string what, std::string note);
-    // The file is at fault, and pbrt would warn and go on (or stop, where a file it names is not there): `warned`:
-    // something else stands for it; `lost`: nothing does.
+    // The file is at fault, and pbrt would warn and continue (or stop, if a file it names is missing): `warned`:
+    // something else replaces it; `lost`: nothing does.
     void warned(Location at, std::string what, std::string note) {
         report(RESTAGE_APPROXIMATED, at, std::move(what), std::move(note));
     }
@@ -60,14 +60,14 @@ class Import {
     void dropped(Location at, std::string what, std::string note) { report(RESTAGE_DROPPED, at, what, note); }
     void flush_report();
 
-    // Parameters nobody asked for, and values of the wrong kind: reported, and returned as verbatim lines. `quiet`: not
+    // Unused parameters, and values of the wrong kind: reported, and returned as verbatim lines. `quiet`: except
     // those that only pbrt understands.
     std::string keep_unused(const ParamList& params, const std::string& what, bool quiet = false);
 
-    // Where the scene means: beside the main file, else beside the file that says it. Absolute; may not exist.
+    // Resolves a path: beside the main file, else beside the file that names it. Absolute; may not exist.
     std::filesystem::path resolve(const std::string& name, Location at) const;
 
-    // Files that are there, by their absolute path: what is kept verbatim is written elsewhere.
+    // Makes existing files' paths absolute: verbatim lines are written elsewhere.
     void make_files_absolute(ParamList& params) const;
 
     // A colour parameter in linear sRGB. nullopt: absent, a texture, or unreadable (reported).
@@ -78,8 +78,8 @@ class Import {
     // The spectrum of a parameter of type "spectrum"; nullopt if it is of another type, absent or unreadable.
     std::optional<Spectrum> spectrum(const ParamList& params, std::string_view name);
 
-    // Of this format. `lines`: kept verbatim, but for "=id text", what the value `id` was before it was reduced, and
-    // "=* text", a line of what the whole thing was. Lives as long as this.
+    // Of this format. `lines`: kept verbatim, except "=id text", the value `id` before it was reduced, and
+    // "=* text", a line of the original thing. Lives as long as this.
     const RestageOrigin* origin(const std::string& lines = "");
 
   private:
@@ -94,7 +94,7 @@ class Import {
         std::vector<RestageOriginValue> values;
         RestageOrigin given;
     };
-    std::map<std::string, OriginLines> origins_; // by the lines they were made of
+    std::map<std::string, OriginLines> origins_; // by their source lines
 
     struct Line {
         RestageFate fate;

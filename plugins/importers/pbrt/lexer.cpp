@@ -25,7 +25,7 @@ std::string quoted(std::string_view text) {
 
 namespace {
 
-// About the power of ten of a decimal number: huge or tiny is all that is asked. Saturates.
+// About the power of ten of a decimal number: only huge or tiny matters. Saturates.
 long long power_of_ten(std::string_view text) {
     constexpr long long most = 1'000'000'000'000;
     const std::size_t e = std::min(text.find_first_of("eE"), text.size());
@@ -49,7 +49,7 @@ double parse_number(std::string_view text, Location at) {
     double value = 0;
     const auto [stop, code] = std::from_chars(begin, end, value);
     if (stop == end && begin != end && code == std::errc::result_out_of_range) {
-        // from_chars says the same of 1e-400 and of 1e400; only the first is harmless.
+        // from_chars reports 1e-400 and 1e400 alike; only the first is harmless.
         if (power_of_ten(text) < 0) return text.starts_with('-') ? -0.0 : 0.0;
         throw ImportError{at, "number " + quoted(text) + " is too large for a double; write a smaller one"};
     }
@@ -82,7 +82,7 @@ Location Lexer::place(const Frame& frame, const char* at) const {
     return {frame.file, frame.line, static_cast<std::uint32_t>(at - frame.line_start) + 1};
 }
 
-// At '#': takes the comment, or only its mark when what follows is meant for us.
+// At '#': takes the comment, or only its mark if the rest is for us.
 void Lexer::skip_comment(Frame& frame) {
     constexpr std::string_view mark = "#restage ";
     const bool own_line = std::all_of(frame.ours_from ? frame.ours_from : frame.line_start, frame.at, is_blank);
@@ -145,7 +145,7 @@ double Lexer::number_in(const Token& word) {
     const char* number = begin != end && *begin == '+' ? begin + 1 : begin;
     const auto [stop, code] = std::from_chars(number, end, value);
     if (code != std::errc() || stop == end || stop == number || !std::isfinite(value))
-        return parse_number(word.text, word.at); // in full, or it says what is wrong
+        return parse_number(word.text, word.at); // in full, or throws
     slips_.push_back({word.at, "number " + quoted(word.text),
                       "pbrt reads " + std::string(begin, stop) + " and leaves the rest out; separate numbers by spaces",
                       false});
@@ -170,7 +170,7 @@ bool Lexer::number(double& value) {
         frame.at = stop;
         return true;
     }
-    value = number_in(scan()); // says what is wrong with it
+    value = number_in(scan()); // reports what is wrong with it
     return true;
 }
 
@@ -241,7 +241,7 @@ std::string unescape(std::string_view raw) {
                 out += next;
                 break;
             default:
-                (out += '\\') += next; // "textures\wood.png": a path of Windows, not an escape
+                (out += '\\') += next; // "textures\wood.png": a Windows path, not an escape
         }
     }
     return out;

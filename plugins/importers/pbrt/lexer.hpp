@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tokens of pbrt scene files, each with its place, over a stack of included files. Knows no directive.
-// Lines that start with `#restage ` are comments to pbrt and text to this lexer: what Restage keeps and pbrt has no
-// place for.
+// Tokens of pbrt scene files, each with its place, over a stack of included files. Does not know directives.
+// Lines that start with `#restage ` are comments to pbrt and text to this lexer: what Restage keeps and pbrt cannot
+// express.
 #pragma once
 
 #include "source.hpp"
@@ -30,8 +30,8 @@ class Lexer {
   public:
     explicit Lexer(Sources& sources) : sources_(sources) {}
 
-    // Reads `file` next, then goes on where it was. `included`: its tokens and those that follow are one stream, as
-    // pbrt has it: a file may end between a shape's parameters. Else its end is a token.
+    // Reads `file` next, then continues where it was. `included`: its tokens and those that follow are one stream, as
+    // in pbrt: a file may end between a shape's parameters. Else its end is a token.
     void push(std::uint32_t file, bool included = false);
     void pop() { frames_.pop_back(); }
     std::size_t depth() const { return frames_.size(); }
@@ -43,7 +43,7 @@ class Lexer {
     const Token& peek();
     // If the next token is a number, takes it: the fast way through long arrays. Throws on NaN and overflow.
     bool number(double& value);
-    // The number a word begins with, as pbrt takes it (strtof): what follows, as in "0," or "1.2.3", is a slip.
+    // The number a word begins with, as pbrt takes it (strtof): the rest, as in "0," or "1.2.3", is a typo.
     double number_in(const Token& word);
     std::vector<Slip> take_slips() { return std::move(slips_); }
     Location here();
@@ -62,7 +62,7 @@ class Lexer {
         const char* ours_from = nullptr; // behind the last `#restage `, while its line lasts
         bool included = false;
     };
-    bool leave_included(); // at its end: the frame around it goes on
+    bool leave_included(); // at its end: the enclosing frame continues
     void skip_comment(Frame& frame);
     void skip_blanks(Frame& frame);
     Location place(const Frame& frame, const char* at) const;
@@ -81,6 +81,6 @@ class Lexer {
 // A number in full, as pbrt reads it ("+1", "1.", ".5", "1e-3"); throws ImportError with the remedy.
 double parse_number(std::string_view text, Location at);
 
-std::string unescape(std::string_view text); // pbrt's \\n, \\t, \\", ...; what is no escape stays as it is
+std::string unescape(std::string_view text); // pbrt's \\n, \\t, \\", ...; other backslashes stay as they are
 
 } // namespace restage::pbrt

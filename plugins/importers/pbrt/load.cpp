@@ -19,7 +19,7 @@ int probe(const char* path, const void* head, std::size_t head_size) {
     if (name.ends_with(".pbrt")) return 100;
     if (name.ends_with(".pbrt.gz")) return 100;
     if (!head) return 0;
-    // Some other name: count the directives that start a line.
+    // Any other extension: count the directives that start a line.
     const std::string_view text(static_cast<const char*>(head), head_size);
     if (text.find('\0') != text.npos) return 0;
     int found = 0;

@@ -8,7 +8,7 @@
 
 namespace restage::pbrt {
 
-struct MediumPreset { // per millimetre, as pbrt takes them: the scene's unit stands for it
+struct MediumPreset { // per millimetre, taken per scene unit as in pbrt
     const char* name;
     Rgb scattering, absorption; // scattering is reduced: sigma_s (1 - g)
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles on their way to the host, and the shapes that become triangles. Every shape follows pbrt's parametrisation:
+// Triangles for the host, and the shapes that become triangles. Every shape follows pbrt's parametrisation:
 // positions, normals (pbrt's, outward for a sphere), uv, and triangles wound so that cross(e1, e2) is along the
 // normals.
 #pragma once
@@ -19,7 +19,7 @@ struct Mesh {
 // Area after `to_world`; triangle by triangle, in double.
 double area(const Mesh& mesh, const Matrix& to_world);
 
-// What pbrt calls quadrics: sphere, disk, cylinder; of v3 also cone, paraboloid, hyperboloid. nullopt: another shape.
+// pbrt's quadrics: sphere, disk, cylinder; of v3 also cone, paraboloid, hyperboloid. nullopt: another shape.
 // The tessellation is scaled about the axis (or centre) so that its area is the exact one: area lights keep their
 // power.
 std::optional<Mesh> make_quadric(Import& import, const Directive& shape);
@@ -29,7 +29,7 @@ Mesh make_loop(Import& import, const Directive& shape); // loopsubdiv, limit pos
 Mesh make_heightfield(Import& import, const Directive& shape); // v3
 Mesh make_nurbs(Import& import, const Directive& shape); // v3
 
-// A PLY file: ascii, binary of either byte order, gzip, polygons of any size. Throws ImportError{at} when it is broken.
+// A PLY file: ascii, binary of either byte order, gzip, polygons of any size. Throws ImportError{at} if it is broken.
 Mesh read_ply(const std::string& path, std::string_view bytes, Location at);
 
 // v3: a parameter of a shape that its material reads first.

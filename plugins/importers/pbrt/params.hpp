@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Typed parameter lists: "float radius" [ 1 ]. A look-up marks a parameter as used; what nobody asked for is reported
+// Typed parameter lists: "float radius" [ 1 ]. A look-up marks a parameter as used; unused ones are reported
 // and kept verbatim. A value of the wrong kind is an error with its place.
 #pragma once
 
@@ -21,18 +21,18 @@ struct Param {
     ColorSpace color_space = ColorSpace::srgb;
     bool from_attribute = false; // an `Attribute` default: may go unused
     mutable bool used = false;
-    mutable bool misfit = false; // asked for, but of the wrong kind: the default was taken
-    mutable std::string should_be; // v4: its value was taken, though pbrt has this type for it, and stops
+    mutable bool misfit = false; // looked up, but of the wrong kind: the default was taken
+    mutable std::string should_be; // v4: its value was taken, though pbrt requires this type, and stops
 };
 
 class ParamList {
   public:
     std::vector<Param> params;
-    // As pbrt-v3 takes them: a value of the wrong kind or type is none (it stays unused, marked `misfit`), not an
+    // pbrt-v3's rules: a value of the wrong kind or type counts as absent (unused, marked `misfit`), not as an
     // error.
     bool lenient = false;
 
-    void keep_last(); // of those that are given twice
+    void keep_last(); // for duplicates
     // The parameter of that name (the last one given), marked as used; nullptr if absent.
     const Param* find(std::string_view name) const;
     const Param* find(std::string_view name, std::string_view type) const;
@@ -48,16 +48,16 @@ class ParamList {
     // Integers in [lowest, highest]; throws naming the first that is not.
     std::vector<std::uint32_t> indices(std::string_view name, std::size_t bound) const;
 
-    // For a parameter that was found: is it of that type? Lenient: if not, it is absent. Else it is noted.
+    // For a parameter that was found: is it of that type? Lenient: if not, it is absent. Else the mismatch is noted.
     bool typed(const Param& param, std::string_view type) const;
     // For a parameter that was found: `fits`, or it is an error, or (lenient) taken for absent.
     bool taken(const Param& param, bool fits, const std::string& expected) const;
     void mark_all_used() const;
-    // Each parameter that nobody asked for, Attribute defaults excepted.
+    // Each unused parameter, except Attribute defaults.
     void each_unused(const std::function<void(const Param&)>& visit) const;
 };
 
-// Does any thing of pbrt-v3 or v4 have a parameter of that name?
+// Does anything in pbrt-v3 or v4 have a parameter of that name?
 bool is_pbrt_parameter(std::string_view name);
 
 // `"float radius" [ 1 ]`, numbers in the shortest form that reads back the same.
@@ -65,6 +65,6 @@ std::string to_text(const Param& param);
 std::string to_text(const ParamList& list, std::string_view separator); // in the order of the file
 std::string quote(std::string_view text);
 std::string shortest(double value);
-std::optional<double> parse_double(std::string_view text); // the whole of it
+std::optional<double> parse_double(std::string_view text); // all of it
 
 } // namespace restage::pbrt

@@ -62,7 +62,7 @@ const std::unordered_map<std::string_view, Rule>& rules() {
         {"Translate", {Verb::translate, Shape::numbers, 3}},
         {"WorldBegin", {Verb::world_begin, Shape::bare}},
         {"WorldEnd", {Verb::world_end, Shape::bare}},
-        // pbrt-v1 and v2, still met in the wild.
+        // pbrt-v1 and v2, still found in the wild.
         {"SearchPath", {Verb::ignored, Shape::name}},
         {"Exterior", {Verb::ignored, Shape::name_params}},
         {"Interior", {Verb::ignored, Shape::name_params}},
@@ -172,7 +172,7 @@ class Parser {
         for (const char c : token.text.substr(0, 60))
             printable += static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126 ? '?' : c;
         std::string best;
-        for (const auto& [word, rule] : rules()) { // the same letters in another case: the usual slip
+        for (const auto& [word, rule] : rules()) { // the same letters in another case: the usual typo
             if (word.size() != token.text.size()) continue;
             if (std::equal(word.begin(), word.end(), token.text.begin(), [](char a, char b) {
                     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -212,7 +212,7 @@ class Parser {
     Param param(const Token& declaration) {
         Param out;
         out.at = declaration.at;
-        lexer_.forget_comments(); // between parameters they say nothing of what follows
+        lexer_.forget_comments(); // between parameters they do not label what follows
         const std::string_view blanks = " \t";
         const std::string_view all = declaration.text;
         const auto begin = all.find_first_not_of(blanks);
@@ -266,7 +266,7 @@ class Parser {
         for (const std::string& text : param.strings) {
             if (text != "true" && text != "false")
                 scene_.slips.push_back({param.at, "\"bool " + param.name + "\"",
-                                        "it is " + quote(text) + ", which pbrt takes for false; write true or false",
+                                        "it is " + quote(text) + ", which pbrt reads as false; write true or false",
                                         true});
             param.bools.push_back(text == "true");
         }
@@ -316,7 +316,7 @@ class Parser {
     const std::function<bool()>& goes_on_;
     Lexer lexer_;
     SceneFile scene_;
-    std::vector<std::string_view> carried_; // before an Include: they are about what it holds
+    std::vector<std::string_view> carried_; // before an Include: they are about its contents
     std::vector<std::size_t> imports_; // depths of the frames that Import opened
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loop subdivision (Loop 1987) with the masks of pbrt (pbrt-v3 book, sec. 3.8; boundary and limit masks of Hoppe et al.
 // 1994 and Zorin et al., SIGGRAPH 2000 course), vertices pushed to the limit surface, limit normals. Meshes that are
-// not manifold are taken too: an edge of three faces is treated as a boundary.
+// not manifold are accepted: an edge of three faces is treated as a boundary.
 #include "mesh.hpp"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ void subdivide(std::vector<Vec3>& points, Faces& faces) {
     faces = std::move(out);
 }
 
-// The ring around a vertex, counter-clockwise, from the follower a -> b of each face (v, a, b). Empty if it is no ring.
+// The ring around a vertex, counter-clockwise, from the follower a -> b of each face (v, a, b). Empty: no ring.
 std::vector<std::uint32_t> ring_of(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links, bool boundary) {
     std::uint32_t start = links.front().first;
     if (boundary) {
@@ -165,8 +165,8 @@ Mesh make_loop(Import& import, const Directive& shape) {
         throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"integer indices\", three a face"};
     const std::string scheme = shape.params.string("scheme", "loop");
     if (scheme != "loop")
-        import.approximated(shape.at, "Shape \"loopsubdiv\"", "scheme " + quote(scheme) + " is done as loop");
-    constexpr double most = 1u << 23; // about 2 GB while it is made
+        import.approximated(shape.at, "Shape \"loopsubdiv\"", "scheme " + quote(scheme) + " is treated as loop");
+    constexpr double most = 1u << 23; // about 2 GB while it is built
     if (levels < 0 || double(indices.size()) / 3 * std::pow(4.0, levels) > most)
         throw ImportError{shape.at, "Shape \"loopsubdiv\" with " + std::to_string(levels) +
                                         " levels has more than 2^23 triangles; use fewer levels"};

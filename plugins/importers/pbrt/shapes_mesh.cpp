@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes whose vertices stand in the scene file: trianglemesh, bilinearmesh, heightfield.
+// Shapes whose vertices are in the scene file: trianglemesh, bilinearmesh, heightfield.
 #include "mesh.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace restage::pbrt {
 
 namespace {
 
-// `width` numbers a vertex; throws when the count does not divide or a value does not fit a float.
+// `width` numbers a vertex; throws if the count does not divide or a value does not fit a float.
 std::vector<float> vertex_array(Import& import, const Directive& shape, const char* name, std::size_t width) {
     const Param* param = shape.params.has(name) ? shape.params.find(name) : nullptr;
     std::vector<float> out;
@@ -17,7 +17,7 @@ std::vector<float> vertex_array(Import& import, const Directive& shape, const ch
     const std::size_t excess = param->numbers.size() % width;
     if (import.v3() && excess > 0) { // parser.cpp, AddParam
         import.warned(param->at, "\"" + param->name + "\" of Shape \"" + shape.name + "\"",
-                      std::to_string(excess) + " numbers too many; the last ones are left out");
+                      std::to_string(excess) + " surplus numbers; the last ones are left out");
         Directive whole;
         whole.name = shape.name;
         whole.params.params = {*param};
@@ -39,7 +39,7 @@ std::vector<float> vertex_array(Import& import, const Directive& shape, const ch
     return out;
 }
 
-// A per-vertex array that pbrt discards when its length is wrong.
+// A per-vertex array that pbrt discards if its length is wrong.
 std::vector<float> matching(Import& import, const Directive& shape, const char* name, std::size_t width,
                             std::size_t vertices) {
     std::vector<float> out = vertex_array(import, shape, name, width);
@@ -78,7 +78,7 @@ Mesh make_triangle_mesh(Import& import, const Directive& shape) {
         throw ImportError{shape.at, "Shape \"trianglemesh\" has no faces; give \"integer indices\""};
     if (mesh.indices.size() % 3 != 0) {
         import.warned(shape.at, "Shape \"trianglemesh\"",
-                      "its indices are no multiple of 3; the last ones are left out");
+                      "its indices are not a multiple of 3; the last ones are left out");
         mesh.indices.resize(mesh.indices.size() / 3 * 3);
     }
     mesh.uvs = matching(import, shape, shape.params.has("uv") ? "uv" : "st", 2, vertices);
@@ -97,7 +97,7 @@ Mesh make_bilinear(Import& import, const Directive& shape) {
     if (corners.empty() && vertices == 4) corners = {0, 1, 2, 3};
     if (corners.size() > 4 && corners.size() % 4 != 0) {
         import.warned(shape.at, "Shape \"bilinearmesh\"",
-                      "its indices are no multiple of 4; the last ones are left out");
+                      "its indices are not a multiple of 4; the last ones are left out");
         corners.resize(corners.size() / 4 * 4);
     }
     if (corners.empty() || corners.size() % 4 != 0)

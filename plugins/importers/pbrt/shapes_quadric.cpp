@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quadrics as triangle grids over pbrt's own (u, v), with its normals dp/du x dp/dv. pbrt-v4 book ch. 6; cone,
 // paraboloid and hyperboloid: pbrt-v3 book ch. 3. pbrt clamps and sorts the parameters as is done here. Spheres, disks
-// and cylinders are rendered as what they are (RestageMesh::primitive); their grids are for picking and bounds.
+// and cylinders are rendered exactly (RestageMesh::primitive); their grids are for picking and bounds.
 #include "mesh.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ void match_area(Mesh& mesh, double exact, bool from_centre) {
     }
 }
 
-constexpr int coarse = 48; // of a full turn, where the grid is not what is rendered
+constexpr int coarse = 48; // of a full turn, if the grid is not what is rendered
 
 int segments(double phi_max, int full) { return std::max(3, static_cast<int>(std::ceil(full * phi_max / (2 * pi)))); }
 

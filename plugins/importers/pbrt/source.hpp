@@ -21,16 +21,16 @@ struct Location {
     std::uint32_t line = 0, column = 0; // 1-based; 0 = the file as a whole
 };
 
-struct Slip { // what pbrt warns of, or takes without a word, and goes on
+struct Slip { // what pbrt warns of, or accepts silently, and continues
     Location at;
     std::string what, note;
     bool only_v3 = false; // v4 stops there
 };
 
-struct ImportError { // "mine, but malformed"
+struct ImportError { // "my format, but malformed"
     Location at;
     std::string message; // what is wrong and what to do about it
-    bool stops_pbrt = false; // also within a shape that pbrt would leave out otherwise
+    bool stops_pbrt = false; // even within a shape that pbrt would otherwise leave out
 };
 
 using importing::FileBytes;

@@ -21,10 +21,10 @@ inline double luminance(Rgb c) { return 0.212639 * c.r + 0.715169 * c.g + 0.0721
 constexpr int first_nm = 360, last_nm = 830;
 using Spectrum = std::array<double, last_nm - first_nm + 1>;
 
-enum class Ends { zero, constant }; // beyond the samples: pbrt-v4's inline spectra are 0, v3's go on
-// pairs: nm, value, nm, value, ...; wavelengths must rise (else nullopt).
+enum class Ends { zero, constant }; // beyond the samples: pbrt-v4's inline spectra are 0, v3's stay constant
+// pairs: nm, value, nm, value, ...; wavelengths must increase (else nullopt).
 std::optional<Spectrum> from_pairs(const std::vector<double>& pairs, Ends ends);
-// pbrt-v4's names ("metal-Au-eta", "stdillum-D65", "glass-BK7"); nullopt if it is none.
+// pbrt-v4's names ("metal-Au-eta", "stdillum-D65", "glass-BK7"); nullopt if unknown.
 std::optional<Spectrum> named_spectrum(std::string_view name);
 Spectrum blackbody(double kelvin); // Planck's law, its peak over all wavelengths = 1
 
@@ -33,7 +33,7 @@ std::array<double, 3> to_xyz(const Spectrum& emitted);
 Rgb xyz_to_rgb(std::array<double, 3> xyz);
 // pbrt-v3: emission and reflectance alike, under the equal-energy illuminant.
 Rgb rgb_equal_energy(const Spectrum& spectrum);
-// pbrt-v4 makes every light that is given by a spectrum one of luminance 1 (1 / SpectrumToPhotometric); scale follows.
+// pbrt-v4 normalises every light given by a spectrum to luminance 1 (1 / SpectrumToPhotometric); scale follows.
 Rgb rgb_of_light(const Spectrum& emitted);
 // A reflectance, seen under D65 by an observer adapted to it: a constant r gives (r, r, r).
 Rgb rgb_of_reflectance(const Spectrum& reflectance);

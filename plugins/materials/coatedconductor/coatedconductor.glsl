@@ -24,7 +24,7 @@ BsdfSample coatedconductor_sample(coatedconductor_Params m, vec3 wo, vec3 u, ino
     return layered_sample(coatedconductor_layers(m), wo, u, rng);
 }
 
-// Without interreflection under the coat.
+// Ignores interreflection under the coat.
 Spectrum coatedconductor_albedo(coatedconductor_Params m, vec3 wo) {
     Layered l = coatedconductor_layers(m);
     float cos_t;

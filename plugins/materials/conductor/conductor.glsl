@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metal: microfacets with complex Fresnel reflectance (pbrt-v4 ConductorBxDF; v3 "metal"); a mirror when smooth.
-// With `multiscatter`, light that a rough metal's microfacets pass between each other comes out again.
+// With `multiscatter`, light scattered between a rough metal's microfacets is restored.
 #include <restage/v1/multiscatter.glsl>
 #include <restage/v1/sampling.glsl>
 
@@ -15,7 +15,7 @@ Spectrum conductor_fresnel(conductor_Params m, float cos_i) {
     return fresnel_conductor(cos_i, conductor_eta(m), conductor_k(m));
 }
 
-// Of light that is reflected more than once; the density of such samples follows its mean share of all light.
+// For light reflected more than once; the density of such samples follows its mean share of all light.
 Spectrum conductor_multiple(conductor_Params m, vec2 alpha, out float share) {
     share = 0.0;
     if (!m.multiscatter)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the inspector shows of a metal: which one it is, and what it reflects at every angle. */
+/* What the inspector shows of a metal: which one it is, and its reflectance at every angle. */
 #include "inspector.h"
 
 #include <math.h>
 #include <stddef.h>
 
-/* Optical constants for linear sRGB primaries: eta and k whose reflectance head on is that of the measured spectra.
+/* Optical constants for linear sRGB primaries: eta and k whose normal reflectance is that
  * Johnson and Christy 1972 and 1974 (Rakic 1995 for aluminium), from refractiveindex.info (public domain, CC0). */
 typedef struct Metal {
     const char* name;
@@ -78,7 +78,7 @@ static void draw(const RestageUi1* ui, void* ctx) {
                 use.i != 0 ? reflectance(cos_i, 1, 2 * sqrtf(r / (1 - r))) : reflectance(cos_i, eta.v[c], k.v[c]);
         }
     }
-    ui->plot(ctx, "Reflectance from head on to grazing [deg]", curves, angles, 3, 0, 90, 0, 1);
+    ui->plot(ctx, "Reflectance from normal to grazing incidence [deg]", curves, angles, 3, 0, 90, 0, 1);
     if (use.i != 0) ui->param(ctx, "reflectance");
     ui->hide(ctx, "eta");
     ui->hide(ctx, "k");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Glass, water: smooth, rough or thin (pbrt-v4 DielectricBxDF and ThinDielectricBxDF; v3 "glass" with its two tints).
-// With `multiscatter`, light that rough microfacets pass between each other comes out again.
+// With `multiscatter`, light scattered between rough microfacets is restored.
 #include <restage/v1/dielectric.glsl>
 #include <restage/v1/multiscatter.glsl>
 #include <restage/v1/sampling.glsl>
 
-// As in pbrt-v3's glass, a roughness of 0 is smooth whatever the remapping makes of it.
+// As in pbrt-v3's glass, a roughness of 0 is smooth for any remapping.
 vec2 dielectric_alpha(dielectric_Params m) {
     if (m.uroughness == 0.0 && m.vroughness == 0.0)
         return vec2(0);
@@ -22,7 +22,7 @@ Spectrum dielectric_tint(dielectric_Params m, bool reflects) {
     return clamp(reflects ? m.reflectance : m.transmittance, Spectrum(0), Spectrum(1));
 }
 
-// The share of samples that follow what is scattered more than once.
+// The share of samples for light scattered more than once.
 float dielectric_multiple_share(dielectric_Params m, vec2 alpha, float eta, out MultiscatterDielectric lobe) {
     if (!m.multiscatter)
         return 0.0;

@@ -4,7 +4,7 @@
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("color", "Colour", 0, 1, 0.35f, 0.2f, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Of many hairs together; one alone looks paler."),
+    RESTAGE_COLOR_PARAM("color", "Colour", 0, 1, 0.35f, 0.2f, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Colour of many hairs together; one alone looks paler."),
     RESTAGE_FLOAT_PARAM("eta", "Index of refraction", 1.01f, 3, 1.55f, RESTAGE_PARAM_ADVANCED, "", "Of the hair's inside."),
     RESTAGE_FLOAT_PARAM("beta_m", "Roughness along", 0.05f, 1, 0.3f, RESTAGE_PARAM_TEXTURABLE, "", "Width of the highlights along the hair."),
     RESTAGE_FLOAT_PARAM("beta_n", "Roughness around", 0.05f, 1, 0.3f, RESTAGE_PARAM_TEXTURABLE, "", "Width of the highlights around the hair."),

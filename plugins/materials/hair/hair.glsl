@@ -4,10 +4,10 @@
 //
 // The surface is the fibre's own cylinder: x runs along it, z is the normal, and where on it light falls (h, the offset
 // across the fibre) is the angle between wo and the normal about x. What happens inside is in the scattering function, so
-// from within the cylinder (wo.z < 0) light passes the wall as if there were none.
+// from within the cylinder (wo.z < 0) light passes the wall as if it were not there.
 #include <restage/v1/fresnel.glsl>
 
-const int hair_lobes = 3; // R, TT, TRT; one more holds the rest
+const int hair_lobes = 3; // R, TT, TRT; one more for the rest
 
 struct hair_State {
     float sin_o, cos_o; // of wo's inclination to the normal plane
@@ -43,7 +43,7 @@ float hair_m(float sin_i, float cos_i, float sin_o, float cos_o, float v) {
     return exp(hair_log_bessel(cos_i * cos_o / v) - sin_i * sin_o / v - hair_log_sinh2(1.0 / v) - log(v));
 }
 
-// atan2, to 1e-7 (Abramowitz and Stegun 4.4.49): GLSL's own may be off by 4096 last digits, which narrow lobes show.
+// atan2, to 1e-7 (Abramowitz and Stegun 4.4.49): GLSL's own may be off by 4096 ulp, which shows in narrow lobes.
 float hair_atan(float y, float x) {
     float a = min(abs(x), abs(y)) / max(max(abs(x), abs(y)), 1e-20);
     float q = a * a;
@@ -64,7 +64,7 @@ float hair_logistic(float x, float s) {
 }
 float hair_logistic_cdf(float x, float s) { return 1.0 / (1.0 + exp(-x / s)); }
 
-// Where light that entered at gamma_o leaves after p passages: Marschner et al. 2003, Eq. 3.
+// The exit angle, after p passages, of light that entered at gamma_o: Marschner et al. 2003, Eq. 3.
 float hair_phi(int p, hair_State st) { return 2.0 * float(p) * st.gamma_t - 2.0 * st.gamma_o + float(p) * PI; }
 
 // Azimuthal: a logistic distribution trimmed to a turn (Chiang et al. 2016, section 4.1).
@@ -78,7 +78,7 @@ float hair_sample_n(float u, hair_State st) {
     return clamp(-st.s * log(1.0 / max(t, 1e-12) - 1.0), -PI, PI);
 }
 
-// Absorption [1 / fibre radius] of hair that, as many, has this colour: Chiang et al. 2016, Eq. 9.
+// Absorption [1 / fibre radius] of hair that has this colour in bulk: Chiang et al. 2016, Eq. 9.
 Spectrum hair_sigma(Spectrum color, float b) {
     float b2 = b * b;
     float d = 5.969 - 0.215 * b + 2.532 * b2 - 10.73 * b2 * b + 5.574 * b2 * b2 + 0.245 * b2 * b2 * b;
@@ -167,7 +167,7 @@ BsdfSample hair_sample(hair_Params m, vec3 wo, vec3 u) {
     float left = u.z;
     while (p < hair_lobes && left >= st.choice[p])
         left -= st.choice[p++];
-    float again = clamp(left / max(st.choice[p], 1e-12), 0.0, 0.99999994); // the number, used a second time
+    float again = clamp(left / max(st.choice[p], 1e-12), 0.0, 0.99999994); // reuses the random number
     // d'Eon et al. 2013, "Importance sampling for physically-based hair fiber models", Eqs. 6 and 7
     float v = st.v[p];
     float c = 1.0 + v * log(max(u.x, 1e-5) + (1.0 - u.x) * exp(-2.0 / v));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Interface: the parameter table is all there is; the engine acts on the flag. */
+/* Interface: only a parameter table; the engine acts on the flag. */
 #include <restage/material.h>
 
 static const RestageMaterial1 material = {
@@ -7,7 +7,7 @@ static const RestageMaterial1 material = {
     .flags = RESTAGE_MATERIAL_NULL,
     .type = "interface",
     .label = "Interface",
-    .tooltip = "No surface at all: the border of a medium.",
+    .tooltip = "A null surface: the boundary of a medium.",
 };
 
 RESTAGE_PLUGIN("org.restage.material.interface", "0.1.0", {RESTAGE_MATERIAL1, &material})

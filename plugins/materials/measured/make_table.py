@@ -4,7 +4,7 @@
 
     python3 make_table.py [FILE] [COUNT_H COUNT_D COUNT_PHI]
 
-A red paint under varnish: GGX microfacets of a dielectric over a diffuse ground that gets what they do not reflect
+A red paint under varnish: GGX microfacets of a dielectric over a diffuse base that gets what they do not reflect
 (README.md has the formulas), at the centres of the cells of a MERL table."""
 
 import sys
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 ALPHA, ETA, GROUND = 0.12, 1.5, np.array([0.42, 0.045, 0.03])
-SCALE = np.array([1 / 1500, 1.15 / 1500, 1.66 / 1500])  # what MERL's reader multiplies by
+SCALE = np.array([1 / 1500, 1.15 / 1500, 1.66 / 1500])  # the factors of MERL's reader
 
 
 def fresnel(c):  # dielectric, unpolarised
@@ -47,7 +47,7 @@ def brdf(theta_h, theta_d, phi_d):
     d = ALPHA**2 / (np.pi * (h * h * (ALPHA**2 - 1) + 1) ** 2)
     coat = fresnel(np.cos(theta_d)) * d / (1 + shadow(zi) + shadow(zo)) / (4 * zi * zo)
     ground = GROUND / np.pi * ((1 - fresnel(zi)) * (1 - fresnel(zo)))[..., None]
-    return np.where(above[..., None], coat[..., None] + ground, -1)  # -1: below the horizon, as MERL has it
+    return np.where(above[..., None], coat[..., None] + ground, -1)  # -1: below the horizon, as in MERL
 
 
 def main():

@@ -8,7 +8,7 @@
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_TABLE_PARAM("filename", "File", "glossy_paint.binary", 0, "Reflection as it was measured: a file of the MERL BRDF database (.binary)."),
+    RESTAGE_TABLE_PARAM("filename", "File", "glossy_paint.binary", 0, "Measured reflection: a file of the MERL BRDF database (.binary)."),
     RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Multiplies what was measured."),
 };
 /* clang-format on */
@@ -22,7 +22,7 @@ static const RestageMaterial1 material = {
     .glsl_file = "measured.glsl",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "A surface as an instrument saw it, from a file of the MERL BRDF database.",
+    .tooltip = "A measured surface, from a file of the MERL BRDF database.",
 };
 
 static const RestageTable1 reader = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tabulated isotropic BRDF in half and difference angles (Rusinkiewicz 1998; Matusik et al. 2003). merl.h says how
-// the table lies, README.md what it means. Both sides reflect.
+// A tabulated isotropic BRDF in half and difference angles (Rusinkiewicz 1998; Matusik et al. 2003). merl.h describes
+// the table's layout, README.md its meaning. Both sides reflect.
 #include <restage/v1/sampling.glsl>
 #include <restage/v1/table.glsl>
 
@@ -25,7 +25,7 @@ vec3 measured_entry(measured_Params m, uint first, uvec3 n, ivec3 at) {
     return vec3(table_float(m.filename, i), table_float(m.filename, i + 1u), table_float(m.filename, i + 2u));
 }
 
-// The BRDF, wo and wi above. Angles by their tangents: near the peak an arc cosine has no digits left.
+// The BRDF, wo and wi above. Angles by their tangents: near the peak an arc cosine loses all precision.
 Spectrum measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
     uvec3 n = measured_counts(m);
     vec3 h = wo + wi, d = wi - wo;
@@ -47,7 +47,7 @@ Spectrum measured_brdf(measured_Params m, vec3 wo, vec3 wi) {
     lower.z = (lower.z + around) % around;
     upper.z = (lower.z + 1) % around;
     uint first = measured_head + table_word(m.filename, 3u) * measured_row_words(m);
-    vec3 sum = vec3(0), measured = vec3(0); // RGB, as the table has it; what was not measured has no weight
+    vec3 sum = vec3(0), measured = vec3(0); // RGB, as in the table; unmeasured entries have no weight
     for (int k = 0; k < 8; ++k) {
         bvec3 up = bvec3((k & 1) != 0, (k & 2) != 0, (k & 4) != 0);
         vec3 w = mix(1.0 - f, f, up);

@@ -37,18 +37,18 @@ static int read_head(const RestageTableFile1* file, int n[3]) {
         refuse(file, "is text, not a MERL file (.binary)");
         return 0;
     }
-    memcpy(n, head, 12); /* little-endian, as this machine */
+    memcpy(n, head, 12); /* little-endian, like this machine */
     entries = (double)n[0] * n[1] * n[2];
     if (n[0] < 1 || n[1] < 1 || n[2] < 1 || n[0] > 4096 || n[1] > 4096 || n[2] > 4096) {
-        snprintf(text, sizeof text, "says it has %d x %d x %d entries: it is no MERL file (.binary)", n[0], n[1], n[2]);
+        snprintf(text, sizeof text, "says it has %d x %d x %d entries: not a MERL file (.binary)", n[0], n[1], n[2]);
         refuse(file, text);
         return 0;
     }
     if ((double)file->length != 12 + 24 * entries) {
         snprintf(text, sizeof text, "has %.0f bytes where %d x %d x %d entries take %.0f: %s", (double)file->length,
                  n[0], n[1], n[2], 12 + 24 * entries,
-                 (double)file->length < 12 + 24 * entries ? "it is cut short; copy it anew"
-                                                          : "it is no MERL file (.binary)");
+                 (double)file->length < 12 + 24 * entries ? "it is cut short; copy it again"
+                                                          : "it is not a MERL file (.binary)");
         refuse(file, text);
         return 0;
     }
@@ -57,7 +57,7 @@ static int read_head(const RestageTableFile1* file, int n[3]) {
 
 /* The entries as floats; 0 after an error. Counts what was not measured. */
 static int read_entries(const RestageTableFile1* file, const int n[3], float* out) {
-    static const double scale[3] = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500}; /* of the database's own reader */
+    static const double scale[3] = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500}; /* the database's own reader's */
     const size_t slab = (size_t)n[1] * (size_t)n[2];
     double missing = 0, broken = 0;
     const double total = 3.0 * (double)slab * n[0];
@@ -90,7 +90,7 @@ static int read_entries(const RestageTableFile1* file, const int n[3], float* ou
              per_mille % 10);
     file->note(file->ctx, text);
     if (broken > 0) {
-        snprintf(text, sizeof text, "%.0f values are not finite numbers (taken as not measured)", broken);
+        snprintf(text, sizeof text, "%.0f values are not finite (taken as not measured)", broken);
         file->note(file->ctx, text);
     }
     return 1;
@@ -135,7 +135,7 @@ typedef struct Cell { /* of directions wi about one wo */
     double density;      /* of half vectors there */
 } Cell;
 
-/* wo has azimuth 0, h has phi, wi is wo mirrored at h. 0 = it is below. */
+/* wo has azimuth 0, h has phi, wi is wo mirrored at h. 0 = below the surface. */
 static int find_cell(const Merl* m, double theta_o, double theta_h, double phi, Cell* cell) {
     const double so = sin(theta_o), co = cos(theta_o), sh = sin(theta_h), ch = cos(theta_h);
     const double oh = so * sh * cos(phi) + co * ch;
@@ -157,7 +157,7 @@ static double theta_of(double s) { return pi / 2 * s * s; } /* s: the place in t
 static double versine(double s) { return 2 * pow(sin(theta_of(s) / 2), 2); }
 
 /* Density of half vectors at the edges of the bins, linear in the versine between them, for one wo: f |cos wi| over
- * wi, averaged around; and its integrals. 0 = nothing comes back. */
+ * wi, averaged around; and its integrals. 0 = nothing is reflected. */
 static int make_marginal(const Merl* m, double theta_o, double* nodes, float* row) {
     const int bins = m->n[0];
     float *sums = row + ROW_HEAD, *density = sums + bins;
@@ -259,6 +259,6 @@ int merl_read(const char* param_id, const RestageTableFile1* file) {
     free(cells);
     free(nodes);
     free(floats);
-    if (!words) refuse(file, "cannot be read: there is not enough memory"); /* only if nothing was said before */
+    if (!words) refuse(file, "cannot be read: there is not enough memory"); /* only if no error was reported before */
     return words != NULL;
 }

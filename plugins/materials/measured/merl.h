@@ -4,7 +4,7 @@
  *   0          counts of theta_h, theta_d, phi_d, and of rows
  *   4          rows, one an interval of the angle of wo, equal in [0, 90 degrees]:
  *                albedo (red, green, blue), share of samples drawn from the half vector,
- *                for each bin of theta_h the probability that it is in this or an earlier one,
+ *                for each bin of theta_h the probability of this or an earlier one,
  *                at each edge of a bin the density of half vectors [1/sr], linear in 1 - cos(theta_h) between
  *   then       BRDF [1/sr]: red, green, blue of each entry, -1 where it was not measured; phi_d fastest, theta_h
  * slowest */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Mix: the parameter table is all there is; the engine acts on the flag. */
+/* Mix: only a parameter table; the engine acts on the flag. */
 #include <restage/material.h>
 
 /* clang-format off */

@@ -7,7 +7,7 @@
 static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("kd", "Diffuse", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the matte part."),
     RESTAGE_COLOR_PARAM("ks", "Specular", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the glossy part."),
-    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Of the glossy part."),
+    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Roughness of the glossy part."),
     RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The metallic-roughness material of glTF 2.0 (appendix B) with KHR_materials_ior, _specular, _transmission, _volume (its
 // refraction), _clearcoat, _sheen, _anisotropy and _iridescence. Lobes: diffuse; one GGX layer that reflects, as metal or
-// dielectric, and lets through what is transmissive; fibres over both; a GGX coat on top. README.md says where it is not
-// the specification to the letter.
+// dielectric, and transmits the transmissive part; fibres over both; a GGX coat on top. README.md lists the
+// deviations from the specification.
 #include <restage/v1/dielectric.glsl>
 #include <restage/v1/multiscatter.glsl>
 #include <restage/v1/sampling.glsl>
@@ -16,7 +16,7 @@ struct principled_State {
     Spectrum base;
     float metallic;
     float transmission;
-    Spectrum f0;   // of the dielectric, head on and grazing
+    Spectrum f0;   // of the dielectric, normal and grazing
     float f90;
     float eta; // behind the surface / on wo's side
     bool thin;
@@ -25,12 +25,12 @@ struct principled_State {
     float coat;
     Spectrum sheen;
     float sheen_alpha;
-    float film; // share of the surface that has one
+    float film; // share of the surface that has a film
     float film_ior;
     float film_thickness; // nm
-    float mean_loss;      // of the layer, to multiple scattering; 0 when that is left out
+    float mean_loss;      // of the layer, to multiple scattering; 0 without multiscatter
     Spectrum multiple;    // colour of light reflected more than once
-    Spectrum multiple_through; // of a pane: colour of what goes through then
+    Spectrum multiple_through; // of a pane: colour of light transmitted then
     float clear_multiple; // share of the surface that is glass and scatters more than once
     MultiscatterDielectric glass;
     float sink;           // share of the cosine lobe's samples that go below
@@ -42,7 +42,7 @@ float principled_schlick(float c) {
     float x = clamp(1.0 - c, 0.0, 1.0);
     return sqr(x * x) * x;
 }
-// Of the opaque dielectric. `film`: s.film, or 0 where a guess will do, for the film is much code to compile.
+// Of the opaque dielectric. `film`: s.film, or 0 where an estimate is enough, as the film is expensive to compile.
 Spectrum principled_fresnel(principled_State s, float c, float film) {
     Spectrum bare = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
     return film > 0.0 ? mix(bare, thin_film_reflectance(c, s.film_ior, s.film_thickness, s.f0), film) : bare;
@@ -51,9 +51,9 @@ float principled_coat_fresnel(principled_State s, float c) {
     return s.coat * (principled_coat_f0 + (1.0 - principled_coat_f0) * principled_schlick(c));
 }
 
-// What a microfacet seen under the cosine c reflects and lets through.
+// What a microfacet reflects and transmits at the cosine c.
 Spectrum principled_reflected(principled_State s, float c, float film, out Spectrum through) {
-    Spectrum f[3]; // of the opaque dielectric, of glass, of metal; a film takes its share in a loop: compiled once
+    Spectrum f[3]; // of the opaque dielectric, of glass, of metal; a film is evaluated in a loop: compiled once
     f[0] = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
     float cos_t = 1.0;
     f[1] = Spectrum(!s.thin && s.transmission > 0.0 ? fresnel_dielectric(c, s.eta, cos_t) : 0.0);
@@ -62,7 +62,7 @@ Spectrum principled_reflected(principled_State s, float c, float film, out Spect
         for (int k = 0; k < 3; ++k) {
             if (k == 1 && cos_t <= 0.0)
                 continue; // total reflection
-            // A film looks alike from both sides of glass.
+            // A film looks the same from both sides of glass.
             Spectrum filmed = thin_film_reflectance(k == 1 && s.eta < 1.0 ? cos_t : c, s.film_ior, s.film_thickness,
                                               k == 2 ? s.base : s.f0);
             f[k] = mix(f[k], filmed, film);
@@ -83,7 +83,7 @@ float principled_reflects(Spectrum reflected, Spectrum through) {
     return t > 0.0 ? r / (r + t) : 1.0;
 }
 
-// The matte part below the layer: what the layer lets in on the way of wi and out on the way of wo, scaled so that a
+// The matte part below the layer: what the layer transmits in along wi and out along wo, scaled so that a
 // smooth white surface loses nothing. Shirley, Smits, Hu and Lafortune 1997, "A Practitioners' Assessment of Light
 // Reflection Models", Eq. 7.
 Spectrum principled_diffuse(principled_State s, float cos_o, float cos_i, float mean_fresnel, float film) {
@@ -105,7 +105,7 @@ float principled_mean_fresnel(principled_State s) {
     return sum;
 }
 
-// What of the rest is left where fibres stand: KHR_materials_sheen, "Albedo-scaling technique".
+// The share of the rest left under the fibres: KHR_materials_sheen, "Albedo-scaling technique".
 float principled_under_sheen(principled_State s, float cos_o, float cos_i) {
     float most = max_component(s.sheen);
     if (most <= 0.0)
@@ -152,7 +152,7 @@ principled_State principled_state(principled_Params m, vec3 wo) {
         s.multiple = mix((1.0 - s.transmission) * multiscatter_color(fresnel_schlick_average(s.f0, s.f90), s.mean_loss),
                          multiscatter_color(fresnel_schlick_average(s.base, 1.0), s.mean_loss), s.metallic);
         float clear = (1.0 - s.metallic) * s.transmission;
-        if (s.thin) { // both sides lose alike; light comes out as the mean surface would part it
+        if (s.thin) { // both sides lose alike; light leaves in the mean surface's proportions
             float mean = max_component(fresnel_schlick_average(s.f0, s.f90));
             s.multiple += clear * mean;
             s.multiple_through = clear * (1.0 - mean) * s.base;
@@ -180,13 +180,13 @@ principled_State principled_state(principled_Params m, vec3 wo) {
     return s;
 }
 
-// What passes the coat on the way in and out.
+// Transmission of the coat, in and out.
 float principled_under_coat(principled_State s, float cos_o, float cos_i) {
     return (1.0 - principled_coat_fresnel(s, cos_o)) * (1.0 - principled_coat_fresnel(s, cos_i));
 }
 
-// f |cos wi| of light that the layer scatters more than once: Kulla and Conty's lobes, of what reflects all and of glass
-// (restage/v1/multiscatter.glsl). The losses are taken in a loop: compiled once.
+// f |cos wi| of light that the layer scatters more than once: Kulla and Conty's lobes, of a white reflector and of glass
+// (restage/v1/multiscatter.glsl). The losses are evaluated in a loop: compiled once.
 Spectrum principled_multiple(principled_State s, vec3 wo, vec3 wi) {
     bool reflects = wi.z > 0.0;
     float ci = abs(wi.z);
@@ -223,7 +223,7 @@ Spectrum principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     if (reflects)
         f += principled_diffuse(s, wo.z, ci, principled_mean_fresnel(s), s.film) * (INV_PI * ci);
     if (!alpha_is_smooth(s.alpha) && (reflects || s.transmission > 0.0)) {
-        // A pane is seen through as a mirror turned inside out.
+        // A pane's transmission is its reflection mirrored through the plane.
         bool mirrored = !reflects && s.thin;
         float ho;
         vec2 layer = rough_interface(wo, mirrored ? vec3(wi.xy, ci) : wi, s.alpha, s.eta, DISTRIBUTION_GGX, ho);
@@ -248,7 +248,7 @@ Spectrum principled_value(principled_State s, vec3 wo, vec3 wi, out float pdf) {
     return f;
 }
 
-// Everything is alike on both sides but for eta: z is turned so that wo looks from above, x and y to the anisotropy.
+// Both sides are alike except for eta: z is turned so that wo looks from above, x and y to the anisotropy.
 vec3 principled_turned_up(principled_State s, vec3 wo, vec3 w) {
     return principled_turned(s, vec3(w.xy, wo.z < 0.0 ? -w.z : w.z));
 }

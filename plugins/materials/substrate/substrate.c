@@ -6,7 +6,7 @@
 /* clang-format off */
 static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("kd", "Diffuse", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the base."),
-    RESTAGE_COLOR_PARAM("ks", "Specular", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the coat head on."),
+    RESTAGE_COLOR_PARAM("ks", "Specular", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Reflectance of the coat at normal incidence."),
     RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0.1f),
     RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0.1f),
     RESTAGE_ROW_REMAP(1),

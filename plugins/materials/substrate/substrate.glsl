@@ -51,7 +51,7 @@ BsdfSample substrate_sample(substrate_Params m, vec3 wo, vec3 u) {
     return BsdfSample(vec3(wi.xy, wo.z < 0.0 ? -wi.z : wi.z), weight, pdf, BSDF_REFLECT, 1.0);
 }
 
-// Of the diffuse part exactly (28/23 is there to make it so), of the specular part without its loss at high roughness.
+// Exact for the diffuse part (the purpose of 28/23); ignores the specular part's loss at high roughness.
 Spectrum substrate_albedo(substrate_Params m, vec3 wo) {
     Spectrum ks = clamp(m.ks, Spectrum(0), Spectrum(1));
     Spectrum diffuse = clamp(m.kd, Spectrum(0), Spectrum(1)) * (1.0 - ks) * substrate_fade(abs(wo.z));

@@ -7,9 +7,9 @@
 static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("kd", "Diffuse", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the diffuse part."),
     RESTAGE_COLOR_PARAM("ks", "Glossy", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the glossy part."),
-    RESTAGE_COLOR_PARAM("reflect", "Reflection", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of all that stays on the side of the light."),
-    RESTAGE_COLOR_PARAM("transmit", "Transmission", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of all that passes to the other side."),
-    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Of the glossy part."),
+    RESTAGE_COLOR_PARAM("reflect", "Reflection", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of everything reflected."),
+    RESTAGE_COLOR_PARAM("transmit", "Transmission", 0, 1, 0.5f, 0.5f, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of everything transmitted."),
+    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "Roughness of the glossy part."),
     RESTAGE_ROW_REMAP(1),
 };
 /* clang-format on */

@@ -67,7 +67,7 @@ BsdfSample translucent_sample(translucent_Params m, vec3 wo, vec3 u) {
     if (!positive(pdf))
         return BSDF_NONE;
     bool reflects = same_hemisphere(wo, wi);
-    // The diffuse lobes are a sheet without an inside, so eta is 1: roulette must not undo a 1/eta^2 they do not carry.
+    // The diffuse lobes are a sheet without an inside, so eta is 1: roulette must not undo a 1/eta^2 that they lack.
     return BsdfSample(wi, translucent_combine(m, wo, wi, glossy.x) / pdf, pdf, reflects ? BSDF_REFLECT : BSDF_TRANSMIT,
                       1.0);
 }

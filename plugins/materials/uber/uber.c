@@ -9,7 +9,7 @@ static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("ks", "Glossy", 0, 1, 0.25f, 0.25f, 0.25f, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the glossy part."),
     RESTAGE_COLOR_PARAM("kr", "Mirror", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the mirror reflection."),
     RESTAGE_COLOR_PARAM("kt", "Transmission", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "Scale of the smooth refraction."),
-    RESTAGE_COLOR_PARAM("opacity", "Opacity", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "What is missing to white passes straight through."),
+    RESTAGE_COLOR_PARAM("opacity", "Opacity", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The complement to white passes straight through."),
     RESTAGE_ROW_ROUGHNESS_U("uroughness", "Roughness u", 0.1f),
     RESTAGE_ROW_ROUGHNESS_V("vroughness", "Roughness v", 0.1f),
     RESTAGE_FLOAT_PARAM("eta", "Index of refraction", 1, 3, 1.5f, 0, "", "Inside relative to outside."),

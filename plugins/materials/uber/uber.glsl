@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt-v3 "uber": Lambert (kd), GGX gloss (ks), mirror (kr) and refraction (kt), all scaled by opacity, simply added;
-// what opacity leaves passes straight through.
+// the rest passes straight through.
 #include <restage/v1/fresnel.glsl>
 #include <restage/v1/microfacet.glsl>
 #include <restage/v1/sampling.glsl>

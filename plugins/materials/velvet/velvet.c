@@ -4,9 +4,9 @@
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("reflectance", "Cloth", 0, 1, 0.1f, 0.02f, 0.03f, RESTAGE_PARAM_TEXTURABLE, "", "Of the matte cloth between the fibres."),
-    RESTAGE_COLOR_PARAM("sheen", "Sheen", 0, 1, 0.8f, 0.3f, 0.35f, RESTAGE_PARAM_TEXTURABLE, "", "Of the fibres that stand on it."),
-    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.6f, RESTAGE_PARAM_TEXTURABLE, "", "Low: the fibres shine at the rim only; high: everywhere. Its square is the model's."),
+    RESTAGE_COLOR_PARAM("reflectance", "Cloth", 0, 1, 0.1f, 0.02f, 0.03f, RESTAGE_PARAM_TEXTURABLE, "", "Colour of the matte cloth between the fibres."),
+    RESTAGE_COLOR_PARAM("sheen", "Sheen", 0, 1, 0.8f, 0.3f, 0.35f, RESTAGE_PARAM_TEXTURABLE, "", "Colour of the fibres that stand on it."),
+    RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.6f, RESTAGE_PARAM_TEXTURABLE, "", "Low: the fibres show at the rim only; high: everywhere. Its square is the model's."),
 };
 /* clang-format on */
 

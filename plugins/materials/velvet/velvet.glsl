@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cloth with standing fibres: a "Charlie" sheen (Estevez and Kulla 2017) over a Lambertian ground, which gets what the
+// Cloth with standing fibres: a "Charlie" sheen (Estevez and Kulla 2017) over a Lambertian base, which gets what the
 // fibres leave, as in KHR_materials_sheen. Both sides are alike.
 #include <restage/v1/sampling.glsl>
 #include <restage/v1/sheen.glsl>

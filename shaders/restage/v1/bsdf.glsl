@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The BSDF contract: what a material's GLSL is given and what it returns. See engine/sdk/restage/material.h.
-// Local shading frame: n = +z, wo towards the viewer, wi towards the light, both unit and away from the surface.
-// z < 0 is the back side (inside, for closed things). Radiance transport: transmission carries 1/eta^2.
+// The BSDF contract: inputs and results of a material's GLSL. See engine/sdk/restage/material.h.
+// Local shading frame: n = +z, wo towards the viewer, wi towards the light, both unit and pointing away from the surface.
+// z < 0 is the back side (inside, for closed objects). Radiance transport: transmission carries 1/eta^2.
 #ifndef RESTAGE_V1_BSDF
 #define RESTAGE_V1_BSDF
 #include <restage/v1/numbers.glsl>
@@ -18,9 +18,9 @@ const uint BSDF_DELTA = 4u;    // wi is the only direction: no MIS, pdf is the l
 struct BsdfSample {
     vec3 wi;         // unit; meaningless when flags == 0
     Spectrum weight; // f * |cos wi| / pdf
-    float pdf;       // solid-angle density; of a delta lobe its discrete probability
+    float pdf;       // solid-angle density; for a delta lobe its discrete probability
     uint flags;      // BSDF_*; 0 = no sample (absorbed)
-    float eta;       // ior behind wi / ior before, on transmission; else 1 (Russian roulette undoes eta^2 with it)
+    float eta;       // ior behind wi / ior before, on transmission; else 1 (Russian roulette uses it to undo eta^2)
 };
 
 const BsdfSample BSDF_NONE = BsdfSample(vec3(0, 0, 1), Spectrum(0), 0.0, 0u, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rough dielectric interface: reflection and transmission of one microfacet layer, in radiance transport.
-// wo.z > 0; eta = ior below / ior above. Whoever is below the surface mirrors z and passes 1 / eta.
+// wo.z > 0; eta = ior below / ior above. From below the surface, mirror z and pass 1 / eta.
 #ifndef RESTAGE_V1_DIELECTRIC
 #define RESTAGE_V1_DIELECTRIC
 
@@ -10,8 +10,8 @@
 // Nearly equal indices do not bend light and leave the half vector of transmission without a direction.
 bool dielectric_is_smooth(vec2 alpha, float eta) { return alpha_is_smooth(alpha) || abs(eta - 1.0) < 1e-3; }
 
-// x: f |cos wi|, y: density of wi when the half vector is a visible normal; both without Fresnel's share, which is a
-// matter of ho, the cosine between wo and the half vector (0 where the value is). A reflection does not ask for eta.
+// x: f |cos wi|, y: density of wi if the half vector is a visible normal; both without the Fresnel factor, which is a
+// function of ho, the cosine between wo and the half vector (0 where the value is). Reflection does not depend on eta.
 // Walter et al. 2007, Eqs. 20, 21 and 17, with sigma as in microfacet.glsl; 1/eta^2: Veach 1997, sec. 5.2.
 vec2 rough_interface(vec3 wo, vec3 wi, vec2 alpha, float eta, int distribution, out float ho) {
     ho = 0.0;
@@ -34,7 +34,7 @@ vec2 rough_interface(vec3 wo, vec3 wi, vec2 alpha, float eta, int distribution, 
     return d * vec2(ci * smith_visibility(wo.z, sigma_o, ci, sigma_i) * scale, 1.0 / sigma_o);
 }
 
-// x: f |cos wi| without tint, y: density of rough_dielectric_sample; F or 1 - F is contained in both.
+// x: f |cos wi| without tint, y: density of rough_dielectric_sample; both include F or 1 - F.
 vec2 rough_dielectric(vec3 wo, vec3 wi, vec2 alpha, float eta, int distribution) {
     float ho;
     vec2 value = rough_interface(wo, wi, alpha, eta, distribution, ho);

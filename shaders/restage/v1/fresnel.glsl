@@ -22,7 +22,7 @@ float fresnel_dielectric(float cos_i, float eta) {
     return fresnel_dielectric(cos_i, eta, cos_t);
 }
 
-// Direction of transmission of w about the normal n, dot(w, n) = cos_i > 0; cos_t from fresnel_dielectric.
+// Transmission direction of w about the normal n, dot(w, n) = cos_i > 0; cos_t from fresnel_dielectric.
 vec3 refract_about(vec3 w, vec3 n, float cos_i, float cos_t, float eta) {
     return (n * cos_i - w) / eta - n * cos_t;
 }
@@ -60,7 +60,7 @@ Spectrum fresnel_schlick(Spectrum r0, float cos_i) {
 }
 
 // Hemispherical (cosine-weighted) reflectance of a dielectric seen from the thin side, eta > 1: Walsh 1926 in the form
-// of Duntley 1942; near 1, where that cancels, a fit of that integral (relative error below 3e-4, 1.002 to 1.15).
+// of Duntley 1942; near 1, where that cancels, a fit to that integral (relative error below 3e-4, 1.002 to 1.15).
 // From the dense side it is 1 - (1 - result) / eta^2.
 float fresnel_dielectric_average(float eta) {
     if (eta < 1.08) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A dielectric coat over an opaque base (diffuse or conductor), with an optional homogeneous medium between them:
-// the position-free random walk of Guo et al. 2018 as pbrt-v4 does it (Pharr et al. 2023, sec. 14.3, LayeredBxDF).
+// the position-free random walk of Guo et al. 2018 as in pbrt-v4 (Pharr et al. 2023, sec. 14.3, LayeredBxDF).
 //
 // eval and sample are two unbiased estimates of one function: the light that leaves after at most max_depth events
-// inside. The density that MIS needs cannot be had in closed form, so `layered_pdf` is a deterministic approximation of
+// inside. The density that MIS needs has no closed form, so `layered_pdf` is a deterministic approximation of
 // it, used on both sides (light and BSDF samples): MIS weights then sum to 1 at every direction and nothing is biased,
 // whereas a random density would correlate with the estimates it weighs. It is not the density of layered_sample.
 //
-// Different from pbrt-v4: (1) its weight for continuing through the exit interface takes the density of the reverse
+// Differences from pbrt-v4: (1) its weight for continuing through the exit interface takes the density of the reverse
 // direction, so its two weights do not sum to 1 and its f comes out too bright, by 4 % (alpha 0.1 over a diffuse base
 // of 0.6) to 15 % (0.3 over metal); here they do, and energy is conserved. (2) A diffuse base uses only the direction
-// drawn through the coat from wi, which suits it everywhere. (3) After max_depth events sample may still leave, as in
-// eval. (4) Coats are smooth below alpha = 0.0015. (5) What leaves by a smooth coat after a smooth base is marked delta,
+// drawn through the coat from wi, which always suits it. (3) After max_depth events sample may still leave, as in
+// eval. (4) Coats are smooth below alpha = 0.0015. (5) Light leaving by a smooth coat after a smooth base is marked delta,
 // even if the medium scattered it before: eval cannot make that connection, so no MIS weight may count on it.
 // Directions have z > 0 outside; the walk runs downwards from z = thickness.
 #ifndef RESTAGE_V1_LAYERED
@@ -25,18 +25,18 @@
 struct Layered {
     vec2 alpha;      // of the coat
     float eta;       // of the coat, relative to the outside
-    float thickness; // in mean free paths, as pbrt's (extinction 1)
+    float thickness; // in mean free paths, as in pbrt (extinction 1)
     Spectrum albedo;     // of the medium; 0 = it only absorbs
     float g;         // Henyey-Greenstein
     int max_depth;
     int n_samples;
-    bool metal;      // a literal at the caller, so that the other base costs no code
+    bool metal;      // a literal at the call site, so that the other base is compiled out
     Spectrum base;       // diffuse: reflectance; metal: ior relative to the coat
     Spectrum base_k;     // metal
     vec2 base_alpha; // metal
 };
 
-// The coat from a material's parameters; the base is the caller's to fill in.
+// The coat from a material's parameters; the caller fills in the base.
 Layered layered_coat_of(vec2 roughness, int remap, float eta, float thickness, Spectrum albedo, float g, int max_depth,
                         int n_samples) {
     Layered l;
@@ -53,7 +53,7 @@ Layered layered_coat_of(vec2 roughness, int remap, float eta, float thickness, S
 const int LAYER_TOP = 0;
 const int LAYER_BASE = 1;
 const int LAYER_MEDIUM = 2;
-const int LAYER_EITHER = 0; // what the coat may do
+const int LAYER_EITHER = 0; // allowed events at the coat
 const int LAYER_REFLECT = 1;
 const int LAYER_TRANSMIT = 2;
 
@@ -73,7 +73,7 @@ vec3 henyey_greenstein_sample(vec3 w, float g, vec2 u) {
     return r.x * f.t + r.y * f.b + c * w;
 }
 
-// One scattering at the coat seen from v. Returns f cos / pdf without 1/eta^2, 0 = lost; r.z > 0 when it was reflected.
+// One scattering at the coat seen from v. Returns f cos / pdf without 1/eta^2, 0 = lost; r.z > 0 if reflected.
 // pdf: density of r given the choice (0 for a smooth coat).
 float layered_coat(vec2 alpha, float eta, vec3 v, vec3 u, int allowed, out vec3 r, out float pdf) {
     bool smooth_coat = coat_is_smooth(alpha, eta);
@@ -98,7 +98,7 @@ float layered_coat(vec2 alpha, float eta, vec3 v, vec3 u, int allowed, out vec3 
     return weight;
 }
 
-// Russian roulette from the fourth event on, where little light is left.
+// Russian roulette from the fourth event on, when little light is left.
 bool layered_survives(int depth, inout Spectrum beta, inout Rng rng) {
     float q = max_component(beta);
     if (depth <= 3 || q >= 0.25)
@@ -127,7 +127,7 @@ int layered_advance(Layered l, bool medium, vec3 w, inout float z, inout Spectru
     return up ? LAYER_TOP : LAYER_BASE;
 }
 
-// Scatters at the base; v = where it came from. beta takes f cos / pdf. Returns the density of w (rough metal) or 0.
+// Scatters at the base; v = direction it came from. beta is multiplied by f cos / pdf. Returns the density of w (rough metal) or 0.
 float layered_base_sample(Layered l, vec3 v, vec2 u, out vec3 w, inout Spectrum beta) {
     if (!l.metal) {
         w = sample_cosine_hemisphere(u);
@@ -246,7 +246,7 @@ Spectrum layered_eval(Layered l, vec3 wo, vec3 wi, inout Rng rng) {
     return value;
 }
 
-// For MIS only, see above. Integrates to about 1 less the probability of the delta lobes.
+// For MIS only, see above. Integrates to about 1 minus the probability of the delta lobes.
 float layered_pdf(Layered l, vec3 wo, vec3 wi) {
     if (wo.z * wi.z <= 0.0)
         return 0.0;

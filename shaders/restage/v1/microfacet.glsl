@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Anisotropic microfacet distributions (GGX, Beckmann) with Smith shadowing and visible-normal sampling.
 //
-// Everything is said with sigma(w) = cos(w) * (1 + Lambda(w)), the microsurface area that w sees (Heitz 2014, Eq. 26
+// Everything is expressed by sigma(w) = cos(w) * (1 + Lambda(w)), the microsurface area that w sees (Heitz 2014, Eq. 26
 // with G1 = 1 / (1 + Lambda)), because sigma stays finite at grazing angles where Lambda does not. With co, ci > 0:
 //   density of visible normals   D_w(h) = D(h) <w,h> / sigma(w)                                     Heitz 2014, Eq. 16
 //   G2 / (co ci)                 = 1 / (ci sigma_o + co sigma_i - co ci)   (height-correlated)      Heitz 2014, Eq. 99
 //   reflection                   f ci = D F ci V / 4, density D / (4 sigma_o), weight F ci V sigma_o
-// Directions given here have z > 0.
+// Directions passed here have z > 0.
 #ifndef RESTAGE_V1_MICROFACET
 #define RESTAGE_V1_MICROFACET
 
@@ -20,8 +20,8 @@ const int DISTRIBUTION_BECKMANN = 1;
 
 bool alpha_is_smooth(vec2 alpha) { return min(alpha.x, alpha.y) < ALPHA_SMOOTH; }
 
-// pbrt-v4: sqrt; pbrt-v3: its polynomial in ln(roughness), not less than 0.001 there; else alpha itself, up to what v3's
-// polynomial reaches.
+// pbrt-v4: sqrt; pbrt-v3: its polynomial in ln(roughness), at least 0.001 there; else alpha itself, up to the maximum of v3's
+// polynomial.
 vec2 alpha_from_roughness(float u, float v, int remap) {
     vec2 r = clamp(vec2(u, v), 0.0, 1.0);
     if (remap == REMAP_V4)

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What single scattering between microfacets loses, and lobes that give it back: Kulla and Conty 2017, "Revisiting
-// Physically Based Shading at Imageworks", pp. 13-24, after Kelemen and Szirmay-Kalos 2001, Eq. 12. Reciprocal by form.
+// Energy lost by single scattering on microfacets, and lobes that restore it: Kulla and Conty 2017, "Revisiting
+// Physically Based Shading at Imageworks", pp. 13-24, after Kelemen and Szirmay-Kalos 2001, Eq. 12. Reciprocal by construction.
 //   f_ms(o, i) = L(o) L(i) / (pi Lm),  L = 1 - directional albedo with F = 1,  Lm = 2 int_0^1 L mu dmu
 // L is a quadrature over visible normals, because fits hold neither for anisotropic surfaces (four variables) nor for
-// dielectrics (three, with total reflection); Lm, which is smooth, is a fit. Errors stand at each.
+// dielectrics (three, with total reflection); Lm, which is smooth, is a fit. Errors are given at each.
 #ifndef RESTAGE_V1_MULTISCATTER
 #define RESTAGE_V1_MULTISCATTER
 
 #include <restage/v1/fresnel.glsl>
 #include <restage/v1/microfacet.glsl>
 
-// 1 - directional albedo of a microfacet interface seen from wo, wo.z > 0. eta = ior below / above; 0: all is reflected.
-// A Fibonacci lattice of 55 normals (Sloan and Joe 1994, sec. 2.9), shifted off 0 and 1. Error: rms 0.005, most 0.02;
+// 1 - directional albedo of a microfacet interface seen from wo, wo.z > 0. eta = ior below / above; 0: total reflection.
+// A Fibonacci lattice of 55 normals (Sloan and Joe 1994, sec. 2.9), shifted off 0 and 1. Error: rms 0.005, max 0.02;
 // from inside a dielectric, with total reflection, 0.01 and 0.045.
 float microfacet_loss(vec3 wo, vec2 alpha, float eta, int distribution) {
     const int count = 55, generator = 34;
@@ -80,7 +80,7 @@ vec2 microfacet_mean_loss_dielectric(vec2 alpha, float n, int distribution) {
     return max(m, vec2(1e-5));
 }
 
-// The share of colour that survives two and more reflections of mean reflectance f, when one goes out with 1 - mean_loss:
+// The fraction of colour that survives two or more reflections of mean reflectance f, if each exits with 1 - mean_loss:
 // the geometric series f^2 E (1 + f (1 - E) + ...). Kulla and Conty 2017, p. 16, with the square of Hill 2018,
 // "A Multi-Faceted Exploration", part 3.
 Spectrum multiscatter_color(Spectrum f, float mean_loss) { return f * f * (1.0 - mean_loss) / (1.0 - f * mean_loss); }
@@ -95,14 +95,14 @@ Spectrum fresnel_conductor_average(Spectrum eta, Spectrum k) {
     return sum;
 }
 
-// f_ms |cos wi| with F = 1, both directions above; cosine-distributed samples fit it.
+// f_ms |cos wi| with F = 1, both directions above; sample with a cosine distribution.
 float multiscatter_reflection(vec3 wo, vec3 wi, vec2 alpha, float mean_loss, int distribution) {
     return microfacet_loss(wo, alpha, 0.0, distribution) * microfacet_loss(wi, alpha, 0.0, distribution) /
            (PI * mean_loss) * wi.z;
 }
 
-// The dielectric's share of lost light that comes back above; the rest goes through. It keeps both sides' energy and
-// reciprocity, (1 - r) Lm = eta^2 (1 - r') Lm', with 1 - r in proportion to the mean transmittance.
+// The fraction of a dielectric's lost light that returns above; the rest is transmitted. Preserves both sides' energy and
+// reciprocity, (1 - r) Lm = eta^2 (1 - r') Lm', with 1 - r proportional to the mean transmittance.
 struct MultiscatterDielectric {
     float eta;       // below / above, where above is wo's side
     vec2 mean_loss;  // above, below

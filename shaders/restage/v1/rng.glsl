@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rng: a small pseudo-random stream for what takes an unknown number of numbers (layered random walks).
+// Rng: a small pseudo-random stream for consumers of an unknown number of values (layered random walks).
 // PCG-RXS-M-XS 32 (O'Neill 2014; as a hash, Jarzynski and Olano 2020). The path's own dimensions come from sampler.glsl.
 #ifndef RESTAGE_V1_RNG
 #define RESTAGE_V1_RNG

@@ -27,7 +27,7 @@ float sheen_lambda(float c, float alpha) {
     return exp(c < 0.5 ? l : 2.0 * half_way - l);
 }
 
-// Directional albedo of what stands above: a fit of its integral, error 0.006. Above 1 (alpha < 0.1, grazing) less exact.
+// Directional albedo of the above: a fit to its integral, error 0.006. Less accurate beyond 1 (alpha < 0.1, grazing).
 float sheen_albedo_unlimited(float c, float alpha) {
     float x = pow(clamp(c, 0.0, 1.0), 1.0 / 3.0) - 0.6;
     float b = sqrt(sqrt(alpha)) - 0.65;
@@ -43,8 +43,8 @@ float sheen_albedo_unlimited(float c, float alpha) {
 }
 float sheen_albedo(float c, float alpha) { return min(sheen_albedo_unlimited(c, alpha) + 0.006, 1.0); }
 
-// f |cos wi| of a white sheen. Where the model would return more than falls on it, it is scaled down to that, on both
-// directions alike; 0.006 more, the fit's error, so that it never gains.
+// f |cos wi| of a white sheen. Where the model would return more light than it receives, it is scaled down, in both
+// directions alike; by 0.006 more, the fit's error, so that it never gains.
 float sheen_value(vec3 wo, vec3 wi, float alpha) {
     vec3 h = normalize(wo + wi);
     float g = 1.0 / (1.0 + sheen_lambda(wo.z, alpha) + sheen_lambda(wi.z, alpha)); // Eq. 4: height-correlated

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spectrum: a colour, reflectance or index of refraction, one number for each wavelength that a path carries. In RGB mode
+// Spectrum: a colour, reflectance or index of refraction, one number per wavelength that a path carries. In RGB mode
 // these are three, linear with Rec. 709 primaries; in spectral mode (RESTAGE_SPECTRAL is defined) four hero wavelengths
-// (Wilkie et al. 2014; Pharr et al. 2023, ch. 4). Code for both says `Spectrum` and never vec3, .rgb or three arguments:
+// (Wilkie et al. 2014; Pharr et al. 2023, ch. 4). Code for both uses `Spectrum`, never vec3, .rgb or three arguments:
 //
 //   Spectrum(x)                     the same at every wavelength
-//   spectrum_from_rgb(c)            a reflectance: within [0,1] where c is
-//   spectrum_from_rgb_unbounded(c)  what may be above 1: an absorption coefficient, an index of refraction, a radiance
+//   spectrum_from_rgb(c)            a reflectance: within [0,1] if c is
+//   spectrum_from_rgb_unbounded(c)  may exceed 1: an absorption coefficient, an index of refraction, a radiance
 //   wavelengths()                   [nm], of each component: data that depend on the wavelength (Cauchy's or Sellmeier's
 //                                   formula, the phase of a thin film, measured eta and k in a Table) are evaluated there
-//   rgb_from_spectrum(s)            back; to look at a colour, not to compute with it
+//   rgb_from_spectrum(s)            back; to inspect a colour, not to compute with it
 //   luminance, average, max_component, min_component, is_black, finite
 //
 // Componentwise are + - * /, min, max, clamp, mix, exp, log, pow, sqrt, step, and comparisons (lessThan; mix takes their
@@ -25,8 +25,8 @@ bool is_black(vec3 c) { return c == vec3(0); }
 
 #ifdef RESTAGE_SPECTRAL
 
-// A placeholder until there is a spectral renderer: the wavelengths of every path are these, and the three primaries
-// are curves that sum to 1 everywhere. Whatever uses the functions above need not change.
+// A placeholder until there is a spectral renderer: every path uses these wavelengths, and the three primaries
+// are curves that sum to 1 everywhere. Users of the functions above need not change.
 #define Spectrum vec4
 
 Spectrum wavelengths() { return Spectrum(450.0, 520.0, 580.0, 640.0); }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables: words that a plugin made of a file (restage/table.h), seen by the GLSL of materials as parameters of type
-// Table. What lies past their end is 0. The members of Table are the host's.
+// Tables: words that a plugin made from a file (restage/table.h), seen by the GLSL of materials as parameters of type
+// Table. Words past the end are 0. The members of Table belong to the host.
 #ifndef RESTAGE_V1_TABLE
 #define RESTAGE_V1_TABLE
 
 struct Table {
     uint64_t words;
-    uint size; // how many
+    uint size; // number of words
 };
 
-uint table_word(Table t, uint i); // lib/table.glsl, which comes after the plugin's code
+uint table_word(Table t, uint i); // lib/table.glsl, after the plugin's code
 uint table_size(Table t) { return t.size; }
 float table_float(Table t, uint i) { return uintBitsToFloat(table_word(t, i)); }
 

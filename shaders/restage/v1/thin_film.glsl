@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Iridescence of a thin film over a base: Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the
-// Modeling of Varying Iridescence", with Schlick's Fresnel terms as KHR_materials_iridescence has it.
+// Modeling of Varying Iridescence", with Schlick's Fresnel terms as in KHR_materials_iridescence.
 #ifndef RESTAGE_V1_THIN_FILM
 #define RESTAGE_V1_THIN_FILM
 
@@ -14,7 +14,7 @@ void thin_film_sensitivity(float path, Spectrum shift, out Spectrum once, out Sp
     twice = cos(2.0 * phase);
 }
 #else
-// The eye's answer to a path difference [nm] and to twice it, in linear sRGB: the Fourier transform of Gaussians fitted to
+// The eye's response to a path difference [nm] and to twice it, in linear sRGB: the Fourier transform of Gaussians fitted to
 // the CIE 1931 curves (Belcour and Barla 2017, sec. 4.2 and supplemental). X has two of them.
 void thin_film_sensitivity(float path, Spectrum shift, out Spectrum once, out Spectrum twice) {
     float phase = TWO_PI * path * 1e-9;
@@ -28,20 +28,20 @@ void thin_film_sensitivity(float path, Spectrum shift, out Spectrum once, out Sp
     vec4 height = value * sqrt(TWO_PI * variance);
     vec4 a = height * wave * decay;
     decay *= decay;
-    vec4 b = height * (2.0 * wave * wave - 1.0) * decay * decay; // of twice the phase
+    vec4 b = height * (2.0 * wave * wave - 1.0) * decay * decay; // at twice the phase
     once = xyz_to_rgb * vec3(a.x + a.w, a.yz);
     twice = xyz_to_rgb * vec3(b.x + b.w, b.yz);
 }
 #endif
 
-// Reflectance under the cosine c of a film (index, thickness [nm]) over a base that reflects f0 head on.
+// Reflectance at the cosine c of a film (index, thickness [nm]) over a base that reflects f0 at normal incidence.
 Spectrum thin_film_reflectance(float c, float index, float thickness, Spectrum f0) {
-    float film = mix(1.0, index, smoothstep(0.0, 30.0, thickness)); // a film that vanishes has no index of its own
+    float film = mix(1.0, index, smoothstep(0.0, 30.0, thickness)); // the index vanishes with the film
     float cos2 = 1.0 - (1.0 - c * c) / (film * film);
     if (cos2 <= 0.0)
         return Spectrum(1);
     float cos_t = sqrt(cos2);
-    float r12 = fresnel_schlick(Spectrum(sqr((film - 1.0) / (film + 1.0))), c).x; // the same at each
+    float r12 = fresnel_schlick(Spectrum(sqr((film - 1.0) / (film + 1.0))), c).x; // equal for all
     float t121 = 1.0 - r12;
     Spectrum root = sqrt(clamp(f0, Spectrum(0), Spectrum(0.9999)));
     Spectrum base = (1.0 + root) / (1.0 - root);
@@ -52,10 +52,10 @@ Spectrum thin_film_reflectance(float c, float index, float thickness, Spectrum f
     Spectrum amplitude = sqrt(r123);
     Spectrum series = sqr(t121) * r23 / (1.0 - r123); // Eq. 10, all orders without their phase
     Spectrum sum = r12 + series;
-    Spectrum once, twice; // higher orders are averaged away by the eye's curves
+    Spectrum once, twice; // higher orders are averaged out by the eye's curves
     thin_film_sensitivity(2.0 * film * thickness * cos_t, shift, once, twice); // Eq. 3
     sum += 2.0 * (series - t121) * amplitude * (once + amplitude * twice);
-    return clamp(sum, Spectrum(0), Spectrum(1)); // outside sRGB's triangle some are negative
+    return clamp(sum, Spectrum(0), Spectrum(1)); // outside the sRGB gamut some are negative
 }
 
 #endif

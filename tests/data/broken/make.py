@@ -37,7 +37,7 @@ def binary(kind, body, **more):
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 
 put("ply/empty.ply", "", "the header does not end")
-put("ply/no-magic.ply", "plx\nformat ascii 1.0\nend_header\n", "no PLY file")
+put("ply/no-magic.ply", "plx\nformat ascii 1.0\nend_header\n", "not a PLY file")
 put("ply/header-open.ply", ply(end="") + "property", "the header does not end")
 put("ply/one-long-line.ply", "ply\n" + "comment" * 3000, "the header does not end")
 put("ply/format-unknown.ply", ply(kind="ebcdic") + POINTS + "3 0 1 2\n", "format 'ebcdic' is unknown")

@@ -44,12 +44,6 @@ static const RestagePanel1 lift_panel = {
     .draw = lift_draw,
 };
 
-RESTAGE_PLUGIN("org.example.bundle", "1.0.0",
-               {RESTAGE_MATERIAL1, &chalk},
-               {RESTAGE_TEXTURE1, &stripes},
-               {RESTAGE_SKY1, &dusk},
-               {RESTAGE_ACTION1, &lift},
-               {RESTAGE_PANEL1, &lift_panel},
-               {RESTAGE_IMPORTER1, &towers_in},
-               {RESTAGE_EXPORTER1, &towers_out},
-               {RESTAGE_DENOISER1, &blur})
+RESTAGE_PLUGIN("org.example.bundle", "1.0.0", {RESTAGE_MATERIAL1, &chalk}, {RESTAGE_TEXTURE1, &stripes},
+               {RESTAGE_SKY1, &dusk}, {RESTAGE_ACTION1, &lift}, {RESTAGE_PANEL1, &lift_panel},
+               {RESTAGE_IMPORTER1, &towers_in}, {RESTAGE_EXPORTER1, &towers_out}, {RESTAGE_DENOISER1, &blur})

@@ -5,7 +5,7 @@
 
 const int dots_footprint = 1, dots_uv = 2, dots_duv = 3, dots_normal = 4, dots_object = 5, dots_world = 6, dots_dp = 7;
 
-// Of a line of alternate ones and zeros, the mean over [x - width / 2, x + width / 2].
+// The mean of a line of alternating ones and zeros over [x - width / 2, x + width / 2].
 float dots_line(float x, float width) {
     vec2 ends = x + 0.5 * max(width, 1e-4) * vec2(-1, 1);
     vec2 sums = floor(0.5 * ends) + max(2.0 * fract(0.5 * ends) - 1.0, vec2(0));

@@ -1,8 +1,8 @@
-/* @LABEL@: each pixel becomes a weighted mean of its neighbours; neighbours whose albedo or normal differ count less, so
- * that edges stay. (A cross-bilateral filter, Eisemann and Durand 2004, Petschnigg et al. 2004.) What a denoiser must
- * fulfil is said in <restage/denoiser.h>; `restage check` tests it. */
-#include <restage/denoiser.h>
+/* @LABEL@: each pixel becomes a weighted mean of its neighbours; neighbours whose albedo or normal differ count less,
+ * so that edges stay. (A cross-bilateral filter, Eisemann and Durand 2004, Petschnigg et al. 2004.) What a denoiser
+ * must fulfil is said in <restage/denoiser.h>; `restage check` tests it. */
 #include <float.h>
+#include <restage/denoiser.h>
 #include <stdlib.h>
 
 static int is_finite(float x) { return x - x == 0.0f; }
