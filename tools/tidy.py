@@ -72,7 +72,11 @@ def main():
     database = build / "compile_commands.json"
     if not database.exists():
         sys.exit(f"tidy: {database} is missing; build first")
-    commands = {e["file"]: e for e in json.loads(database.read_text())}
+    for_clang = build / "tidy"  # the same commands without the flags that only GCC knows
+    for_clang.mkdir(exist_ok=True)
+    text = database.read_text().replace(" -fno-gnu-unique", "")
+    (for_clang / "compile_commands.json").write_text(text)
+    commands = {e["file"]: e for e in json.loads(text)}
     wanted = [str(pathlib.Path(f).resolve().relative_to(ROOT)) for f in args.files] or tracked_by_age()
     names = [n for n in wanted if str(ROOT / n) in commands]
 
@@ -83,7 +87,7 @@ def main():
         if args.budget and time.monotonic() - started > args.budget:
             return "left", ""
         entry = commands[str(ROOT / name)]
-        return check(tidy, build, name, entry["command"], entry["directory"])
+        return check(tidy, for_clang, name, entry["command"], entry["directory"])
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for verdict, output in pool.map(job, names):

@@ -115,8 +115,7 @@ Result<> check_name(const Kind& kind, const std::string& name, const Catalogue& 
         return fail(sentence + "it is a word of GLSL, and it becomes the prefix of its functions");
     if (kind.glsl && plugin::is_taken_prefix(name)) return fail(sentence + "functions of Restage's own begin with it");
     if (const Entry* taken = kind.provider(catalogue, name))
-        return fail("there is " + std::string(kind.article) + " " + kind.name + " \"" + name +
-                    "\" exists already, in " + taken->name());
+        return fail(std::string("the ") + kind.name + " \"" + name + "\" exists already, in " + taken->name());
     return {};
 }
 

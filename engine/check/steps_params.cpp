@@ -96,7 +96,7 @@ Result<StepResult> through_glsl(Subject& s, const std::vector<ParamSet>& sets) {
         "layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Out { uint at[]; };\n"
         "layout(push_constant, scalar) uniform Push { uint64_t params, answer; } push;\n"
         "void main() {\n    SceneData scene;\n    scene.params = push.params;\n"
-        "    Material whole = material_fetch(scene, 0u, vec4(0));\n    Out o = Out(push.answer);\n"
+        "    Material whole = material_fetch(scene, 0u, texture_at_uv(vec4(0)));\n    Out o = Out(push.answer);\n"
         "    o.at[0] = 0u;\n";
     main += fmt::format("    {}_Params m = {};\n", s.table().prefix, s.table().site ? "whole.params" : "whole");
     for (std::size_t i = 0; i < words.size(); ++i)

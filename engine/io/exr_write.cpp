@@ -50,7 +50,7 @@ Result<> check(const ExrImage& image) {
             return fail(fmt::format("layer '{}' has {} values instead of {}", layer.name, found, wanted));
         for (const auto& channel : layer.channels)
             if (channel.empty() || !names.insert(full_name(layer, channel)).second)
-                return fail(fmt::format("channel '{}' is duplicate or unnamed", full_name(layer, channel)));
+                return fail(fmt::format("channel '{}' is a duplicate or unnamed", full_name(layer, channel)));
     }
     return {};
 }

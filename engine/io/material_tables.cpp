@@ -42,7 +42,7 @@ Result<scene::Edit> param_edit(const scene::Scene& scene, const plugin::Registry
     if (plugin && !common) {
         const std::string who = "material \"" + material->name + "\": parameter \"" + std::string(param) + "\"";
         const model::Param* line = plugin->table->find(param);
-        if (!line) return fail(who + " is not one of a " + material->type);
+        if (!line) return fail(who + " does not exist in a " + material->type);
         if (value.type == model::ParamType::table && !value.text.empty())
             value.text = std::filesystem::absolute(value.text).lexically_normal().string();
         if (const std::string why = misfit(*line, value); !why.empty()) return fail(who + why);

@@ -118,8 +118,8 @@ Result<SkyPicture> sky_picture(const plugin::SkyEntry& sky, const ParamSet& valu
     out.pixels.values.resize(numbers);
     for (std::size_t i = 0; i < out.pixels.values.size(); ++i)
         if (const float x = out.pixels.values[i]; !std::isfinite(x) || x < 0)
-            return fail(
-                fmt::format("{}: texel ({}, {}) of {}x{} is {:g}", who, i / 3 % width, i / 3 / width, width, width, x));
+            return fail(fmt::format("{}: texel ({}, {}) of {}x{} is {:g}", who, i / 3 % width, i / 3 / width, width,
+                                    width, std::isnan(x) ? std::abs(x) : x));
     out.suns = std::move(job.suns);
     return out;
 }

@@ -29,7 +29,7 @@ Result<T> look_up(const Word<T> (&words)[n], const std::string& name, const std:
         if (name == word.name) return word.value;
         known += (known.empty() ? "" : ", ") + std::string(word.name);
     }
-    return fail(where + ": \"" + name + "\" is unknown; known are " + known);
+    return fail(where + ": \"" + name + "\" is unknown; known: " + known);
 }
 
 // Every key is known: a typing error is not passed over.

@@ -134,7 +134,7 @@ std::string check_params(model::ParamTable params) {
         if (!is_glsl_identifier(p.id))
             return "parameter " + std::to_string(i) + ": " + quote(p.id) +
                    " is not a GLSL identifier: letters, digits and single underscores, no digit first, not gl_...";
-        if (!ids.insert(p.id).second) return "parameter " + quote(p.id) + " is duplicate";
+        if (!ids.insert(p.id).second) return "parameter " + quote(p.id) + " is a duplicate";
         if (const std::string problem = check_param(p); !problem.empty())
             return "parameter " + quote(p.id) + ": " + problem;
     }
@@ -172,7 +172,7 @@ std::string check_texture(const model::Texture& t, const fs::path& folder) {
     if (!is_glsl_identifier(t.prefix) || t.prefix.back() == '_')
         return who + ": its prefix " + quote(t.prefix) + " is not a GLSL identifier, or ends with an underscore";
     if (is_taken_prefix(t.prefix))
-        return who + ": its prefix " + quote(t.prefix) + " is taken: functions around it begin with it";
+        return who + ": its prefix " + quote(t.prefix) + " is reserved: functions around it begin with it";
     if (const std::string problem = check_params(t.params); !problem.empty()) return who + ": " + problem;
     constexpr std::size_t most_operands = 16; // bits in the first word of an operation, render/texture_program.hpp
     std::size_t operands = 0;

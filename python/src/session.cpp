@@ -167,9 +167,11 @@ io::Report export_to(const Shared& w, const std::filesystem::path& path, const s
     io::ExportOptions how;
     how.format = format;
     const auto exporter = take(io::find_exporter(path.string(), format, registry));
-    for (const auto& [key, value] : options)
-        take(io::set_option(*exporter.table, nb::cast<std::string>(key) + "=" + nb::cast<std::string>(nb::str(value)),
-                            how.values));
+    for (const auto& [key, value] : options) {
+        const std::string text = nb::isinstance<nb::bool_>(value) ? (nb::cast<bool>(value) ? "true" : "false")
+                                                                  : nb::cast<std::string>(nb::str(value));
+        take(io::set_option(*exporter.table, nb::cast<std::string>(key) + "=" + text, how.values));
+    }
     const Scene copy = w->scene();
     return work(w->host(), progress, [&](io::Progress tell) {
         how.progress = std::move(tell);

@@ -255,9 +255,11 @@ def test_skies_of_plugins(demo, scenes, tmp_path):
     assert demo.sky.values["elevation"] == 12 and demo.sky.values["turbidity"] == 5
     demo.set_sky(strength=2)
     assert demo.sky.type == "sunsky" and demo.sky.color == (2, 2, 2)
-    demo.save(tmp_path / "sky.restage")
-    with restage.open(tmp_path / "sky.restage") as again:
-        assert again.sky.values == demo.sky.values
+    with restage.open(scenes / "cornell/cornell.pbrt") as other:
+        other.make_sky("sunsky", elevation=12, turbidity=5)
+        other.save(tmp_path / "sky.restage")
+        with restage.open(tmp_path / "sky.restage") as again:
+            assert again.sky.values == other.sky.values and again.sky.values["elevation"] == 12
     for values, words in (({"elevatoin": 1}, "there are: mode"), ({"elevation": 91}, "out of its range"),
                           ({"sun": "yes"}, "True or False")):
         with pytest.raises(restage.Error, match=words):
@@ -352,7 +354,7 @@ def test_progress_of_opening_can_stop_it(scenes):
 def test_plugins_and_a_folder_that_holds_none(tmp_path):
     plugins = restage.plugins()
     assert any("material diffuse" in p.provides for p in plugins) and all(p.loaded for p in plugins)
-    assert {p.kind for p in plugins} == {"material", "importer", "exporter", "denoiser"}
+    assert {p.kind for p in plugins} == {"material", "texture", "importer", "exporter", "denoiser", "sky", "action, panel"}
     with pytest.raises(restage.Error, match="holds no plugin"):
         restage.load_plugins(tmp_path)
     with pytest.raises(restage.Error, match="no such folder"):

@@ -38,8 +38,8 @@ def use(folder: pathlib.Path) -> None:
         session.select(group).hidden = False
         strewn: restage.ActionResult = session.run_action("scatter", [copy, sheet], count=3, seed=2)
         strewn.objects.remove()
-        names: list[str] = [action.label for action in session.actions()]
-        assert "Scatter" in names
+        actions: list[str] = [action.label for action in session.actions()]
+        assert "Scatter" in actions
 
         camera = session.add_camera(np.array([3, 2, 3]), (0, 0, 0), fov=30, name="Corner")
         camera.projection = "orthographic"

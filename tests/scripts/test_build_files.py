@@ -29,4 +29,4 @@ def test_a_wheel_compiles_no_tests():
     assert 'cmake.define.RESTAGE_BUILD_TESTS = "OFF"' in (ROOT / "pyproject.toml").read_text()
     imgui = (ROOT / "cmake" / "DepsImgui.cmake").read_text()
     engine = imgui.index("restage_imgui_library(imgui_test_engine")
-    assert imgui.rindex("if(", 0, engine) == imgui.index("if(RESTAGE_BUILD_TESTS) # a wheel")
+    assert imgui.rindex("if(", 0, engine) == imgui.index("if(RESTAGE_BUILD_TESTS) # not needed in a wheel")

@@ -51,7 +51,7 @@ def test_a_sound_one_passes(tmp_path):
     ("overruns", "sky", ["writes behind the end of its picture"]),
     ("silent", "sky", ["gave up and did not say why", "level="]),
     ("crashes", "sky", ["crashed: SIGSEGV", "make() of 1x1 texels", "a bug in make()"]),
-    ("idle", "sky-params", ["nothing changes from one end to the other of: tilt"]),
+    ("idle", "sky-params", ["nothing changes, wherever in its range, with: tilt"]),
     ("deaf", "sky-stop", ["after progress() said stop, it was asked"]),
     ("leaks", "sky-runs", ["bytes allocated"]),
 ])

@@ -86,8 +86,8 @@ def test_new_plugin_refuses(installed, tmp_path):
     assert "full/file: exists already and is not a folder" in said("velours", "--folder", "full/file")
     assert "--label: quotes, backslashes" in said("velours", "--label", 'So "soft"')
     assert '"nonsense" is not in reverse-DNS form' in said("velours", "--id", "nonsense")
-    assert 'there is an importer "pbrt" already' in said("pbrt", "--kind", "importer")
-    assert 'there is a denoiser "oidn" already' in said("oidn", "--kind", "denoiser")
+    assert 'the importer "pbrt" exists already' in said("pbrt", "--kind", "importer")
+    assert 'the denoiser "oidn" exists already' in said("oidn", "--kind", "denoiser")
     assert "an exporter is written in cpp" in said("soup", "--kind", "exporter", "--language", "json")
     assert '"no-dash" cannot be the name of an importer' in said("no-dash", "--kind", "importer")
     assert [p.name for p in tmp_path.iterdir()] == ["full"], "a failed command leaves nothing behind"
@@ -99,8 +99,8 @@ def test_the_tutorial(installed, tmp_path):
     """docs/plugins.md, literally: types what the page says, and checks that it happens."""
     restage = installed / "bin" / "restage"
     text = (SOURCE / "docs" / "plugins.md").read_text()
-    text, _, _ = text.partition("\n## The other kinds\n")
-    blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.S)
+    text, _, kinds = text.partition("\n## The other kinds\n")
+    blocks = re.findall(r"```(\w+)\n(.*?)```", text + kinds.split("### A texture\n")[1].split("\n### ")[0], re.S)
     row, ui, file_row, reader = (b for language, b in blocks if language == "c")
     glsl, stripes = (b for language, b in blocks if language == "glsl")
     run(restage, "new-plugin", "minnaert", "--language", "c", "--label", "Minnaert", cwd=tmp_path)

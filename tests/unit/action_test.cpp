@@ -458,7 +458,7 @@ TEST_CASE("tables of actions and panels are judged before they are used", "[acti
     };
     CHECK_THAT(wrong([](model::Action& t) { t.id = "A row"; }), ContainsSubstring("without a proper id"));
     CHECK_THAT(wrong([](model::Action& t) { t.label = ""; }), ContainsSubstring("has no label"));
-    CHECK_THAT(wrong([](model::Action& t) { t.params[1].id = "copies"; }), ContainsSubstring("there twice"));
+    CHECK_THAT(wrong([](model::Action& t) { t.params[1].id = "copies"; }), ContainsSubstring("is a duplicate"));
     CHECK_THAT(wrong([](model::Action& t) { t.params[1].texturable = true; }), ContainsSubstring("texturable"));
     CHECK_THAT(wrong([](model::Action& t) { t.params[1].type = ParamType::table; }), ContainsSubstring("TABLE"));
     a.run = nullptr;

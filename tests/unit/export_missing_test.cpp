@@ -165,16 +165,16 @@ TEST_CASE("a strict conversion refuses what the file lacks, not what is only ren
         std::filesystem::remove(out.file("out.pbrt"));
         return done ? std::string() : done.error().message;
     };
-    const std::string dots = "Texture \"t\" \"spectrum\" \"dots\" \"rgb inside\" [1 0 0]\n";
+    const std::string cubes = "Texture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" [3]\n";
     const std::string matte = "Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"\n";
     const std::string diffuse = "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n";
-    CHECK(converted(v4_head + dots + diffuse, "v4") == "");
-    CHECK(converted(v3_head + dots + matte + "WorldEnd\n", "v4") == "");
+    CHECK(converted(v4_head + cubes + diffuse, "v4") == "");
+    CHECK(converted(v3_head + cubes + matte + "WorldEnd\n", "v4") == "");
     CHECK(
         converted(v4_head + "LightSource \"infinite\" \"rgb L\" [1 1 1] \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]\n",
                   "v4") == "");
     CHECK_THAT(
-        converted(v4_head + dots + diffuse + "ActiveTransform StartTime\nTranslate 1 0 0\nShape \"sphere\"\n", "v4"),
+        converted(v4_head + cubes + diffuse + "ActiveTransform StartTime\nTranslate 1 0 0\nShape \"sphere\"\n", "v4"),
         ContainsSubstring("in motion"));
     CHECK_THAT(converted(v3_head + "LookAt 0 0 0 0 0 0 0 1 0\nShape \"sphere\"\nWorldEnd\n", "v3"),
                ContainsSubstring("LookAt"));

@@ -96,8 +96,8 @@ TEST_CASE("errors in a JSON table are reported with their place", "[plugin]") {
     CHECK_THAT(refused(velvet(R"([{"id": "a", "type": "enum", "choices": ["x"], "default": "y"}])")),
                ContainsSubstring("must be one of the choices"));
     CHECK_THAT(refused(velvet("[]", R"(, "flags": ["shiny"])")), ContainsSubstring("\"shiny\" is unknown"));
-    CHECK_THAT(refused(velvet("[]", R"(, "prefix": "a__b")")), ContainsSubstring("no GLSL identifier"));
-    CHECK_THAT(refused(velvet("[]", R"(, "prefix": "material")")), ContainsSubstring("\"material\" is taken"));
+    CHECK_THAT(refused(velvet("[]", R"(, "prefix": "a__b")")), ContainsSubstring("is not a GLSL identifier"));
+    CHECK_THAT(refused(velvet("[]", R"(, "prefix": "material")")), ContainsSubstring("\"material\" is reserved"));
     CHECK_THAT(refused(velvet("[") + "]"), ContainsSubstring("not JSON"));
     const std::string both = json_manifest(velvet("[]"));
     CHECK_THAT(folder.refusal_of(both.substr(0, both.size() - 1) + R"(, "library": "velvet"})", "good"),

@@ -283,7 +283,7 @@ TEST_CASE("identifiers and tables are checked against GLSL's rules", "[plugin]")
         CHECK_FALSE(is_glsl_identifier(bad));
     const model::Param twice[] = {{.id = "a", .label = "A", .type = model::ParamType::boolean},
                                   {.id = "a", .label = "A", .type = model::ParamType::boolean}};
-    CHECK(check_params(twice) == "parameter \"a\" is duplicate");
+    CHECK(check_params(twice) == "parameter \"a\" is a duplicate");
     const model::Param texturable[] = {
         {.id = "a", .label = "A", .type = model::ParamType::integer, .texturable = true}};
     CHECK(check_params(texturable) == "parameter \"a\": only FLOAT and COLOR can be texturable");

@@ -229,7 +229,8 @@ TEST_CASE("Damaged projects are refused with the place", "[project]") {
     const std::string head = "{\"restage\": 1, \"base\": {\"file\": \"scenes/room.pbrt\"}, ";
     CHECK_THAT(message(head + "\"materials\": {\"changed\": {\"steel\": {}}}}"), ContainsSubstring("#17 oak"));
     CHECK_THAT(message(head + "\"instances\": {\"added\": {\"#77 x\": {}}}}"), ContainsSubstring("#77 x"));
-    CHECK_THAT(message(head + "\"film\": {\"width\": \"wide\"}}"), ContainsSubstring("film: width: a whole number"));
+    CHECK_THAT(message(head + "\"film\": {\"width\": \"wide\"}}"),
+               ContainsSubstring("film: width: expected a whole number"));
     CHECK_THAT(message(head + "\"film\": 7}"), ContainsSubstring("film"));
     CHECK_THAT(message(head + "\"meshes\": 7, \"cameras\": {\"added\": []}, \"active_camera\": \"#9 none\"}"),
                ContainsSubstring("bad.restage"));

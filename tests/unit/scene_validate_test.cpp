@@ -39,7 +39,7 @@ TEST_CASE("validate is silent about a valid scene and names the errors of an inv
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.mesh = {}; }); }), error, "has no mesh"));
     CHECK(mentions(
         with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1][1] = not_a_number; }); }), error,
-        "not a finite number"));
+        "non-finite value"));
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1][3] = 1; }); }), error,
                    "projective"));
     CHECK(mentions(with([&](Room& b) { change(b, b.chair, [](Instance& i) { i.object_to_world[1] = {}; }); }), warning,

@@ -207,7 +207,7 @@ TEST_CASE("values that a sky does not take are refused by name", "[skies]") {
     CHECK_THAT(refusal("sunsky", "mode", Value::choice("moon")), ContainsSubstring("direction|place"));
 }
 
-TEST_CASE("--set gives a scene a plugin's sky and its values", "[skies]") {
+TEST_CASE("a scene gets a plugin's sky and its values by --set", "[skies]") {
     const Fixture f;
     document::Session session(f.registry);
     f.opened(session);

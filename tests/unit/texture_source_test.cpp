@@ -47,15 +47,16 @@ TEST_CASE("what is wrong with a texture's table is said, and where", "[texture]"
     test::PluginFolder folder;
     const auto refusal = [&](const std::string& json) { return folder.refusal_of(json, nullptr); };
     CHECK_THAT(refusal(stripes(R"({"id": "one", "type": "colour"})")),
-               ContainsSubstring(R"("textures"[0]."params"[0]: "type": "colour" is unknown; known are float, color)"));
-    CHECK_THAT(refusal(stripes(color, R"("flags": ["maped"], )")), ContainsSubstring("known are image, mapped, site"));
-    CHECK_THAT(refusal(stripes(color, R"("gsl": "x", )")), ContainsSubstring("is \"glsl\" meant?"));
+               ContainsSubstring(R"("textures"[0]."params"[0]: "type": "colour" is unknown; known: float, color)"));
+    CHECK_THAT(refusal(stripes(color, R"("flags": ["maped"], )")), ContainsSubstring("known: image, mapped, site"));
+    CHECK_THAT(refusal(stripes(color, R"("gsl": "x", )")), ContainsSubstring("did you mean \"glsl\"?"));
     CHECK_THAT(refusal(stripes(R"({"id": "uscale", "type": "float"})", R"("flags": ["mapped"], )")),
                ContainsSubstring("\"uscale\" belongs to the host"));
     CHECK_THAT(refusal(stripes(R"({"id": "image", "type": "float"})", R"("flags": ["image"], )")),
                ContainsSubstring("\"image\" belongs to the host"));
     CHECK_THAT(refusal(stripes(color, "", "org.example.stripes", "Stripes")), ContainsSubstring("proper type name"));
-    CHECK_THAT(refusal(stripes(color, "", "org.example.stripes", "stripes", "texture")), ContainsSubstring("is taken"));
+    CHECK_THAT(refusal(stripes(color, "", "org.example.stripes", "stripes", "texture")),
+               ContainsSubstring("is reserved"));
     std::string many;
     for (int i = 0; i < 17; ++i)
         many += std::string(i ? ", " : "") + R"({"id": "p)" + std::to_string(i) +

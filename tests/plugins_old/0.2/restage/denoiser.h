@@ -34,7 +34,7 @@ typedef struct RestageDenoiser1 {
     RESTAGE_SIZE(RestageDenoiser1);
     const char* type;  /* "oidn" */
     const char* label; /* "Open Image Denoise 2.5" */
-    /* [any] 1 = usable; 0 = not, and *reason is a sentence that lives as long as the plugin. */
+    /* [any] 1 = usable; 0 = not, and *reason is a sentence, valid as long as the plugin. */
     int (*available)(const char** reason);
     /* [worker] One job at a time. 1 = done; 0 = failed, and *reason says why (valid until the next call). */
     int (*run)(const RestageDenoiseJob* job, const char** reason);

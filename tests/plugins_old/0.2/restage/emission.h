@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Interface "restage.emission/1": a material that shines. Data alone: the table names the parameters of the material
- * that say how much, and the host makes lights of the objects that have it, which paths find by light sampling as by
- * BSDF sampling. What leaves every point, towards every direction of the outer side, is
+/* Interface "restage.emission/1": a material that emits. Pure data: the table names the parameters of the material
+ * that say how much, and the host turns objects that have it into lights, which paths find by light sampling and by
+ * BSDF sampling. The radiance leaving every point, in every direction on the outer side, is
  *
  *   L = radiance * scale   [W/(m^2 sr)], linear sRGB primaries
  *
- * where `radiance` may be a texture. An object with an emission of its own shines by that instead. Shares of a `mix` do
- * not shine; the host says so. The BSDF stays what the GLSL says: a lamp may reflect as well. */
+ * where `radiance` may be a texture. An object with its own emission uses that instead. Components of a `mix` do
+ * not emit; the host reports it. The BSDF stays what the GLSL says: a lamp may reflect as well. */
 #ifndef RESTAGE_EMISSION_H
 #define RESTAGE_EMISSION_H
 
@@ -21,10 +21,10 @@ extern "C" {
 typedef struct RestageEmission1 {
     RESTAGE_SIZE(RestageEmission1);
     uint32_t reserved; /* 0 */
-    const char* type; /* of a material of the same plugin */
-    const char* radiance;  /* id of a COLOR parameter of it */
+    const char* type; /* of a material in the same plugin */
+    const char* radiance;  /* id of one of its COLOR parameters */
     const char* scale;     /* id of a FLOAT parameter without texture; NULL = 1 */
-    const char* two_sided; /* id of a BOOL parameter; NULL = the outer side alone shines */
+    const char* two_sided; /* id of a BOOL parameter; NULL = only the outer side emits */
 } RestageEmission1;
 
 #ifdef __cplusplus

@@ -25,8 +25,8 @@ typedef enum RestageType {
 } RestageType;
 
 enum {
-    RESTAGE_PARAM_TEXTURABLE = 1u, /* a texture may stand for the constant (FLOAT, COLOR) */
-    RESTAGE_PARAM_ADVANCED = 2u    /* folded away in the inspector at first */
+    RESTAGE_PARAM_TEXTURABLE = 1u, /* a texture may replace the constant (FLOAT, COLOR) */
+    RESTAGE_PARAM_ADVANCED = 2u    /* initially folded in the inspector */
 };
 
 /* One line of a parameter table; the macros below write it. Strings live as long as the plugin. */
@@ -41,7 +41,7 @@ typedef struct RestageParam {
     const char* id;           /* lower_snake, unique in the table, a valid GLSL identifier */
     const char* label;        /* "Roughness" */
     const char* unit;         /* "", "deg", "m", "1/m" */
-    const char* choices; /* ENUM: "ggx|beckmann". TABLE: the default, a file of the plugin's folder; NULL = none */
+    const char* choices; /* ENUM: "ggx|beckmann". TABLE: the default, a file in the plugin's folder; NULL = none */
     const char* tooltip; /* one sentence */
 } RestageParam;
 
@@ -68,7 +68,7 @@ typedef struct RestageParam {
     {sizeof(RestageParam), RESTAGE_TABLE, flags, 0, 0, 0, 0, 0, {0}, id, label, "", file, tooltip}
 /* clang-format on */
 
-/* A value on its way through the ABI. `ref`, when it is a texture, stands for v. */
+/* A value on its way through the ABI. `ref`, when it is a texture, replaces v. */
 typedef struct RestageValue {
     RESTAGE_SIZE(RestageValue);
     uint32_t type; /* RestageType */

@@ -2,17 +2,17 @@
 /* The entry point of a Restage plugin. C11.
  *
  * A plugin is a bundle: a folder with a manifest (plugin.json), perhaps a shared library, perhaps GLSL. It may bring
- * several materials, an importer and an exporter, and whatever else there is an interface for. The manifest, which the
+ * several materials, an importer and an exporter, and anything else that has an interface. The manifest, which the
  * host reads before it opens the library, lists what it provides and needs. The library exports one symbol,
  * `restage_plugin`, of type RestagePlugin. Everything else is found by string id with a revision
  * ("restage.material/1"); NULL means absent.
- * Whoever allocates frees; pointers given to a call are valid for that call only, unless said otherwise. No C++ type,
- * exception or allocation crosses the line. Every function says its thread: [main] [worker] [any].
+ * Whoever allocates frees; pointers passed to a call are valid only during it, unless stated otherwise. No C++ type,
+ * exception or allocation crosses the ABI. Every function states its thread: [main] [worker] [any].
  *
- * Growth. Every struct that crosses the line begins with its `size`, as whoever filled it was built. It may grow at its
- * end: what a shorter one lacks has the default that its comment gives (0 or NULL where it gives none), what a longer
- * one has beyond is not looked at. Elements of an array lie `size` bytes apart: RESTAGE_AT finds them. A change that
- * this cannot express is a new interface id ("restage.material/2"). */
+ * Growth. Every struct that crosses the ABI begins with its `size`, as compiled by its writer. It may grow at its
+ * end: members missing from a shorter one take the default their comment gives (0 or NULL if it gives none); the excess
+ * of a longer one is ignored. Elements of an array lie `size` bytes apart: RESTAGE_AT finds them. A change that
+ * this cannot express takes a new interface id ("restage.material/2"). */
 #ifndef RESTAGE_PLUGIN_H
 #define RESTAGE_PLUGIN_H
 
@@ -24,17 +24,17 @@
 extern "C" {
 #endif
 
-/* Revision of the entry point itself. A library whose `abi` differs is refused with a sentence. */
+/* Revision of the entry point itself. A library whose `abi` differs is refused with a message. */
 #define RESTAGE_ABI 2u
 
-/* The first member of every struct. In C++ it has its value; in C write it: `.size = sizeof(RestageMaterial1)`. */
+/* The first member of every struct. C++ initializes it; in C write `.size = sizeof(RestageMaterial1)`. */
 #ifdef __cplusplus
 #define RESTAGE_SIZE(type) uint32_t size = sizeof(type)
 #else
 #define RESTAGE_SIZE(type) uint32_t size
 #endif
 
-/* Element i of an array of such structs that was built elsewhere: RESTAGE_AT(RestageValue, values, i). */
+/* Element i of an array of such structs compiled elsewhere: RESTAGE_AT(RestageValue, values, i). */
 static inline const void* restage_at(const void* first, uint32_t size, size_t i) {
     return (const char*)first + i * size;
 }
@@ -56,36 +56,36 @@ static inline const void* restage_at(const void* first, uint32_t size, size_t i)
 /* What the host offers. Services are found by id, for example "restage.log/1". */
 typedef struct RestageHost {
     uint32_t abi;  /* RESTAGE_ABI of the host */
-    uint32_t size; /* sizeof(RestageHost) as the host was built */
+    uint32_t size; /* sizeof(RestageHost) in the host's build */
     const char* version; /* of the host, "0.1.0" */
-    /* [any] Pointer to the service's table, alive as long as the plugin is; NULL if the host does not have it. */
+    /* [any] Pointer to the service's table, valid as long as the plugin; NULL if the host does not have it. */
     const void* (*service)(const struct RestageHost* host, const char* id);
 } RestageHost;
 
 typedef struct RestagePlugin {
     uint32_t abi;  /* RESTAGE_ABI */
-    uint32_t size; /* sizeof(RestagePlugin) as the plugin was built */
+    uint32_t size; /* sizeof(RestagePlugin) in the plugin's build */
     const char* id;      /* reverse DNS, equal to the manifest's "id" */
     const char* version; /* equal to the manifest's "version" */
-    /* [main] Once after loading; non-zero is success. May be NULL. `host` lives until shutdown returns. */
+    /* [main] Once after loading; non-zero is success. May be NULL. `host` is valid until shutdown returns. */
     int (*init)(const RestageHost* host);
     /* [main] Once before unloading, only after a successful init. May be NULL. */
     void (*shutdown)(void);
-    /* [main] The index-th table of the interface `id` ("restage.material/1"); NULL past the end, or when there is
-     * none. Tables live until shutdown. */
+    /* [main] The index-th table of the interface `id` ("restage.material/1"); NULL past the end, or if there is
+     * none. Tables are valid until shutdown. */
     const void* (*query)(const char* id, uint32_t index);
 } RestagePlugin;
 
 #define RESTAGE_PLUGIN_SYMBOL "restage_plugin"
 
-/* The exported symbol, written once, with all that the library holds:
+/* Defines the exported symbol, once, with everything the library provides:
  *
  *   RESTAGE_PLUGIN("org.example.cloth", "1.2.0",
  *                  {RESTAGE_MATERIAL1, &velvet},
  *                  {RESTAGE_MATERIAL1, &silk},
  *                  {RESTAGE_INSPECTOR1, &velvet_inspector})
  *
- * RESTAGE_PLUGIN_INIT takes the two functions as well; either may be NULL. Sugar: nothing in it that a plugin could not
+ * RESTAGE_PLUGIN_INIT takes the two functions as well; either may be NULL. Sugar: nothing that a plugin could not
  * write itself. */
 typedef struct RestageProvided { /* stays inside the plugin */
     const char* interface_id;

@@ -3,8 +3,8 @@
  *
  * Handles are 1-based and per kind; 0 is none. Matrices are column-major double[16], object to world, right-handed or
  * mirrored as they come. Lengths are in the scene's own unit. Colours are linear sRGB primaries; radiometric values are
- * relative as in pbrt. Strings are UTF-8; in what the host gives they are never NULL ("" instead), nor is `origin`. In
- * what an importer gives, NULL is "" and an origin of nothing. */
+ * relative as in pbrt. Strings are UTF-8; from the host they are never NULL ("" instead), nor is `origin`. From an
+ * importer, NULL means "" and an empty origin. */
 #ifndef RESTAGE_SCENE_IO_H
 #define RESTAGE_SCENE_IO_H
 
@@ -21,17 +21,17 @@ typedef uint32_t RestageHandle;
 typedef struct RestageOriginValue {
     RESTAGE_SIZE(RestageOriginValue);
     uint32_t reserved; /* 0 */
-    const char* id;    /* of the value; "*": of the whole thing, of which there may be several lines */
-    const char* text;  /* in the words of the format */
+    const char* id;    /* of the value; "*": of the whole thing, possibly on several lines */
+    const char* text;  /* in the format's own notation */
 } RestageOriginValue;
 
-/* Where a thing came from, for exporters of the same format. The host looks at none of it but the ids: once a value is
- * edited, what has its id goes; once any is, what has "*" goes. */
+/* Where a thing came from, for exporters of the same format. The host reads only the ids: once a value is
+ * edited, the entry with its id is dropped; once any value is, entries with "*" are dropped. */
 typedef struct RestageOrigin {
     RESTAGE_SIZE(RestageOrigin);
     uint32_t value_count;
-    const char* format;   /* "pbrt-v3", "pbrt-v4", "gltf", ...; "" = made here */
-    const char* verbatim; /* what the importer did not understand of it, one "key value" line each; "" = nothing */
+    const char* format;   /* "pbrt-v3", "pbrt-v4", "gltf", ...; "" = created in Restage */
+    const char* verbatim; /* what the importer did not understand, one "key value" line each; "" = none */
     const RestageOriginValue* values;
 } RestageOrigin;
 
@@ -40,19 +40,19 @@ typedef struct RestageMesh {
     const char* name; /* "" = the host invents one */
     const RestageOrigin* origin;
     uint32_t vertex_count, triangle_count;
-    const float* positions;   /* 3 a vertex */
-    const float* normals;     /* 3 a vertex, or NULL */
-    const float* uvs;         /* 2 a vertex, or NULL */
-    const uint32_t* indices;  /* 3 a triangle, < vertex_count */
+    const float* positions;   /* 3 per vertex */
+    const float* normals;     /* 3 per vertex, or NULL */
+    const float* uvs;         /* 2 per vertex, or NULL */
+    const uint32_t* indices;  /* 3 per triangle, < vertex_count */
     const char* source_file;  /* the PLY/OBJ it was read from, absolute, or "": an exporter may refer to it */
     /* "", or the shape this tessellates, as a pbrt line: `sphere "float radius" 1`. Spheres, disks and cylinders are
-     * rendered as that; the triangles stand for them elsewhere. */
+     * rendered analytically; the triangles represent them everywhere else. */
     const char* primitive;
-    /* 4 a vertex, or NULL: along u, then the sign (1 or -1) of the bitangent, sign * cross(normal, tangent), which
-     * normal maps call y (glTF 2.0, 3.7.2.1). Without them it is cross(normal, dp/du), as in pbrt, also where uv are
+    /* 4 per vertex, or NULL: along u, then the sign (1 or -1) of the bitangent, sign * cross(normal, tangent), which
+     * normal maps call y (glTF 2.0, 3.7.2.1). Without them it is cross(normal, dp/du), as in pbrt, even where uv are
      * mirrored. */
     const float* tangents;
-    const float* uvs2; /* 2 a vertex, or NULL: a second set, for textures with `uvset` 1 */
+    const float* uvs2; /* 2 per vertex, or NULL: a second set, for textures with `uvset` 1 */
 } RestageMesh;
 
 typedef enum RestageEncoding { RESTAGE_LINEAR = 0, RESTAGE_SRGB = 1, RESTAGE_GAMMA = 2 } RestageEncoding;
@@ -67,14 +67,15 @@ typedef struct RestageImage { /* an image file, read by the host; or pixels, whe
     const float* pixels; /* linear, or NULL when `path` is given */
 } RestageImage;
 
-/* Texture types the engine evaluates, and their values (ids):
- *   constant      value (COLOR)
- *   imagemap      image by RestageTexture.image; scale (FLOAT, default 1), invert (BOOL), wrap (ENUM
- * repeat|black|clamp) scale         tex (COLOR, texturable), scale (COLOR, texturable)              tex * scale mix
- * tex1, tex2 (COLOR, texturable), amount (FLOAT, texturable)      lerp checkerboard  tex1, tex2 (COLOR, texturable); on
- * uv All: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping; ushear, vshear (FLOAT) add
- * v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it has one. Other types are
- * kept, written back, and shade as their `average` (COLOR). */
+/* `type` is that of a texture plugin (restage/texture.h), the values are those of its table. Shipped are, among others:
+ *   constant      value
+ *   imagemap      the image of RestageTexture.image; scale, invert, wrap
+ *   scale         tex, scale              tex * scale
+ *   mix           tex1, tex2, amount      (1 - amount) tex1 + amount tex2
+ *   checkerboard  tex1, tex2
+ * Besides, where the type is MAPPED: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping;
+ * ushear, vshear (FLOAT) add v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it
+ * has one. Types that no plugin has are kept, written back, and shade as their `average` (COLOR). */
 typedef struct RestageTexture {
     RESTAGE_SIZE(RestageTexture);
     const char* name; /* "" = the host invents one */
@@ -91,7 +92,7 @@ typedef struct RestageMaterialDesc {
     const char* name; /* "" = the host invents one */
     const RestageOrigin* origin;
     const char* type; /* of a material plugin */
-    /* Of its table; unset ones have the default. Besides, for any material: `bump` and `normalmap` (TEXTURE). */
+    /* From its table; unset ones take the default. Also, for any material: `bump` and `normalmap` (TEXTURE). */
     const RestageValue* values;
     uint32_t value_count;
 } RestageMaterialDesc;
@@ -109,13 +110,13 @@ enum {
     RESTAGE_INSTANCE_HIDDEN = 2u,
     RESTAGE_INSTANCE_EMITS = 4u,
     RESTAGE_INSTANCE_TWO_SIDED = 8u, /* emission from both sides */
-    /* To exporters, beside EMITS: it shines because its material does (restage/emission.h), and has no emission of its
-     * own. Where the material has a texture of it, `emission` is a mean. */
+    /* For exporters, with EMITS: it emits because its material does (restage/emission.h), and has no emission of its
+     * own. If the material's emission is textured, `emission` is its mean. */
     RESTAGE_INSTANCE_EMITS_BY_MATERIAL = 16u,
-    /* alpha above 0 stops every ray, as in pbrt-v3. Without it alpha is the share of rays that is stopped. */
+    /* alpha above 0 stops every ray, as in pbrt-v3. Without it alpha is the fraction of rays that is stopped. */
     RESTAGE_INSTANCE_ALPHA_MASK = 32u,
-    /* Its own emission shines also where alpha lets rays pass: it lights, and is not seen there. pbrt-v4's lamps of
-     * alpha 0, and all of pbrt-v3's. Without it what is not there does not shine. */
+    /* Its own emission also applies where alpha lets rays pass: it lights, but is invisible there. pbrt-v4's lamps with
+     * alpha 0, and all of pbrt-v3's. Without it cut-away parts do not emit. */
     RESTAGE_INSTANCE_EMITS_UNSEEN = 64u
 };
 typedef struct RestageInstance {
@@ -132,7 +133,7 @@ typedef struct RestageInstance {
     double object_to_world[16];
 } RestageInstance;
 
-typedef struct RestageGroup { /* something a user selects as one: an ObjectInstance, an imported node */
+typedef struct RestageGroup { /* something a user selects as a unit: an ObjectInstance, an imported node */
     RESTAGE_SIZE(RestageGroup);
     const char* name; /* "" = the host invents one */
     const RestageOrigin* origin;
@@ -149,7 +150,7 @@ typedef enum RestageFalloff {
     RESTAGE_FALLOFF_SMOOTH = 0, /* t^2 (3 - 2t): pbrt-v4 */
     RESTAGE_FALLOFF_QUARTIC = 1 /* t^4: pbrt-v3 */
 } RestageFalloff;
-enum { RESTAGE_LIGHT_HIDDEN = 1u }; /* switched off: it is in the scene, and lights nothing */
+enum { RESTAGE_LIGHT_HIDDEN = 1u }; /* switched off: in the scene, but lights nothing */
 typedef struct RestageLight {
     RESTAGE_SIZE(RestageLight);
     const char* name; /* "" = the host invents one */
@@ -174,18 +175,23 @@ typedef struct RestageEnvironment {
     uint32_t mapping;
     float scale[3]; /* times the image; or the radiance itself */
     double light_to_world[16]; /* rotation (and mirror) */
-    uint32_t hidden_from_camera; /* shines, but where the camera looks past everything it sees black */
+    uint32_t hidden_from_camera; /* lights the scene, but camera rays that miss everything see black */
+    uint32_t sky_value_count;
+    /* "", or the type of a sky plugin that makes the image of sky_values (restage/sky.h). To exporters the image is
+     * there all the same. An importer may leave `image` 0: the host makes it, where it has the plugin. */
+    const char* sky;
+    const RestageValue* sky_values;
 } RestageEnvironment;
 
-/* How a camera maps directions to the film, and what of RestageCamera it uses. */
+/* How a camera maps directions to the film, and which members of RestageCamera it uses. */
 typedef enum RestageProjection {
     RESTAGE_PERSPECTIVE = 0,
-    /* Parallel to +z. The screen window is in units of the camera's space; from the aspect ratio, the shorter side is
-     * 2. `fov` is not used. A lens stands around the camera's origin, as pbrt has it. */
+    /* Parallel to +z. The screen window is in camera-space units; when taken from the aspect ratio, its shorter side is
+     * 2. `fov` is not used. A lens is centred on the camera's origin, as in pbrt. */
     RESTAGE_ORTHOGRAPHIC = 1,
     /* All directions, +y up: u = phi/2pi from +x over +z, v = theta/pi from +y. No window, no lens. */
     RESTAGE_SPHERICAL = 2,
-    RESTAGE_SPHERICAL_EQUAL_AREA = 3 /* the same by Clarberg's octahedral map, as in pbrt-v4 */
+    RESTAGE_SPHERICAL_EQUAL_AREA = 3 /* likewise by Clarberg's octahedral map, as in pbrt-v4 */
 } RestageProjection;
 typedef struct RestageCamera {
     RESTAGE_SIZE(RestageCamera);
@@ -197,9 +203,9 @@ typedef struct RestageCamera {
     float lens_radius, focal_distance;
     float frame_aspect; /* 0 = width/height */
     uint32_t projection; /* RestageProjection */
-    /* > 0: `fov` is of the shorter side of a frame of this aspect (width/height), all of which is seen whatever the
-     * aspect of the picture; 0 = of the picture's own shorter side. Of no effect beside a screen_window or
-     * frame_aspect. To exporters it is 0, and `fov` the one that the picture's aspect comes to. */
+    /* > 0: `fov` is of the shorter side of a frame of this aspect (width/height), all of which is visible whatever the
+     * aspect of the picture; 0 = of the picture's own shorter side. Ignored with a screen_window or
+     * frame_aspect. For exporters it is 0, and `fov` already accounts for the picture's aspect. */
     float fit_aspect;
 } RestageCamera;
 
@@ -211,15 +217,15 @@ typedef struct RestageFilm {
     float filter_radius[2];
     float filter_params[2]; /* gaussian: sigma | mitchell: B C | sinc: tau */
     float exposure; /* linear factor on the film (pbrt-v4 sensor), 1 = none */
-    const char* filename; /* what the scene file asked for, "" = none */
-    uint32_t unexposed; /* to the host: 1 = the file gives light in units of its own and no exposure; one is metered */
+    const char* filename; /* as requested by the scene file, "" = none */
+    uint32_t unexposed; /* to the host: 1 = the file has light in its own units and no exposure; the host meters one */
 } RestageFilm;
 
 typedef struct RestageSettings {
     RESTAGE_SIZE(RestageSettings);
     uint32_t max_depth; /* path vertices beyond the camera, pbrt's maxdepth: 0 = emission only */
-    uint32_t samples; /* a pixel, as the file says; 0 = not said */
-    const RestageOrigin* origin; /* integrator, sampler, options not understood */
+    uint32_t samples; /* per pixel, from the file; 0 = unspecified */
+    const RestageOrigin* origin; /* integrator, sampler, unknown options */
 } RestageSettings;
 
 typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_DROPPED = 2 } RestageFate;
@@ -228,7 +234,7 @@ typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_D
 #define RESTAGE_EXPORTER1 "restage.exporter/1"
 
 /* Where an importer writes. Every function [worker], one thread at a time; data is copied before it returns.
- * A returned handle of 0 means the host refused (out of memory, invalid data) and has noted why: go on or give up. */
+ * A returned handle of 0 means the host refused (out of memory, invalid data) and recorded why: go on or give up. */
 typedef struct RestageSceneWriter1 {
     RESTAGE_SIZE(RestageSceneWriter1);
     void* ctx;
@@ -247,12 +253,17 @@ typedef struct RestageSceneWriter1 {
     void (*settings)(void* ctx, const RestageSettings*);
     /* One line of the import report. `what`: 'material "oak"'; `note`: what was lost, or "" */
     void (*report)(void* ctx, int fate, const char* file, uint32_t line, const char* what, const char* note);
-    /* Marks the import as broken: "mine, but malformed". The first call is the one that is shown. */
+    /* Marks the import as broken: "mine, but malformed". Only the first call is shown. */
     void (*error)(void* ctx, const char* file, uint32_t line, uint32_t column, const char* message);
-    /* 0..1; returns 0 when the user wants to stop: then return from load at once. */
+    /* 0..1; returns 0 if the user wants to stop: then return from load at once. */
     int (*progress)(void* ctx, float done, const char* what);
-    /* Is there a material plugin for `type`? Its table, or NULL. */
+    /* The table of the material plugin for `type`, or NULL if there is none. */
     const RestageParam* (*material_table)(void* ctx, const char* type, uint32_t* count);
+    /* Every option of the importer's table, in its order, set or default; valid until load returns. */
+    const RestageValue* options;
+    uint32_t option_count;
+    /* As material_table, of a texture plugin; with the lines of its map (uscale ..) where it has one. */
+    const RestageParam* (*texture_table)(void* ctx, const char* type, uint32_t* count);
 } RestageSceneWriter1;
 
 typedef struct RestageImporter1 {
@@ -260,14 +271,16 @@ typedef struct RestageImporter1 {
     const char* format; /* "pbrt" */
     const char* label; /* "pbrt scene (v3, v4)" */
     const char* extensions; /* "pbrt|gz" without dots, '|' between */
-    /* [any] 0..100: how sure that this file is mine. head: the first bytes of the file (up to 4 KiB). */
+    /* [any] 0..100: confidence that the file is of this format. head: the first bytes of the file (up to 4 KiB). */
     int (*probe)(const char* path, const void* head, size_t head_size);
     /* [worker] 1 = done (perhaps with a report), 0 = broken: error() has been called. */
     int (*load)(const char* path, const RestageSceneWriter1* out);
+    const RestageParam* options; /* for example `up` (ENUM y|z); NULL = none. `load` finds the values at its writer */
+    uint32_t option_count;
 } RestageImporter1;
 
-/* Where an exporter reads. [worker]; handles are 1..count(kind), holes (removed things) give 0 from the getter. `size`
- * of what a getter fills is the caller's to set, in C. Pointers live until the export ends. */
+/* Where an exporter reads. [worker]; handles are 1..count(kind), getters return 0 for holes (removed things). `size`
+ * of a struct that a getter fills is set by the caller, in C. Pointers are valid until the export ends. */
 typedef enum RestageKind {
     RESTAGE_KIND_MESH = 1,
     RESTAGE_KIND_IMAGE,
@@ -284,7 +297,7 @@ typedef struct RestageSceneReader1 {
     void* ctx;
     uint32_t (*count)(void* ctx, uint32_t kind);
     int (*mesh)(void* ctx, RestageHandle, RestageMesh*);
-    int (*image)(void* ctx, RestageHandle, RestageImage*); /* pixels may be NULL when `path` exists on disk */
+    int (*image)(void* ctx, RestageHandle, RestageImage*); /* pixels may be NULL if `path` exists on disk */
     int (*texture)(void* ctx, RestageHandle, RestageTexture*);
     int (*material)(void* ctx, RestageHandle, RestageMaterialDesc*);
     int (*medium)(void* ctx, RestageHandle, RestageMedium*);

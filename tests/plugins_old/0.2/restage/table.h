@@ -2,15 +2,15 @@
 /* Interface "restage.table/1": a file of numbers that a material looks up, such as a measured BRDF.
  *
  * A material's parameter of type RESTAGE_TABLE holds the path of a file. The host opens it; the plugin's `read` checks
- * the bytes and makes 32-bit words of them, in whatever order its GLSL wants them. The host keeps the words, uploads
- * them once for all materials that name the file, and reads it anew when it has changed. The GLSL sees a `Table`:
+ * the bytes and turns them into 32-bit words, in whatever order its GLSL expects. The host keeps the words, uploads
+ * them once for all materials that name the file, and rereads it when it changes. The GLSL sees a `Table`:
  *
  *   #include <restage/v1/table.glsl>
- *   uint  table_size (Table t)          words; 0 = there is no file
+ *   uint  table_size (Table t)          words; 0 = no file
  *   uint  table_word (Table t, uint i)  0 past the end
  *   float table_float(Table t, uint i)  the same bits as a float
  *
- * A file that `read` refuses is reported, and the material shows as grey until it is mended. */
+ * A file that `read` refuses is reported, and the material shows as grey until it is fixed. */
 #ifndef RESTAGE_TABLE_H
 #define RESTAGE_TABLE_H
 
@@ -23,31 +23,31 @@ extern "C" {
 
 #define RESTAGE_TABLE1 "restage.table/1"
 
-/* The file, and where its words go: the host's. [worker] Every function, only during read, on its thread. */
+/* The file and its words' destination, both the host's. [worker] Every function, only during read, on its thread. */
 typedef struct RestageTableFile1 {
     RESTAGE_SIZE(RestageTableFile1);
     uint32_t reserved;
     void* ctx;
-    const char* path; /* for nobody but messages */
+    const char* path; /* for messages only */
     uint64_t length;  /* of the file, in bytes */
-    /* Copies `count` bytes from `offset` on. 1 = done; 0 = there are not so many, or they cannot be read: the host has
-     * noted why, give up. */
+    /* Copies `count` bytes from `offset` on. 1 = done; 0 = fewer exist, or reading failed: the host has
+     * recorded why, give up. */
     int (*bytes)(void* ctx, uint64_t offset, uint64_t count, void* out);
-    /* Appends `count` words that are 0, and returns where they are until the next call. NULL = more than the host takes
-     * (1 GiB a table): it has noted that, give up. */
+    /* Appends `count` zero words and returns them, valid until the next call. NULL = more than the host takes
+     * (1 GiB per table): recorded, give up. */
     uint32_t* (*append)(void* ctx, uint64_t count);
-    /* A line for the log: "3.1 % of the entries were not measured". The host puts the path in front. */
+    /* A line for the log: "3.1 % of the entries were not measured". The host prepends the path. */
     void (*note)(void* ctx, const char* utf8_line);
-    /* Why the file cannot be used, and what to do: a sentence without the path. `line`: of a text file, else 0. The
-     * first call is the one that is shown. */
+    /* Why the file is unusable, and what to do: a sentence without the path. `line`: in a text file, else 0. Only the
+     * first call is shown. */
     void (*error)(void* ctx, uint32_t line, const char* sentence);
 } RestageTableFile1;
 
 typedef struct RestageTable1 {
     RESTAGE_SIZE(RestageTable1);
-    const char* type; /* of a material of the same plugin, which has a RESTAGE_TABLE */
-    const char* extensions; /* "binary|dat", without dots: what the file browser offers at first */
-    /* [worker] Of any file, however broken. One call at a time. 1 = the words are complete; 0 = refused: error() has
+    const char* type; /* of a material in the same plugin with a RESTAGE_TABLE */
+    const char* extensions; /* "binary|dat", without dots: what the file browser shows initially */
+    /* [worker] For any file, however broken. One call at a time. 1 = the words are complete; 0 = refused: error() has
      * been called. */
     int (*read)(const char* param_id, const RestageTableFile1* file);
 } RestageTable1;
