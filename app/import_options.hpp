@@ -14,7 +14,7 @@ namespace restage::app {
 
 void add_import_options(CLI::App& command, std::vector<std::string>& assignments);
 
-// open_scene (rendering.hpp) with assignments like "up=z". Refused for projects, and together with --isolate.
+// open_scene (rendering.hpp) with assignments like "up=z".
 Result<io::ImportedScene> open_scene_with(Context& context, const std::string& path, bool strict,
                                           std::span<const std::string> assignments);
 

@@ -99,7 +99,8 @@ Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Co
     return options;
 }
 
-Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict) {
+Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict,
+                                     const std::optional<scene::ParamSet>& import_options) {
     if (path == "-") return fail("-: a scene on stdin is read by `restage render` only; name a file");
     catch_interrupts();
     ProgressBar bar(context.quiet);
@@ -108,6 +109,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
         return !interrupted();
     }};
     RESTAGE_TRY(read.isolate, isolate_options(context));
+    read.import_options = import_options;
     io::ImportedScene imported;
     if (document::is_project(path)) { // as the editor saves them: the scene they began with, and the changes
         document::Session session(context.registry());

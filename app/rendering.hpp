@@ -46,7 +46,9 @@ std::shared_ptr<gpu::DeviceFault> device_fault();
 // As `--isolate` and its limits say; null = scenes are read in this process.
 Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context);
 // `strict`: what the import approximates or drops is an error (io/strict.hpp).
-Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false);
+// `import_options`: of its importer; of a project, instead of those that it was saved with.
+Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false,
+                                     const std::optional<scene::ParamSet>& import_options = {});
 inline constexpr const char* strict_help =
     "Fail if something in the file is approximated or dropped: a missing file, an undefined name ...";
 

@@ -2,9 +2,12 @@
 // restage import-child IN OUT: what `--isolate` runs in a process of its own (document/isolate.hpp). Not for users.
 #include "commands.hpp"
 #include "document/isolate.hpp"
+#include "io/options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace restage::app {
 
@@ -13,9 +16,16 @@ void add_import_child(CLI::App& program, Context& context) {
     auto* command = program.add_subcommand("import-child", "")->group("");
     command->add_option("IN", *in)->required();
     command->add_option("OUT", *out)->required();
-    command->callback([&context, in, out] {
-        context.choose([&context, in, out]() -> Result<int> {
-            RESTAGE_CHECK(document::import_child(*in, *out, context.registry()));
+    auto format = std::make_shared<std::string>();
+    auto assignments = std::make_shared<std::vector<std::string>>();
+    command->add_option("--format", *format);
+    command->add_option("--set", *assignments)->allow_extra_args(false);
+    command->callback([&context, in, out, format, assignments] {
+        context.choose([&context, in, out, format, assignments]() -> Result<int> {
+            io::ImportOptions reading{.progress = {}, .format = *format};
+            for (const std::string& assignment : *assignments)
+                RESTAGE_CHECK(io::set_text_option(assignment, reading.values));
+            RESTAGE_CHECK(document::import_child(*in, *out, context.registry(), std::move(reading)));
             return int(exit_ok);
         });
     });

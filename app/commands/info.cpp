@@ -2,6 +2,7 @@
 // restage info SCENE: what is in a scene file, and what its import kept, approximated and dropped.
 #include "commands.hpp"
 #include "document/exposure.hpp"
+#include "import_options.hpp"
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
 #include "scene/placeholder.hpp"
@@ -133,18 +134,20 @@ void add_info(CLI::App& program, Context& context) {
     struct Options {
         std::string scene;
         bool json = false, all = false, strict = false;
+        std::vector<std::string> import_options;
     };
     auto o = std::make_shared<Options>();
     auto* command =
         program.add_subcommand("info", "Describe a scene, and what its import kept, approximated and dropped");
     command->add_option("SCENE", o->scene, "Scene file or project")->required();
     command->add_flag("--json", o->json, "Print it as JSON");
+    add_import_options(*command, o->import_options);
     command->add_flag("--strict", o->strict, strict_help);
     command->add_flag("--all", o->all, "List what was kept as well, not only what was approximated or dropped");
     add_example(*command, "restage info room.pbrt --all");
     command->callback([&context, o] {
         context.choose([&context, o]() -> Result<int> {
-            RESTAGE_TRY(const auto imported, open_scene(context, o->scene, o->strict));
+            RESTAGE_TRY(const auto imported, open_scene_with(context, o->scene, o->strict, o->import_options));
             const auto d = describe(imported, context.registry());
             if (o->json)
                 std::printf("%s\n", d.dump(2).c_str());

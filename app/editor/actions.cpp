@@ -4,6 +4,7 @@
 #include "copy_paste.hpp"
 #include "document/session.hpp"
 #include "editor.hpp"
+#include "importing.hpp"
 #include "io/material_emission.hpp"
 #include "panels/outliner.hpp"
 #include "plugin/registry.hpp"
@@ -199,6 +200,8 @@ constexpr auto actions = std::to_array<Action>({
     {"file.open", "Open...", ImGuiMod_Ctrl | ImGuiKey_O, 0, "A scene or a project", nullptr, open_dialog},
     {"file.insert", "Insert file...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_I, 0,
      "Adds a file's contents as new objects", has_scene, insert_dialog},
+    {"file.import_again", "Import again...", 0, 0, "Reads the scene's file again with other options",
+     [](const PanelContext& e) { return why_not_import_again(e).empty(); }, import_again},
     {"file.save", "Save", ImGuiMod_Ctrl | ImGuiKey_S, 0, "The project: the scene it began with and your changes",
      has_scene, [](Editor& e) { save(e); }},
     {"file.save_as", "Save as...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S, 0, "The project under another name",

@@ -80,7 +80,7 @@ void BackgroundJobs::update(PanelContext& editor) {
         const std::unique_ptr<BackgroundJob> job = std::move(jobs_[i]);
         jobs_.erase(jobs_.begin() + std::ptrdiff_t(i));
         job->thread_.join();
-        if (job->cancelled_)
+        if (job->cancelled_ && !job->keeps_result_)
             editor.notices.add(LogLevel::info, job->title_ + ": stopped");
         else if (job->then_)
             job->then_(editor);

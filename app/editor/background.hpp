@@ -25,6 +25,8 @@ class BackgroundJob {
     bool report(double done, std::string_view stage);
     bool cancelled() const { return cancelled_; }
     bool finish_early() const { return finish_early_; } // "that is enough", where the job offers it
+    // [worker] From here on a cancel ends what it does now, but not the job: what it returns is carried out.
+    void keep_result() { keeps_result_ = true; }
     bool stopping() const { return cancelled_ || finish_early_; }
 
   private:
@@ -32,7 +34,7 @@ class BackgroundJob {
     std::string title_;
     bool can_finish_early_ = false, pauses_picture_ = false;
     std::function<void()> wake_;
-    std::atomic<bool> cancelled_ = false, finish_early_ = false, finished_ = false;
+    std::atomic<bool> cancelled_ = false, finish_early_ = false, finished_ = false, keeps_result_ = false;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::mutex mutex_;
     double done_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "file_browser.hpp"
 
+#include "dialog_keys.hpp"
 #include "files.hpp"
 #include "panel_context.hpp"
 #include "theme.hpp"
@@ -126,6 +127,7 @@ class Browser {
     void draw_places(PanelContext& e, float height);
     void draw_list(PanelContext& e, float height);
     void draw_name(PanelContext& e);
+    void draw_details(PanelContext& e);
     bool draw_buttons(PanelContext& e);
     static int on_key(ImGuiInputTextCallbackData* data);
 
@@ -144,6 +146,9 @@ class Browser {
     std::string typed_, folder_text_, new_folder_, problem_;
     bool use_folder_ = false; // accept() is final when it is a folder
     bool naming_folder_ = false, focus_folder_ = false, focus_name_ = true;
+    bool list_open_ = false; // see dialog_escape
+    std::unique_ptr<KeyNavigation> navigation_; // once the details have the keyboard
+    float details_height_ = 0;
     fs::path asked_path_;
     std::shared_ptr<Asked<Kind>> asked_kind_;
     fs::path replace_; // asks whether this file may be replaced
@@ -378,14 +383,24 @@ void Browser::draw_name(PanelContext& e) {
     }
 }
 
+void Browser::draw_details(PanelContext& e) {
+    if (!options_.details) return;
+    const float top = ImGui::GetCursorPosY();
+    const bool focus = ImGui::IsKeyChordPressed(ImGuiMod_Alt | ImGuiKey_O);
+    if (focus && !navigation_) navigation_ = std::make_unique<KeyNavigation>();
+    options_.details(e, typed_, focus);
+    details_height_ = ImGui::GetCursorPosY() - top;
+}
+
 bool Browser::draw_buttons(PanelContext& e) {
+    const bool escape = dialog_escape(list_open_);
     if (!replace_.empty()) {
         ImGui::TextColored(colors::warning, "%s exists already.", replace_.filename().string().c_str());
         ImGui::SameLine();
         if (ImGui::Button("Replace it")) accept(replace_);
         e.mark("browser.replace");
         ImGui::SameLine();
-        if (ImGui::Button("Keep it") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) {
+        if (ImGui::Button("Keep it") || escape) {
             replace_.clear();
             focus_name_ = true;
         }
@@ -424,7 +439,7 @@ bool Browser::draw_buttons(PanelContext& e) {
             e.mark("browser.new_folder_name");
         }
     }
-    if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) {
+    if (escape) {
         if (naming_folder_)
             naming_folder_ = false;
         else
@@ -450,11 +465,12 @@ bool Browser::draw(PanelContext& e) {
     e.mark("browser.folder");
 
     const float below = 2 * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing();
-    const float height = size.y - below - ImGui::GetFrameHeightWithSpacing();
+    const float height = std::max(size.y - below - ImGui::GetFrameHeightWithSpacing() - details_height_, 80 * scale);
     draw_places(e, height);
     ImGui::SameLine();
     draw_list(e, height);
     draw_name(e);
+    draw_details(e);
     ImGui::TextColored(colors::warning, "%s", problem_.c_str());
     return draw_buttons(e) && !chosen;
 }

@@ -28,6 +28,8 @@ struct BrowseOptions {
     std::string name;            // at first in the field
     std::string extension;       // appended to a name without one, when saving: ".restage"
     std::function<void(PanelContext&, const std::filesystem::path&)> done;
+    // Drawn beneath the name, for the file that is chosen ("" = none). `focus`: it should take the keyboard (Alt+O).
+    std::function<void(PanelContext&, const std::filesystem::path&, bool focus)> details = {};
 };
 
 // Shows it as a modal.

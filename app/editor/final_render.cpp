@@ -108,22 +108,25 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     picture = {.film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
     std::string denoiser = "none";
     if (denoise) {
+        job.keep_result(); // the render may have taken hours
         job.report(traced, "denoising");
         const auto clean = [&]() -> Result<void> {
             RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, wish.denoiser));
             denoiser = render::denoiser_label(chosen, plugin::DenoiseQuality::high);
-            RESTAGE_TRY(
-                picture.denoised,
-                render::denoise(picture.film, chosen, plugin::DenoiseQuality::high, options.threads, [&](double done) {
-                    return job.report(traced + done * (1 - traced), "denoising") || !job.cancelled();
-                }));
+            RESTAGE_TRY(picture.denoised, render::denoise(picture.film, chosen, plugin::DenoiseQuality::high,
+                                                          options.threads, [&](double done) {
+                                                              job.report(traced + done * (1 - traced), "denoising");
+                                                              return !job.cancelled();
+                                                          }));
             return {};
         };
         const auto cleaned = clean();
-        if (!cleaned && cleaned.error().cancelled()) return say(LogLevel::info, "The final picture was cancelled");
         if (!cleaned) { // what was rendered is worth keeping all the same
-            log.error("the final picture is not denoised: " + cleaned.error().message);
             denoiser = "none";
+            if (cleaned.error().cancelled())
+                finished->text = "denoising was cancelled: written as it was rendered; ";
+            else
+                log.error("the final picture is not denoised: " + cleaned.error().message);
         }
     }
     const auto& stats = renderer->stats();
@@ -137,8 +140,8 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
                                   {"restage:denoiser", denoiser}}};
     for (const auto& [type, count] : stats.not_finite)
         log.warning(fmt::format("{} samples of material type \"{}\" were not finite and were left out", count, type));
-    finished->text = fmt::format("{}x{}, {} samples a pixel in {:.1f} s", picture.film.width, picture.film.height,
-                                 renderer->samples(), now_seconds() - start);
+    finished->text += fmt::format("{}x{}, {} samples a pixel in {:.1f} s", picture.film.width, picture.film.height,
+                                  renderer->samples(), now_seconds() - start);
     return write(finished, wish.path);
 }
 

@@ -41,15 +41,18 @@ void Opening::run() {
     const auto read = [&]() -> Result<Opened> {
         Opened opened;
         if (request_.purpose == Purpose::insert) {
-            RESTAGE_TRY(opened.inserted,
-                        document::read_scene(request_.path.string(), registry_,
-                                             {.progress = progress, .isolate = isolate_, .expose = false}));
+            RESTAGE_TRY(opened.inserted, document::read_scene(request_.path.string(), registry_,
+                                                              {.progress = progress,
+                                                               .isolate = isolate_,
+                                                               .expose = false,
+                                                               .import_options = request_.import_options}));
         } else {
             const document::ReadOptions options{.progress = progress,
                                                 .isolate = isolate_,
                                                 .base = request_.base,
                                                 .drop_lost = request_.drop_lost,
-                                                .problem = &problem_};
+                                                .problem = &problem_,
+                                                .import_options = request_.import_options};
             RESTAGE_TRY(opened.document, document::read_document(request_.path.string(), registry_, options));
         }
         return opened;

@@ -26,6 +26,7 @@ class Opening {
         std::filesystem::path base = {}; // of a project: instead of the one it names
         bool drop_lost = false;          // see document::ReadOptions
         std::optional<glm::dvec2> film_point = {}; // insert: where on the picture it is to stand
+        std::optional<scene::ParamSet> import_options = {}; // see document::ReadOptions
     };
     struct Opened {
         std::optional<document::Document> document;  // replace, recover

@@ -5,6 +5,7 @@
 #include "editor.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "importing.hpp"
 #include "opening.hpp"
 #include "plugin/registry.hpp"
 #include "scene/studio.hpp"
@@ -134,14 +135,27 @@ void open_dialog(Editor& e) {
     browse(e, {.title = "Open",
                .filters = scene_filters(e.registry(), true),
                .start = document_folder(e),
-               .done = [](PanelContext& editor, const fs::path& path) { editor.open(path); }});
+               .done =
+                   [&e](PanelContext& editor, const fs::path& path) {
+                       ask_unsaved(e, "opening another scene",
+                                   [path, options = import_options_for(editor, path)](Editor& now) {
+                                       now.open_now({.path = path, .import_options = options});
+                                   });
+                   },
+               .details = import_options_part});
 }
 
 void insert_dialog(Editor& e) {
     browse(e, {.title = "Insert file",
                .filters = scene_filters(e.registry(), false),
                .start = document_folder(e),
-               .done = [](PanelContext& editor, const fs::path& path) { editor.insert(path); }});
+               .done =
+                   [&e](PanelContext& editor, const fs::path& path) {
+                       e.open_now({.path = path,
+                                   .purpose = Opening::Purpose::insert,
+                                   .import_options = import_options_for(editor, path)});
+                   },
+               .details = import_options_part});
 }
 
 void save(Editor& e, Then then) {
@@ -167,7 +181,9 @@ void save_as(Editor& e, Then then) {
 
 void revert(Editor& e) {
     const fs::path path(e.session().path());
-    const auto reopen = [path](Editor& editor) { editor.open_now({.path = path}); };
+    std::optional<scene::ParamSet> options; // a project has them in its file
+    if (!document::is_project(path)) options = e.session().base().options;
+    const auto reopen = [path, options](Editor& editor) { editor.open_now({.path = path, .import_options = options}); };
     if (!e.session().modified()) {
         reopen(e);
         return;

@@ -206,7 +206,9 @@ std::string choice_label(std::string_view choice) {
     if (choice == "ggx") return "GGX"; // its authors' spelling
     if (choice.empty()) return "";
     std::string label(choice);
-    if (std::none_of(label.begin(), label.end(), [](char c) { return c >= '0' && c <= '9'; })) // not "v4"
+    std::ranges::replace(label, '_', ' ');
+    const bool digit = std::any_of(label.begin(), label.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (label.size() > 2 && !digit) // not "v4", "mm", "z"
         label[0] = char(std::toupper(static_cast<unsigned char>(label[0])));
     return label;
 }

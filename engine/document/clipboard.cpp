@@ -76,7 +76,7 @@ Result<std::string> copy_text(const Session& session, const Selected& selected) 
     if (data_bytes(part) > most_inline) {
         sources = session.sources();
         if (!session.base().file.empty())
-            sources.note_all(session.base().scene, session.base().file, session.base().format);
+            sources.note_all(session.base().scene, session.base().file, session.base().format, session.base().options);
     }
     const std::map<std::string, std::string> note{{mark, selected.material ? "material" : "objects"}};
     const Base nothing;

@@ -12,9 +12,11 @@ void DataSources::note(const std::shared_ptr<const void>& data, DataSource sourc
     if (data) by_data_.insert_or_assign(data.get(), Held{data, std::move(source)});
 }
 
-void DataSources::note_all(const scene::Scene& imported, const std::string& file, const std::string& format) {
-    imported.meshes.each([&](auto id, const scene::Mesh& m) { note(m.data, {file, format, id.value, m.name}); });
-    imported.images.each([&](auto id, const scene::Image& i) { note(i.data, {file, format, id.value, i.name}); });
+void DataSources::note_all(const scene::Scene& imported, const std::string& file, const std::string& format,
+                           const scene::ParamSet& options) {
+    const auto each = [&](auto id, const auto& item) { note(item.data, {file, format, id.value, item.name, options}); };
+    imported.meshes.each(each);
+    imported.images.each(each);
 }
 
 const DataSource* DataSources::find(const void* data) const {
@@ -27,8 +29,11 @@ bool is_project(const std::filesystem::path& path) { return path.extension() == 
 Result<io::ImportedScene> read_scene(const std::string& path, const plugin::Registry& registry,
                                      const ReadOptions& options, const std::string& format) {
     const auto read = [&]() -> Result<io::ImportedScene> {
-        if (options.isolate) return import_isolated(path, registry, *options.isolate, options.progress);
-        return io::import_scene(path, registry, {.progress = options.progress, .format = format});
+        const io::ImportOptions reading{.progress = options.progress,
+                                        .format = format,
+                                        .values = options.import_options.value_or(scene::ParamSet())};
+        if (options.isolate) return import_isolated(path, registry, *options.isolate, reading);
+        return io::import_scene(path, registry, reading);
     };
     RESTAGE_TRY(io::ImportedScene imported, read());
     if (options.expose) expose(imported, registry);
@@ -44,7 +49,8 @@ Result<Document> read_document(const std::string& path, const plugin::Registry& 
     document.base = {.file = std::filesystem::absolute(path).lexically_normal().string(),
                      .format = imported.importer,
                      .hash = hash64(bytes),
-                     .scene = std::move(imported.scene)};
+                     .scene = std::move(imported.scene),
+                     .options = std::move(imported.options)};
     document.report = std::move(imported.report);
     return document;
 }

@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,7 @@ struct Base {
     std::string format; // of the importer
     std::uint64_t hash = 0; // of the file's bytes
     scene::Scene scene; // as imported
+    scene::ParamSet options{}; // of the importer: those that were set
 };
 
 // The source of geometry or pixels that came from a file: a project references them instead of storing them.
@@ -30,13 +32,15 @@ struct DataSource {
     std::string file, format; // absolute; of the importer
     std::uint32_t id = 0;     // the mesh or image in the imported file
     std::string name;
+    scene::ParamSet options{}; // of the importer: those that were set
 };
 
 // By identity of the shared data.
 class DataSources {
   public:
     void note(const std::shared_ptr<const void>& data, DataSource source);
-    void note_all(const scene::Scene& imported, const std::string& file, const std::string& format);
+    void note_all(const scene::Scene& imported, const std::string& file, const std::string& format,
+                  const scene::ParamSet& options);
     void add(const DataSources& other) { by_data_.insert(other.by_data_.begin(), other.by_data_.end()); }
     const DataSource* find(const void* data) const;
 
@@ -56,6 +60,7 @@ struct Document {
     DataSources sources;
     std::string unknown; // JSON: additions of a newer program to a project; written back
     std::map<std::string, std::string> note; // of a recovery file, see recovery.hpp
+    bool unsaved = false; // not what the file says: its scene was read with other options
 };
 
 enum class BaseProblem { none, missing, changed }; // of a project's base that the user can solve by naming another file
@@ -72,6 +77,8 @@ struct ReadOptions {
     std::function<Result<std::shared_ptr<const scene::PixelData>>(const scene::Image&)> pixels{};
     BaseProblem* problem = nullptr; // set if reading fails for this reason
     bool expose = true; // exposure.hpp; false if only the objects of a file are wanted
+    // Of the importer (io::ImportOptions::values). None = none are set; of a project, those that it was saved with.
+    std::optional<scene::ParamSet> import_options{};
 };
 
 inline constexpr std::string_view project_extension = ".restage";

@@ -8,6 +8,7 @@
 #include "document/project.hpp"
 #include "document/session.hpp"
 #include "io/image_handover.hpp"
+#include "io/options.hpp"
 #include "scene/edit.hpp"
 
 #include <fmt/format.h>
@@ -133,8 +134,8 @@ std::map<PictureKey, std::string> read_picture_list(const std::string& text) {
 
 } // namespace
 
-Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry) {
-    io::ImportOptions options;
+Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry,
+                      io::ImportOptions options) {
     options.read_images = false; // the child hands them over one by one
     options.progress = [](float done, std::string_view what) {
         fmt::print("{:.4f} {}\n", done, what);
@@ -156,7 +157,8 @@ Result<> import_child(const std::string& path, const std::string& out, const plu
 }
 
 Result<io::ImportedScene> import_isolated(const std::string& path, const plugin::Registry& registry,
-                                          const IsolateOptions& options, const io::Progress& progress) {
+                                          const IsolateOptions& options, const io::ImportOptions& reading_file) {
+    const io::Progress& progress = reading_file.progress;
     RESTAGE_TRY(const Handover handover, Handover::create());
     const fs::path out = handover.folder / "scene.restage";
     std::atomic<bool> cancel{false};
@@ -165,6 +167,9 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
     child.argv.insert(child.argv.end(), options.arguments.begin(), options.arguments.end());
     for (const std::string& argument : {std::string("import-child"), path, out.string()})
         child.argv.push_back(argument);
+    if (!reading_file.format.empty()) child.argv.insert(child.argv.end(), {"--format", reading_file.format});
+    for (const auto& [id, value] : reading_file.values.entries())
+        child.argv.push_back("--set=" + id + "=" + io::option_text(value));
     child.time_limit = options.time_limit;
     child.memory_limit = options.memory_limit;
     child.cancel = &cancel;
@@ -206,6 +211,9 @@ Result<io::ImportedScene> import_isolated(const std::string& path, const plugin:
     };
     imported.importer = noted("importer");
     imported.scene.format = noted("format");
+    if (const auto importer = registry.find_importer(imported.importer)) {
+        RESTAGE_TRY(imported.options, io::fitting_options(*importer->table, reading_file.values));
+    }
     imported.unexposed = noted("unexposed") == "yes";
     imported.report = read_report(noted("report"));
     for (const io::ReportEntry& entry : document.report.entries)

@@ -23,9 +23,11 @@ struct IsolateOptions {
 
 // [worker] Errors: the importer's own; "scene.obj: reading it crashed (SIGSEGV ...); nothing was imported".
 Result<io::ImportedScene> import_isolated(const std::string& path, const plugin::Registry& registry,
-                                          const IsolateOptions& options, const io::Progress& progress = {});
+                                          const IsolateOptions& options, const io::ImportOptions& reading = {});
 
 // The child's part: imports `path` and writes `out`. Progress goes to stdout, one line "0.25 meshes" each. [main]
-Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry);
+// `reading`: its format, and its values as text.
+Result<> import_child(const std::string& path, const std::string& out, const plugin::Registry& registry,
+                      io::ImportOptions reading = {});
 
 } // namespace restage::document

@@ -8,6 +8,7 @@
 #include "base/json.hpp"
 #include "io/image_file.hpp"
 #include "io/material_tables.hpp"
+#include "io/options.hpp"
 #include "io/sky.hpp"
 #include "scene/bounds.hpp"
 #include "scene/validate.hpp"
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace restage::document {
 
@@ -36,6 +38,12 @@ std::shared_ptr<const MeshData> stand_in_mesh() {
 std::shared_ptr<const PixelData> stand_in_pixels() {
     return std::make_shared<const PixelData>(
         PixelData{.width = 1, .height = 1, .channels = 3, .values = {0.5f, 0.5f, 0.5f}});
+}
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return text;
 }
 
 class Reader : public ValueReader {
@@ -144,6 +152,37 @@ class Reader : public ValueReader {
         return std::move(j);
     }
 
+    static std::string text_of(const json& j, const char* name) {
+        const auto found = j.find(name);
+        return found != j.end() && found->is_string() ? found->get<std::string>() : "";
+    }
+
+    ParamSet import_options(const json& j) {
+        ParamSet options;
+        if (const auto found = j.find("options"); found != j.end()) read(*found, options, "options");
+        return options;
+    }
+
+    // Those of a file's import options that its importer has; the others are kept in the project, and reported.
+    // `replaced`: another file is in its place, perhaps of another format.
+    ParamSet fitting(const ParamSet& options, const std::string& format, const std::string& file, bool replaced,
+                     io::Report& report) const {
+        ParamSet fit;
+        const auto importer = registry_.find_importer(format);
+        const auto is_its = [&](const std::string& extension) { return lower(file).ends_with("." + extension); };
+        const bool reads = importer && (!replaced || std::ranges::any_of(importer->table->extensions, is_its));
+        for (const auto& [id, value] : options.entries()) {
+            Result<Value> fits = fail("importer \"" + format + "\" does not read the file");
+            if (reads) fits = io::fitting_option(*importer->table, id, value);
+            if (fits)
+                fit.set(id, std::move(*fits));
+            else
+                report.add(io::Fate::approximated, "import option \"" + id + "\"",
+                           fits.error().message + "; the file is read without it", file);
+        }
+        return fit;
+    }
+
     std::string absolute(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
 
     Result<> read_base(const json& j) {
@@ -160,10 +199,27 @@ class Reader : public ValueReader {
         }
         RESTAGE_TRY(const std::string bytes, read_file(base.file));
         base.hash = hash64(bytes);
-        RESTAGE_TRY(io::ImportedScene imported, read_scene(base.file, registry_, options_));
+        where_ = "base";
+        const std::string format = text_of(j, "format");
+        const ParamSet saved = import_options(j);
+        if (!error_.empty()) return fail(error_);
+        io::Report misfits;
+        ReadOptions reading = options_;
+        std::string reader; // who the options are for
+        if (!options_.import_options) {
+            reading.import_options = fitting(saved, format, base.file, !options_.base.empty(), misfits);
+            if (!reading.import_options->entries().empty()) reader = format;
+        }
+        RESTAGE_TRY(io::ImportedScene imported, read_scene(base.file, registry_, reading, reader));
         base.scene = std::move(imported.scene);
         base.format = imported.importer;
+        base.options = std::move(imported.options);
+        if (options_.import_options)
+            doc_.unsaved = base.options != saved;
+        else if (base.format == format)
+            base.options = saved; // also what did not fit
         doc_.report = std::move(imported.report);
+        doc_.report.entries.insert(doc_.report.entries.end(), misfits.entries.begin(), misfits.entries.end());
         base_changed_ = !j.contains("hash") || j["hash"] != fmt::format("{:016x}", base.hash);
         const json sizes = j.contains("sizes") ? j["sizes"] : json::object();
         each_kind([&](const auto& kind) {
@@ -216,13 +272,18 @@ class Reader : public ValueReader {
         if (!j.contains("file") || !j["file"].is_string() || !j.contains(which)) return nullptr;
         const std::string file = absolute(j["file"].template get<std::string>());
         const Ref ref = parse_ref(j[which]).value_or(Ref{});
-        const std::string format =
-            j.contains("format") && j["format"].is_string() ? j["format"].template get<std::string>() : "";
-        auto [at, fresh] = imported_.try_emplace(file);
+        const std::string format = text_of(j, "format");
+        const ParamSet options = import_options(j);
+        // The same file with other options is another scene.
+        auto [at, fresh] = imported_.try_emplace({file, j.contains("options") ? j["options"].dump() : ""});
         if (fresh) {
-            auto scene = read_scene(file, registry_, {.isolate = options_.isolate, .expose = false}, format);
+            auto scene = read_scene(file, registry_,
+                                    {.isolate = options_.isolate,
+                                     .expose = false,
+                                     .import_options = fitting(options, format, file, false, doc_.report)},
+                                    format);
             if (scene) {
-                doc_.sources.note_all(scene->scene, file, format);
+                doc_.sources.note_all(scene->scene, file, format, options);
                 at->second = std::move(scene->scene);
             } else {
                 doc_.report.add(io::Fate::dropped, fs::path(file).filename().string(), scene.error().message, file);
@@ -234,7 +295,7 @@ class Reader : public ValueReader {
         if (item && item->data) return made[current_] = item->data;
         // A visible placeholder; when saved, it still refers to the same file.
         const auto data = stand_in();
-        doc_.sources.note(data, {file, format, ref.number, ref.name});
+        doc_.sources.note(data, {file, format, ref.number, ref.name, options});
         doc_.report.add(io::Fate::dropped, fmt::format("{} \"{}\"", kind_name<T>, ref.name),
                         "it is not in " + file + "; a placeholder replaces it", path_);
         return made[current_] = data;
@@ -366,7 +427,7 @@ class Reader : public ValueReader {
     std::optional<Id<Image>> sky_image_; // that a sky plugin makes
     std::map<std::string, std::shared_ptr<const MeshData>> new_meshes_; // by reference
     std::map<std::string, std::shared_ptr<const PixelData>> new_images_;
-    std::map<std::string, Scene> imported_; // files whose meshes and images are used
+    std::map<std::pair<std::string, std::string>, Scene> imported_; // files and import options, of meshes and images
 };
 
 } // namespace

@@ -50,6 +50,7 @@ class Writer {
         if (!content_.base.file.empty()) {
             path_in(j["base"]["file"], content_.base.file);
             j["base"]["format"] = content_.base.format;
+            if (!content_.base.options.entries().empty()) j["base"]["options"] = to_json(content_.base.options);
             j["base"]["hash"] = fmt::format("{:016x}", content_.base.hash);
             j["base"]["sizes"] = sizes_;
         }
@@ -117,6 +118,7 @@ class Writer {
             json j;
             path_in(j["file"], source->file);
             j["format"] = source->format;
+            if (!source->options.entries().empty()) j["options"] = to_json(source->options);
             j[which] = fmt::format("#{} {}", source->id, source->name);
             return j;
         }

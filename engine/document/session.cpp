@@ -45,6 +45,7 @@ void Session::adopt(Document document) {
     Scene scene = document.base.scene;
     apply(scene, document.changes);
     take(std::move(scene));
+    if (document.unsaved) history_.mark_unsaved();
     report_ = std::move(document.report);
     path_ = std::move(document.path);
     base_ = std::move(document.base);
@@ -142,7 +143,7 @@ Result<Merged> Session::insert(const io::ImportedScene& imported, const std::str
     }
     // Warnings accepted by the importer are accepted here.
     RESTAGE_CHECK(check_edit(made.edit, Problem::Severity::error));
-    sources_.note_all(imported.scene, path.string(), imported.importer);
+    sources_.note_all(imported.scene, path.string(), imported.importer, imported.options);
     history_.push(scene_, made.edit);
     for (const io::ReportEntry& entry : imported.report.entries) // the importer's placeholders stay behind as well
         if (entry.fate != io::Fate::kept || (entry.what != "camera" && entry.what != "environment"))

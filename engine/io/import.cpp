@@ -15,6 +15,7 @@
 namespace restage::io {
 
 namespace fs = std::filesystem;
+using scene::ParamSet;
 
 namespace {
 
@@ -77,10 +78,9 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     RESTAGE_TRY(const std::string head, read_head(path));
     RESTAGE_TRY(const plugin::ImporterEntry chosen, choose(path, head, registry, options.format));
     const model::Importer* importer = chosen.table;
-    for (const auto& [id, value] : options.values.entries())
-        RESTAGE_CHECK(check_option("importer \"" + importer->format + "\"", importer->options, id, value));
+    RESTAGE_TRY(ParamSet values, fitting_options(*importer, options.values));
     SceneWriter writer(registry, options.progress);
-    writer.set_options(all_options(importer->options, options.values));
+    writer.set_options(all_options(importer->options, values));
     std::optional<CrashNote> note(std::in_place, chosen.plugin->blame("while it read " + path));
     const bool loaded = chosen.native->load(path.c_str(), &writer.table()) != 0;
     note.reset();
@@ -92,7 +92,8 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     if (auto finished = writer.finish(jobs, options.read_images); !finished) return fail(path, finished.error());
     make_missing_sky(writer.scene, registry, writer.report, options.progress);
     if (writer.scene.format.empty()) writer.scene.format = importer->format;
-    return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format, writer.unexposed};
+    return ImportedScene{std::move(writer.scene), std::move(writer.report), importer->format, writer.unexposed,
+                         std::move(values)};
 }
 
 } // namespace restage::io

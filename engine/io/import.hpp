@@ -18,7 +18,7 @@ struct ImportOptions {
     std::string format;     // of one importer; "" = try all
     Jobs* jobs = nullptr;   // for decoding images; null = a private pool
     bool read_images = true;
-    scene::ParamSet values; // of the importer's option table; unset ones take the table's default
+    scene::ParamSet values; // of the importer's option table, or as text; unset ones take the table's default
 };
 
 struct ImportedScene {
@@ -26,6 +26,7 @@ struct ImportedScene {
     Report report;
     std::string importer; // its format: "pbrt"
     bool unexposed = false; // the file gives no exposure, and its light has units: document/exposure.hpp meters
+    scene::ParamSet options{}; // of the importer: those that were set
 };
 
 // 0..100: the importer's confidence that a file with this head is of its format; returned unchecked.

@@ -23,5 +23,12 @@ Result<plugin::ImporterEntry> importer_of(const std::string& path, const plugin:
                                           const std::string& format = {});
 // "up=z" of a command line, after the importer's table.
 Result<> set_option(const model::Importer&, const std::string& assignment, scene::ParamSet& values);
+// The same without knowing the importer: a text, for fitting_options.
+Result<> set_text_option(const std::string& assignment, scene::ParamSet& values);
+// The value as the right-hand side of an assignment.
+std::string option_text(const scene::Value&);
+// A value as the table's line takes it: text stands for any type, whole numbers for others.
+Result<scene::Value> fitting_option(const model::Importer&, const std::string& id, const scene::Value&);
+Result<scene::ParamSet> fitting_options(const model::Importer&, const scene::ParamSet&);
 
 } // namespace restage::io

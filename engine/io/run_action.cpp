@@ -14,9 +14,12 @@ namespace restage::io {
 using namespace scene;
 
 std::string new_error(const Scene& before, const Scene& after) {
+    auto now = validate(after);
+    std::erase_if(now, [](const Problem& p) { return p.severity != Problem::Severity::error; });
+    if (now.empty()) return ""; // as almost always: what was there before does not matter
     const auto old = validate(before);
-    for (const Problem& p : validate(after))
-        if (p.severity == Problem::Severity::error && std::ranges::find(old, p) == old.end()) return p.sentence;
+    for (const Problem& p : now)
+        if (std::ranges::find(old, p) == old.end()) return p.sentence;
     return "";
 }
 

@@ -189,7 +189,8 @@ void set_state(Picture& p, const nb::tuple& t) {
 
 } // namespace
 
-void denoise(Picture& p, const std::string& quality, unsigned threads, const std::string& denoiser) {
+void denoise(Picture& p, const std::string& quality, unsigned threads, const std::string& denoiser,
+             const std::function<bool(double)>& ask) {
     if (quality != "fast" && quality != "balanced" && quality != "high")
         throw Failure("there is no denoising quality \"" + quality + "\"; there are fast, balanced and high");
     if (p.film.color.empty() || p.film.samples == 0) throw Failure("denoise: the picture has no samples");
@@ -198,11 +199,15 @@ void denoise(Picture& p, const std::string& quality, unsigned threads, const std
     const auto as = quality == "fast"       ? plugin::DenoiseQuality::fast
                     : quality == "balanced" ? plugin::DenoiseQuality::balanced
                                             : plugin::DenoiseQuality::high;
-    Pulse pulse;
+    double fraction = 0;
+    Pulse pulse([&] { return !ask || ask(fraction); }, true);
     Result<std::vector<glm::vec3>> clean = [&] {
         const nb::gil_scoped_release release;
         const std::shared_lock plugins(p.host->in_use());
-        return render::denoise(p.film, chosen, as, threads, [&](double) { return pulse.keep_going(); });
+        return render::denoise(p.film, chosen, as, threads, [&](double done) {
+            fraction = done;
+            return pulse.keep_going();
+        });
     }();
     pulse.rethrow();
     p.host->flush_log();
@@ -252,14 +257,20 @@ void bind_picture(nb::module_& m) {
                  "def mask(self, thing: Object | Group | Selection | Material) -> numpy.typing.NDArray[numpy.bool_]"))
         .def(
             "denoise",
-            [](const Owner& p, const std::string& quality, unsigned threads, const std::string& denoiser) {
-                denoise(*p, quality, threads, denoiser);
+            [](const Owner& p, const std::string& quality, unsigned threads, const std::string& denoiser,
+               const nb::object& callback) {
+                denoise(*p, quality, threads, denoiser,
+                        [&](double done) { return callback.is_none() || goes_on(callback(done)); });
                 return p;
             },
-            "quality"_a = "high", "threads"_a = 0, "denoiser"_a = "",
+            "quality"_a = "high", "threads"_a = 0, "denoiser"_a = "", "progress"_a = nb::none(),
             "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. denoiser: its type or the "
             "id "
-            "of\nits plugin; \"\" = the one that came with Restage. Returns the picture.")
+            "of\nits plugin; \"\" = the one that came with Restage. progress(fraction): called about 20 times a "
+            "second; "
+            "on\nFalse restage.Cancelled is raised, and the picture stays as it was. Returns the picture.",
+            nb::sig("def denoise(self, quality: str = 'high', threads: int = 0, denoiser: str = '', progress: "
+                    "collections.abc.Callable[[float], bool | None] | None = None) -> Picture"))
         .def_ro("denoiser", &Picture::denoiser, "The denoiser of `denoised`: \"oidn high\", or \"none\".")
         .def("save", &save, "path"_a, "aovs"_a = "all", "exposure"_a = 0.f, save_doc.c_str())
         .def("_repr_png_", &png_of, "For notebooks: the .png that save() writes.")

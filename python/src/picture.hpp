@@ -6,6 +6,8 @@
 
 #include "render/film.hpp"
 
+#include <functional>
+
 namespace restage::python {
 
 struct Picture {
@@ -20,8 +22,10 @@ struct Picture {
     std::string denoiser = "none";     // the denoiser of `denoised`: "oidn high"
 };
 
-// quality: fast, balanced, high. denoiser: see render::choose_denoiser.
-void denoise(Picture&, const std::string& quality, unsigned threads, const std::string& denoiser = "");
+// quality: fast, balanced, high. denoiser: see render::choose_denoiser. ask(fraction), with the GIL: false = throws
+// Stopped, and the picture stays as it was; empty = only Ctrl-C stops it.
+void denoise(Picture&, const std::string& quality, unsigned threads, const std::string& denoiser = "",
+             const std::function<bool(double)>& ask = {});
 void bind_picture(nb::module_&);
 
 } // namespace restage::python

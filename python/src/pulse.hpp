@@ -14,12 +14,15 @@ namespace restage::python {
 class Pulse {
   public:
     // `ask` is called with the GIL; false = stop. An exception in it stops too. Empty: only Ctrl-C is checked.
-    explicit Pulse(std::function<bool()> ask = {}) : ask_(std::move(ask)) {}
+    // `at_once`: the first time without a wait, so that work of any length can be stopped.
+    explicit Pulse(std::function<bool()> ask = {}, bool at_once = false) : ask_(std::move(ask)) {
+        if (at_once) last_ -= interval;
+    }
 
     bool keep_going() { // any thread, one at a time; cheap: Python is asked 20 times a second
         if (stopped_) return false;
         const auto now = std::chrono::steady_clock::now();
-        if (now - last_ < std::chrono::milliseconds(50)) return true;
+        if (now - last_ < interval) return true;
         return ask();
     }
     bool ask() {
@@ -40,6 +43,7 @@ class Pulse {
     }
 
   private:
+    static constexpr std::chrono::milliseconds interval{50};
     std::function<bool()> ask_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
     std::exception_ptr error_;

@@ -163,7 +163,13 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     w->host().flush_log();
     take(std::move(done));
     expose(*picture, scene.film.value.exposure);
-    if (!quality.empty() && picture->film.samples > 0) denoise(*picture, quality, threads, denoiser);
+    if (!quality.empty() && picture->film.samples > 0)
+        try { // who has stopped the render is not asked again: what there is is denoised
+            denoise(*picture, quality, threads, denoiser,
+                    [&](double) { return pulse.stopped() || callback.is_none() || goes_on(callback(progress)); });
+        } catch (const Stopped&) {
+            picture->finished = false;
+        }
     return picture;
 }
 

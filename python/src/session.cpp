@@ -19,13 +19,36 @@ using Shared = std::shared_ptr<Workspace>;
 
 namespace {
 
+// A dict of them. What the importer does not have, or of another type, it refuses itself.
+std::optional<ParamSet> import_options(const std::optional<nb::dict>& given) {
+    if (!given) return std::nullopt;
+    ParamSet options;
+    for (const auto& [key, value] : *given) {
+        const auto id = nb::cast<std::string>(nb::str(key));
+        if (nb::isinstance<nb::bool_>(value))
+            options.set(id, Value::boolean(nb::cast<bool>(value)));
+        else if (int whole = 0; nb::isinstance<nb::int_>(value) && nb::try_cast(value, whole))
+            options.set(id, Value::integer(whole));
+        else if (nb::isinstance<nb::float_>(value))
+            options.set(id, Value::number(nb::cast<float>(value)));
+        else if (nb::isinstance<nb::str>(value))
+            options.set(id, Value::choice(nb::cast<std::string>(value)));
+        else
+            throw Failure("option \"" + id + "\": a value is text, a number, True or False, not " +
+                          nb::cast<std::string>(nb::repr(value)));
+    }
+    return options;
+}
+
 Shared open(const std::filesystem::path& path, const std::optional<std::filesystem::path>& base,
-            const nb::object& progress, bool strict) {
+            const nb::object& progress, bool strict, const std::optional<nb::dict>& options_given) {
     auto workspace = std::make_shared<Workspace>(Host::get());
+    const std::optional<ParamSet> wanted = import_options(options_given);
     auto document = work(workspace->host(), progress, [&](io::Progress tell) {
         document::ReadOptions options;
         options.progress = std::move(tell);
         if (base) options.base = *base;
+        options.import_options = wanted;
         return document::read_document(path.string(), workspace->host().registry(), options);
     });
     if (strict) take(io::refuse_losses(document.report, path.string()));
@@ -150,10 +173,13 @@ nb::object find(const Shared& w, const std::string& name) {
                             .c_str());
 }
 
-nb::object insert_file(const Shared& w, const std::filesystem::path& path, const nb::object& progress) {
+nb::object insert_file(const Shared& w, const std::filesystem::path& path, const nb::object& progress,
+                       const std::optional<nb::dict>& options_given) {
+    const std::optional<ParamSet> wanted = import_options(options_given);
     const auto imported = work(w->host(), progress, [&](io::Progress tell) {
         io::ImportOptions options;
         options.progress = std::move(tell);
+        if (wanted) options.values = *wanted;
         return io::import_scene(path.string(), w->host().registry(), options);
     });
     const auto merged = take(w->session().insert(imported, path.string()));
@@ -308,10 +334,11 @@ void bind_contents(nb::class_<Workspace>& c) {
                     "scalar: bool = False) -> Texture"))
         .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
              "A new light at the origin. kind: point, spot or distant; value: see Light.value.")
-        .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(),
-             "The objects of another file, as one group (or one object).",
+        .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(), "options"_a = nb::none(),
+             "The objects of another file, as one group (or one object). progress and options: see restage.open.",
              nb::sig("def insert(self, path: str | os.PathLike, progress: collections.abc.Callable[[float, str], "
-                     "bool | None] | None = None) -> Group | Object"))
+                     "bool | None] | None = None, options: dict[str, str | float | bool] | None = None) -> "
+                     "Group | Object"))
         .def(
             "remove_unused", [](Workspace& w) { w.edit(remove_unused(w.scene())); },
             "Removes every mesh, image, texture, material and group that nothing refers to.")
@@ -369,12 +396,17 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
     bind_film(c);
     m.def(
         "open", &open, "path"_a, "base"_a = nb::none(), "progress"_a = nb::none(), "strict"_a = false,
+        "options"_a = nb::none(),
         "Opens a scene (pbrt, glTF, OBJ, PLY, STL: any format that a plugin reads) or a project (*.restage).\n"
         "base: replaces the scene that a project names. progress(fraction, what): called about 20 times a second;\n"
-        "False stops. strict=True: an error if something is approximated or dropped (missing files, undefined\n"
-        "names ...). Raises restage.Error with file, line and reason.",
+        "False stops, and restage.Cancelled is raised. strict=True: an error if something is approximated or dropped\n"
+        "(missing files, undefined names ...). options: of the importer, as `restage render --import-set` has them:\n"
+        "{\"units\": \"mm\", \"up\": \"z\"} of OBJ, PLY, STL and glTF, {\"merge\": True} of OBJ, {\"scene\": "
+        "\"Night\"} of\n"
+        "glTF; a project keeps them, and takes these instead. Raises restage.Error with file, line and reason.",
         nb::sig("def open(path: str | os.PathLike, base: str | os.PathLike | None = None, progress: "
-                "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False) -> Session"));
+                "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False, options: "
+                "dict[str, str | float | bool] | None = None) -> Session"));
     m.def(
         "new",
         [] {

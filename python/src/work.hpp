@@ -16,7 +16,7 @@ template <class F>
 auto work(Host& host, const nb::object& callback, F&& f) {
     float fraction = 0;
     std::string what;
-    Pulse pulse([&]() -> bool { return callback.is_none() || goes_on(callback(fraction, what)); });
+    Pulse pulse([&]() -> bool { return callback.is_none() || goes_on(callback(fraction, what)); }, true);
     auto result = [&] {
         const nb::gil_scoped_release release;
         const std::shared_lock plugins(host.in_use());

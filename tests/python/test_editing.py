@@ -339,18 +339,6 @@ def test_inserting_a_file_and_removing_what_is_unused(scenes):
         assert len(session.materials) < materials
 
 
-def test_progress_of_opening_can_stop_it(scenes):
-    calls = []
-    def stop(fraction, what):
-        calls.append((fraction, what))
-        return False
-    try:
-        restage.open(scenes / "demo/demo.pbrt", progress=stop).close()
-    except restage.Cancelled as stopped:
-        assert isinstance(stopped, restage.Error) and "stopped on request" in str(stopped)
-        assert calls  # a machine that reads the scene in 50 ms never calls it
-
-
 def test_plugins_and_a_folder_that_holds_none(tmp_path):
     plugins = restage.plugins()
     assert any("material diffuse" in p.provides for p in plugins) and all(p.loaded for p in plugins)

@@ -95,3 +95,33 @@ def test_pictures_are_decoded_by_the_child(tmp_path):
     plain = json.loads(run("info", tmp_path / "a.pbrt", "--json").stdout)
     isolated = json.loads(run("--isolate", "info", tmp_path / "a.pbrt", "--json").stdout)
     assert isolated == plain
+
+
+def test_options_of_the_importer_reach_the_child(tmp_path):
+    model, project = tmp_path / "t.obj", tmp_path / "p.restage"
+    model.write_text("v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\no a\nf 1 3 2\no b\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+    options = ["--import-set", "units=mm", "--import-set", "up=z", "--import-set", "merge=true"]
+    assert json.loads(run("info", model, "--json").stdout)["objects"] == 2
+    plain, isolated = run("info", model, "--json", *options), run("--isolate", "info", model, "--json", *options)
+    assert isolated.returncode == 0, isolated.stderr
+    assert json.loads(isolated.stdout) == json.loads(plain.stdout) and json.loads(plain.stdout)["objects"] == 1
+    for name, first in (("plain", []), ("isolated", ["--isolate"])):
+        (tmp_path / name).mkdir()
+        done = run(*first, "convert", model, tmp_path / name / "scene.pbrt", *options)
+        assert done.returncode == 0, done.stderr
+    same = run("compare", tmp_path / "plain/scene.pbrt", tmp_path / "isolated/scene.pbrt")
+    assert same.returncode == 0, same.stdout
+    other = run("compare", tmp_path / "plain/scene.pbrt", model)
+    assert other.returncode == 1, "the options made no difference"
+    # What it does not have is refused in the same words, and so is what is no assignment.
+    for wrong, says in (("height=2", 'importer "obj": there is no option "height"; there are: units='), ("merge", "write name=value"),
+                        ("up=x", "as_is|y|z are possible"), ("merge=maybe", '"maybe" is neither true nor false')):
+        plain, isolated = (run(*first, "info", model, "--import-set", wrong) for first in ([], ["--isolate"]))
+        assert plain.returncode == isolated.returncode == 1 and says in plain.stderr, plain.stderr
+        assert plain.stderr == isolated.stderr
+    # A project is read with the options that it names, and with others if asked.
+    base = {"file": "t.obj", "format": "obj", "hash": "0", "options": {"merge": True}}
+    project.write_text(json.dumps({"restage": 1, "base": base}))
+    for first in ([], ["--isolate"]):
+        assert json.loads(run(*first, "info", project, "--json").stdout)["objects"] == 1
+        assert json.loads(run(*first, "info", project, "--json", "--import-set", "units=mm").stdout)["objects"] == 2

@@ -113,10 +113,15 @@ class Editor:
     def point(self, where):
         """A mark's middle; ("picture", u, v); or (x, y)."""
         if isinstance(where, str):
+            def there(s):  # dialogs are above the window until they know their size
+                return where in s["marks"] and not (s["modal"] and s["marks"][where][1] < 0)
+
             rectangle = None
-            while rectangle != (now := self.wait(lambda s: where in s["marks"], f"'{where}' to be on screen", 10)["marks"][where]):
-                rectangle = now  # dialogs settle their size in their first frames
+            while rectangle != (now := (state := self.wait(there, f"'{where}' to be on screen", 10))["marks"][where]):
+                rectangle, drawn = now, state["latency"]["nframes"]
                 time.sleep(0.15)
+                if state["modal"]:  # dialogs settle their size in their first frames, and are drawn all the time
+                    self.wait(lambda s: not s["modal"] or s["latency"]["nframes"] >= drawn + 2, "two more frames")
             x0, y0, x1, y1 = rectangle
             return int((x0 + x1) / 2), int((y0 + y1) / 2)
         if where[0] == "picture":

@@ -20,7 +20,9 @@
 #include <implot.h>
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace restage::tests {
 
@@ -143,6 +145,13 @@ class Headless {
         ctx->MouseUp();
         ctx->Yield(2);
     }
+    // All words of one frame, in the order they are drawn.
+    std::string words(ImGuiTestContext* ctx) {
+        wanted_words_ = true;
+        while (wanted_words_)
+            ctx->Yield();
+        return words_;
+    }
     void focus(ImGuiTestContext* ctx, const char* panel) {
         editor_->open_panel(panel);
         ctx->Yield(2);
@@ -160,7 +169,12 @@ class Headless {
     void frame() {
         ImGui::GetIO().DeltaTime = 1.f / 60;
         ImGui::NewFrame();
+        if (wanted_words_) ImGui::LogToBuffer(0);
         editor_->frame();
+        if (std::exchange(wanted_words_, false)) {
+            words_ = ImGui::GetCurrentContext()->LogBuffer.c_str();
+            ImGui::LogFinish();
+        }
         ImGui::Render();
         for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) {
             if (texture->Status == ImTextureStatus_WantDestroy) {
@@ -174,6 +188,8 @@ class Headless {
         ImGuiTestEngine_PostSwap(engine_);
     }
 
+    bool wanted_words_ = false;
+    std::string words_;
     Log log_{[](LogLevel, std::string_view) {}};
     editor::Notices notices_;
     plugin::Registry registry_{log_, io::with_services()};

@@ -2,6 +2,7 @@
 """The File menu with real keys: save, open, revert, quit, export, pictures; the file browser; files that are dropped."""
 import json
 import pathlib
+import shutil
 import struct
 
 import numpy as np
@@ -178,6 +179,33 @@ def test_the_live_picture_and_a_final_one(editor, tmp_path):
         editor.click("job.enough")
     idle(editor, "the final picture")
     assert png_size(tmp_path / "final.png") == (400, 400)
+
+
+def test_a_denoise_that_is_cancelled_leaves_the_picture_as_rendered(launch, binary, tmp_path):
+    plugin = tmp_path / "plugins/waits"
+    plugin.mkdir(parents=True)
+    shutil.copy(binary.resolve().parents[1] / "tests/plugins_bad/denoiser_waits.so", plugin / "waits.so")
+    (plugin / "plugin.json").write_text(json.dumps({
+        "id": "org.example.denoiser.waits", "provides": ["restage.denoiser/1"], "version": "1.0.0", "licence": "MIT",
+        "needs": {"host": ">=0.2"}, "library": "waits"}))
+    config = tmp_path / "config"
+    config.mkdir()
+    (config / "preferences.json").write_text('{"hint_seen": true, "denoiser": "waits"}')
+    editor = launch(CORNELL, config=config, environment={"RESTAGE_PLUGIN_PATH": str(tmp_path / "plugins")})
+    editor.wait(lambda s: s["counts"]["instances"] > 0 and not s["opening"], "the scene")
+    for name in ("first.png", "second.png"):  # the denoiser is free again
+        editor.key("ctrl+r")
+        modal(editor, "Final picture")
+        editor.click("final.choose")
+        modal(editor, "Final picture as")
+        type_path(editor, tmp_path / name)
+        editor.wait(lambda s: "job.enough" in s["marks"] and s["job"] > 0, "the job to render", 60)
+        editor.click("job.enough")
+        editor.wait(lambda s: s["jobs"] and s["job"] >= 0.97, "it to be denoised", 60)
+        editor.click("job.cancel")
+        state = editor.wait(lambda s: not s["jobs"], "it to be stopped", 60)
+        assert any("denoising was cancelled: written as it was rendered" in line for line in state["log"]), state["log"]
+        assert png_size(tmp_path / name) == (400, 400)
 
 
 def test_a_failed_write_is_a_question_not_a_fading_notice(editor, tmp_path):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Options of importers: refused by name, units and axes by closed form, merging keeps every triangle, and defaults
 // change nothing.
+#include "gltf_builder.hpp"
 #include "io/options.hpp"
-#include "model_files.hpp"
 #include "scene/bounds.hpp"
 
 #include <algorithm>
@@ -136,4 +136,149 @@ TEST_CASE("options that an importer does not have are refused", "[options]") {
     const auto in = io::import_scene(files.path("t.ply"), files.registry, options);
     REQUIRE(!in);
     CHECK_THAT(in.error().message, ContainsSubstring("there is no option \"height\""));
+}
+
+TEST_CASE("text and whole numbers stand for what an option takes, and nothing else does", "[options]") {
+    model::Importer importer{.format = "x", .label = "X", .extensions = {}, .options = {}};
+    importer.options = {{.id = "scale", .type = model::ParamType::number, .min = 0, .max = 10, .def = {1}},
+                        {.id = "count", .type = model::ParamType::integer, .int_min = 0, .int_max = 9},
+                        {.id = "merge", .type = model::ParamType::boolean},
+                        {.id = "up", .type = model::ParamType::choice, .choices = {"y", "z"}},
+                        {.id = "scene", .type = model::ParamType::text}};
+    const auto text = [](const char* s) { return scene::Value{.type = scene::ParamType::text, .text = s}; };
+    const auto fits = [&](const char* id, const scene::Value& value) {
+        const auto fitting = io::fitting_option(importer, id, value);
+        if (!fitting) return "refused: " + fitting.error().message;
+        CHECK(io::fitting_option(importer, id, text(io::option_text(*fitting).c_str())) == *fitting); // there and back
+        return io::option_text(*fitting);
+    };
+    CHECK(fits("scale", text("0.1")) == "0.1");
+    CHECK(fits("scale", scene::Value::integer(2)) == "2");
+    CHECK(fits("count", text("7")) == "7");
+    CHECK(fits("merge", text("true")) == "true");
+    CHECK(fits("up", text("z")) == "z");
+    CHECK(fits("scene", scene::Value::choice("Night, \"late\"")) == "Night, \"late\"");
+    CHECK(fits("scene", text("")).empty());
+    for (const auto& [id, value] : {std::pair("scale", scene::Value::boolean(true)),
+                                    {"scale", scene::Value::choice("2")},
+                                    {"count", scene::Value::number(2)},
+                                    {"merge", scene::Value::integer(1)},
+                                    {"merge", scene::Value::choice("true")},
+                                    {"up", scene::Value::integer(1)},
+                                    {"scene", scene::Value::number(1)}}) {
+        INFO(id);
+        CHECK_THAT(fits(id, value),
+                   ContainsSubstring("refused: importer \"x\": option \"" + std::string(id) + "\" cannot be ") &&
+                       ContainsSubstring("there are: scale=NUMBER, count=WHOLE NUMBER, "
+                                         "merge=true|false, up=y|z, scene=TEXT"));
+    }
+    CHECK_THAT(fits("scale", text("11")), ContainsSubstring("out of its range"));
+    CHECK_THAT(fits("scale", text("wide")), ContainsSubstring("\"wide\" is not a number"));
+    CHECK_THAT(fits("merge", text("1")), ContainsSubstring("neither true nor false"));
+}
+
+namespace {
+
+// A triangle 1 by 1 across x and z at y = 2, a camera, and a medium that absorbs half of red over a length of 5.
+tests::Builder model_in_units() {
+    tests::Builder b;
+    b.root["nodes"] = {
+        {{"mesh", 0}, {"name", "thing"}, {"translation", {0, 2, 0}}, {"rotation", {0.70710678, 0, 0, 0.70710678}}},
+        {{"camera", 0}, {"name", "eye"}, {"translation", {0, 0, 10}}}};
+    b.root["cameras"] = {
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 100}}}}};
+    b.root["scenes"] = {{{"nodes", {0, 1}}}};
+    b.root["materials"] = {
+        {{"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 1}, {"attenuationDistance", 5}, {"attenuationColor", {0.5, 1, 1}}}}}}}};
+    b.root["meshes"][0]["primitives"][0]["material"] = 0;
+    return b;
+}
+
+} // namespace
+
+TEST_CASE("gltf: units and the axis that is up place objects, cameras and media", "[options][gltf]") {
+    Files files;
+    tests::Builder b = model_in_units();
+    files.write("m.gltf", b.text());
+    const auto read = [&](std::vector<std::string> options) {
+        io::ImportOptions in{.progress = {}, .format = {}};
+        for (const std::string& option : options)
+            REQUIRE(io::set_text_option(option, in.values));
+        return files.load("m.gltf", in);
+    };
+    const auto plain = read({}), same_as_plain = read({"units=m", "up=y"}), small = read({"units=cm"}),
+               turned = read({"units=cm", "up=z"});
+    const auto eye = [](const io::ImportedScene& in) {
+        const auto id = scene::find_by_name<scene::Camera>(in.scene, "eye");
+        REQUIRE(id);
+        return in.scene.cameras[id];
+    };
+    const auto sigma = [](const io::ImportedScene& in) {
+        double red = 0;
+        in.scene.media.each([&](auto, const scene::Medium& m) { red = double(m.sigma_a.x); });
+        return red;
+    };
+    const auto window = [&](const io::ImportedScene& in) { return eye(in).screen_window.value(); };
+    const scene::Bounds was = scene::world_bounds(plain.scene);
+    CHECK(tests::thing(plain).object_to_world == tests::thing(same_as_plain).object_to_world);
+    CHECK(eye(plain).camera_to_world == eye(same_as_plain).camera_to_world);
+    CHECK(std::abs(sigma(plain) - std::log(2.0) / 5) < 1e-6);
+
+    const auto near = [](const glm::dvec3& x, const glm::dvec3& y) { return glm::length(x - y) < 1e-7; };
+    const scene::Bounds now = scene::world_bounds(small.scene);
+    CHECK(near(now.lower, was.lower * 0.01));
+    CHECK(near(now.upper, was.upper * 0.01));
+    CHECK(near(glm::dvec3(eye(small).camera_to_world[3]), {0, 0, 0.1}));
+    for (int k = 0; k < 4; ++k) {
+        CHECK(std::abs(double(window(small)[k]) - double(window(plain)[k]) * 0.01) < 1e-8);
+        CHECK(std::abs(glm::length(glm::dvec3(eye(small).camera_to_world[k % 3])) - 1) < 1e-9); // no scale in it
+    }
+    CHECK(std::abs(sigma(small) - std::log(2.0) / 0.05) < 1e-4); // the same light comes through
+
+    // (x, y, z) -> (x, z, -y), after the unit.
+    const scene::Bounds up = scene::world_bounds(turned.scene);
+    CHECK(near(up.lower, glm::dvec3(now.lower.x, now.lower.z, -now.upper.y)));
+    CHECK(near(up.upper, glm::dvec3(now.upper.x, now.upper.z, -now.lower.y)));
+    CHECK(near(glm::dvec3(eye(turned).camera_to_world[3]), {0, 0.1, 0}));
+}
+
+TEST_CASE("gltf: one of several scenes is chosen by its name or number", "[options][gltf]") {
+    Files files;
+    tests::Builder b;
+    b.root["nodes"] = {
+        {{"mesh", 0}, {"name", "day"}}, {{"mesh", 0}, {"name", "night"}}, {{"mesh", 0}, {"name", "two"}}};
+    b.root["scenes"] = {
+        {{"name", "Day"}, {"nodes", {0}}}, {{"nodes", {1}}}, {{"name", "2 of them"}, {"nodes", {1, 2}}}};
+    files.write("s.gltf", b.text());
+    const auto read = [&](const char* scene) {
+        io::ImportOptions in{.progress = {}, .format = {}};
+        in.values.set("scene", scene::Value::choice(scene));
+        return io::import_scene(files.path("s.gltf"), files.registry, in);
+    };
+    const auto names = [](const Result<io::ImportedScene>& in) {
+        std::string all;
+        REQUIRE(in);
+        in->scene.instances.each([&](auto, const scene::Instance& i) { all += i.name + " "; });
+        return all;
+    };
+    CHECK(names(read("")) == "day "); // the file's default
+    CHECK(names(read("Day")) == "day ");
+    CHECK(names(read("1")) == "day ");
+    CHECK(names(read("2")) == "night ");
+    CHECK(names(read("2 of them")) == "night two ");
+    CHECK(tests::says(*read("2"), io::Fate::dropped, "scene \"Day\"", "another one was asked for"));
+    for (const char* none : {"0", "4", "day", "2.0", "-1"}) {
+        const auto in = read(none);
+        REQUIRE(!in);
+        CHECK_THAT(in.error().message, ContainsSubstring("there is no scene \"" + std::string(none) +
+                                                         "\"; there are 1 \"Day\", 2, 3 \"2 of them\""));
+    }
+    b.root.erase("scenes"), b.root.erase("scene");
+    files.write("s.gltf", b.text());
+    const auto in = read("Day");
+    REQUIRE(!in);
+    CHECK_THAT(in.error().message, ContainsSubstring("there is no scene \"Day\"; the file names none"));
 }

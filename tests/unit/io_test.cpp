@@ -315,7 +315,8 @@ TEST_CASE("export options are checked against the exporter's table", "[io]") {
     CHECK_THAT(set_option(exporter, "version=v5", values).error().message,
                ContainsSubstring("cannot be \"v5\"; v4|v3 are possible"));
     CHECK_THAT(set_option(exporter, "what=1", values).error().message,
-               ContainsSubstring("there is no option \"what\"; there are: version=v4|v3, meshes, flat"));
+               ContainsSubstring("there is no option \"what\"; there are: version=v4|v3, "
+                                 "meshes=WHOLE NUMBER, flat=true|false"));
     CHECK_FALSE(set_option(exporter, "meshes=11", values));
     CHECK_FALSE(set_option(exporter, "meshes=7x", values));
     CHECK_FALSE(set_option(exporter, "flat=1", values));

@@ -31,9 +31,10 @@ void draw_history(PanelContext& e) {
         if (undone) ImGui::PopStyleColor();
         e.mark(fmt::format("history.{}", position));
         if (current && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
-        if (saved == position && position > 0) {
+        if (saved == position && (position > 0 || history.dropped() > 0)) { // row 0 else says where it is from
             ImGui::SameLine();
             ImGui::TextColored(colors::good, "saved");
+            e.mark("history.saved");
         }
     };
     // Its size and limit.
@@ -43,12 +44,16 @@ void draw_history(PanelContext& e) {
     e.mark("history.bytes");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-    if (ImGui::InputInt("MiB##history_mib", &e.preferences.history_mib, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) {
-        e.preferences.history_mib = std::clamp(e.preferences.history_mib, 16, 65536);
+    int& typed = e.panel_state->history_mib;
+    if (typed == 0) typed = e.preferences.history_mib;
+    ImGui::InputInt("MiB##history_mib", &typed, 0, 0);
+    if (ImGui::IsItemDeactivatedAfterEdit()) { // by Enter, Tab or a click elsewhere; not by each digit
+        e.preferences.history_mib = std::clamp(typed, 16, 65536);
         e.change([bytes = std::size_t(e.preferences.history_mib) << 20](document::Session& s) {
             s.set_history_budget(bytes);
         });
     }
+    if (!ImGui::IsItemActive()) typed = e.preferences.history_mib;
     tip("Memory limit for undo; beyond it the oldest steps are dropped. Geometry and pictures count once");
     e.mark("history.budget");
     if (history.dropped() > 0)

@@ -5,6 +5,7 @@
 #include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "importing.hpp"
 #include "io/import.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
@@ -237,6 +238,15 @@ void missing_files(PanelContext& e) {
 
 void draw_import_report(PanelContext& e) {
     ReportState& state = e.panel_state->report;
+    if (why_not_import_again(e).empty()) {
+        if (ImGui::Button("Import again...")) e.run("file.import_again");
+        tip("Read the file again with other options");
+        e.mark("report.import_again");
+        ImGui::SameLine();
+        const std::string options = import_options_text(e);
+        ImGui::TextDisabled("%s", options.empty() ? "Read with the default options" : ("Read with " + options).c_str());
+        e.mark("report.options");
+    }
     missing_files(e);
     const io::Report& report = e.session().report();
     if (report.entries.empty()) {

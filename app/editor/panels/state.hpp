@@ -9,6 +9,7 @@
 #include "selection.hpp"
 #include "sky_making.hpp"
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -94,6 +95,11 @@ struct PluginState { // actions and panels of plugins
     std::weak_ptr<const std::string> running; // what the action that runs is called; its job holds it
 };
 
+struct ImportState { // options of importers in the file browser
+    std::map<std::string, scene::ParamSet> options; // by format, as chosen last
+    std::filesystem::path file; // that they were last shown for
+};
+
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings not to repeat each frame
@@ -122,7 +128,9 @@ struct PanelState {
     ConvergenceState convergence;
     PluginState plugins;
     AssetsState assets;
+    ImportState importing;
     std::size_t history_seen = 0;
+    int history_mib = 0; // while it is typed
     std::string texture_search; // in popups that ask for an image
     std::pair<std::string, std::string> image_choice; // the mark that asked for an image file, and the file
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that importers of mere objects share: the unit of the file's lengths, and which of its axes is up.
+// Options that importers share: the unit of the file's lengths, and which of its axes is up.
 #pragma once
 
 #include "common/matrix.hpp"
@@ -38,15 +38,12 @@ inline bool flag_option(const RestageSceneWriter1& out, const char* id) {
 struct Placement {
     Up up; // of the scene
     Matrix to_world;
+    double metres = 1; // what a length of 1 in the file becomes
     bool changes = false;
 
     Placement(const RestageSceneWriter1& out, Up of_format) : up(of_format) {
         const std::string_view axis = choice_option(out, "up"), unit = choice_option(out, "units");
-        const double metres = unit == "mm"   ? 0.001
-                              : unit == "cm" ? 0.01
-                              : unit == "in" ? 0.0254
-                              : unit == "ft" ? 0.3048
-                                             : 1;
+        metres = unit == "mm" ? 0.001 : unit == "cm" ? 0.01 : unit == "in" ? 0.0254 : unit == "ft" ? 0.3048 : 1;
         if (axis == "y" || axis == "z") up = Up::y;
         if (axis == "z") to_world.set_column(1, {0, 0, -1}), to_world.set_column(2, {0, 1, 0});
         for (int c = 0; c < 3; ++c)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/mesh.hpp"
+#include "common/options.hpp"
 #include "common/report.hpp"
 #include "common/textures.hpp"
 #include "model.hpp"
@@ -57,7 +58,7 @@ struct MadeMaterial { // a material, and the part of it that the scene stores pe
 class Importer {
   public:
     Importer(const RestageSceneWriter1& writer, const std::filesystem::path& path, const tinygltf::Model& model)
-        : out_(writer), path_(path), model_(model), report_(writer, path.string()) {}
+        : out_(writer), path_(path), model_(model), placement_(writer, Up::y), report_(writer, path.string()) {}
     void run();
 
   private:
@@ -68,6 +69,7 @@ class Importer {
 
     // nodes.cpp
     std::vector<int> choose_roots();
+    std::optional<int> asked_scene() const;
     std::string scene_name(int scene) const;
     void find_transforms(int node, const Matrix& parent, bool hidden, int depth);
     bool shows_something(int node) const;
@@ -142,6 +144,7 @@ class Importer {
     const RestageSceneWriter1& out_;
     const std::filesystem::path path_;
     const tinygltf::Model& model_;
+    const Placement placement_; // of the file's root nodes
     Report report_;
     std::vector<Matrix> world_;     // of each node
     std::vector<int> visits_;       // of each node: 0 = not in the scene

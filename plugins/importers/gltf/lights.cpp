@@ -48,8 +48,8 @@ void Importer::camera(int index) {
         }
         aspect = o.xmag / o.ymag;
         for (int side = 0; side < 2; ++side) { // x0 x1 y0 y1
-            camera.screen_window[side] = static_cast<float>(side ? o.xmag : -o.xmag);
-            camera.screen_window[2 + side] = static_cast<float>(side ? o.ymag : -o.ymag);
+            camera.screen_window[side] = static_cast<float>((side ? o.xmag : -o.xmag) * placement_.metres);
+            camera.screen_window[2 + side] = static_cast<float>((side ? o.ymag : -o.ymag) * placement_.metres);
         }
         camera.projection = RESTAGE_ORTHOGRAPHIC;
     } else {

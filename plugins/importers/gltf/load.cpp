@@ -64,12 +64,12 @@ void Importer::tell_leftovers() {
 
 void Importer::run() {
     check_extensions();
-    world_.resize(model_.nodes.size());
+    world_.resize(model_.nodes.size(), placement_.to_world);
     visits_.resize(model_.nodes.size());
     hidden_.resize(model_.nodes.size());
     const std::vector<int> roots = choose_roots();
     for (const int root : roots)
-        find_transforms(root, Matrix(), false, 0);
+        find_transforms(root, placement_.to_world, false, 0);
     for (const int root : roots)
         node(root, 0);
     if (bounds_.empty()) bounds_ = hidden_bounds_;

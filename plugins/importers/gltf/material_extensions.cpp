@@ -13,7 +13,7 @@ void Importer::volume(const tinygltf::Value& v, const std::string& name, MadeMat
     values.boolean("thin", false);
     if (v.Has("thicknessTexture"))
         report_.kept("material " + quote(name) + ": thickness texture", "not needed: rays measure the thickness");
-    const double distance = number_of(v, "attenuationDistance", 0);
+    const double distance = number_of(v, "attenuationDistance", 0) * placement_.metres;
     const Rgb color = color_of(v, "attenuationColor", {1, 1, 1});
     if (distance <= 0 || color == Rgb{1, 1, 1}) return;
     RestageMedium medium{.name = name.c_str(), .sigma_a = {}, .sigma_s = {}, .g = 0};

@@ -3,7 +3,16 @@
 #include "common/picture.hpp"
 #include "load.hpp"
 
+#include "common/options.hpp"
+
 #include <restage/scene_io.h>
+
+static const RestageParam options[] = {
+    restage::importing::units_option,
+    restage::importing::up_option,
+    RESTAGE_TEXT_PARAM("scene", "Scene", 0,
+                       "Of a file that holds several: its name, or its number from 1. Empty: the file's default"),
+};
 
 static const RestageImporter1 importer = {
     .size = sizeof(RestageImporter1),
@@ -12,6 +21,8 @@ static const RestageImporter1 importer = {
     .extensions = "gltf|glb",
     .probe = restage::gltf::probe,
     .load = restage::gltf::load,
+    .options = options,
+    .option_count = RESTAGE_COUNT(options),
 };
 
 RESTAGE_PLUGIN_INIT("org.restage.importer.gltf", "0.1.0", restage::importing::use_host_pictures, NULL,
