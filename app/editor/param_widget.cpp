@@ -8,7 +8,8 @@
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
-#include "scene/edits.hpp"
+#include "scene/edits_texture.hpp"
+#include "texture_settings.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -81,8 +82,23 @@ bool material_combo(PanelContext& e, scene::Value& v, const std::string& mark) {
     return changed;
 }
 
-// Everything a slot can hold: the scene's textures, a file, nothing.
-void texture_popup(PanelContext& e, const scene::Value& value, bool scalar, ParamAsk& ask, const std::string& mark) {
+// The types that plugins bring, by name.
+void new_texture_menu(PanelContext& e, ParamAsk& ask, const std::string& mark) {
+    const bool open = ImGui::BeginMenu("New texture");
+    e.mark(mark);
+    if (!open) return;
+    for (const plugin::TextureEntry& entry : e.registry().textures()) {
+        if (ImGui::MenuItem((entry.table->label + "###" + entry.table->type).c_str()))
+            ask.new_texture = entry.table->type;
+        tip(entry.table->tooltip.c_str());
+        e.mark(mark + "." + entry.table->type);
+    }
+    ImGui::EndMenu();
+}
+
+// Everything a slot can hold: the scene's textures, a new one, a file, nothing.
+void texture_popup(PanelContext& e, const scene::Value& value, bool scalar, const SlotRules* rules, ParamAsk& ask,
+                   const std::string& mark) {
     if (!ImGui::BeginPopup("texture")) return;
     if (value.texture) {
         if (ImGui::MenuItem("Remove the texture")) {
@@ -92,12 +108,14 @@ void texture_popup(PanelContext& e, const scene::Value& value, bool scalar, Para
         e.mark(mark + ".texture.remove");
         ImGui::Separator();
     }
+    if (rules) new_texture_menu(e, ask, mark + ".texture.new");
     std::vector<scene::Id<scene::Texture>> ids;
     e.scene().textures.each([&](scene::Id<scene::Texture> id, const scene::Texture& t) {
-        if (t.is_float == scalar || t.type == "imagemap") ids.push_back(id);
+        if (t.is_float != scalar && t.type != "imagemap") return;
+        if (!rules || !rules->inside || !scene::contains(e.scene(), id, rules->inside)) ids.push_back(id);
     });
     if (ids.empty())
-        ImGui::TextDisabled("The scene has no textures yet.");
+        ImGui::TextDisabled("The scene has no other textures.");
     else
         searched_list(
             e.panel_state->texture_search, ids.size(),
@@ -199,7 +217,7 @@ bool color_field(const char* id, float* linear, bool hdr) {
 }
 
 ParamAsk param_widget(PanelContext& e, const model::Param& line, const scene::Value& value, bool is_set,
-                      const std::string& mark, const plugin::TableReader* reader) {
+                      const std::string& mark, const plugin::TableReader* reader, const SlotRules* rules) {
     ParamAsk ask;
     scene::Value v = value;
     const bool textured = e.scene().textures.find(value.texture) != nullptr;
@@ -260,13 +278,13 @@ ParamAsk param_widget(PanelContext& e, const model::Param& line, const scene::Va
     }
     if (slot && line.type != model::ParamType::texture) {
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-        if (icon_button("slot", Icon::texture, textured, "Let an image vary this value; or drop one here"))
+        if (icon_button("slot", Icon::texture, textured, "Let a texture vary this value; or drop an image here"))
             ImGui::OpenPopup("texture");
         e.mark(mark + ".texture");
         accept_image(ask);
     }
     if (slot) {
-        texture_popup(e, value, line.type == model::ParamType::number, ask, mark);
+        texture_popup(e, value, rules ? rules->scalar : line.type == model::ParamType::number, rules, ask, mark);
         if (const std::string file = chosen_image_file(e, mark + ".texture"); !file.empty()) ask.image_file = file;
     }
     if (changed) ask.value = v;
@@ -275,56 +293,9 @@ ParamAsk param_widget(PanelContext& e, const model::Param& line, const scene::Va
             error_note((problem + ". It shows as grey.").c_str());
             e.mark(mark + ".problem");
         }
-    if (textured) texture_settings(e, value.texture, mark + ".image");
+    if (textured && rules) texture_settings(e, value.texture, mark + ".of");
     ImGui::PopID();
     return ask;
-}
-
-void texture_settings(PanelContext& e, scene::Id<scene::Texture> id, const std::string& mark) {
-    const scene::Texture& texture = e.scene().textures[id];
-    if (texture.type != "imagemap") return;
-    if (!ImGui::TreeNodeEx("Image", ImGuiTreeNodeFlags_SpanAvailWidth)) {
-        e.mark(mark);
-        return;
-    }
-    e.mark(mark);
-    const scene::Image* image = e.scene().images.find(texture.image);
-    if (image && image->data)
-        ImGui::TextDisabled("%u × %u, %s", image->data->width, image->data->height,
-                            image->encoding == scene::Encoding::srgb ? "sRGB" : "linear");
-    else
-        warning_note("The image is missing; it shades grey.");
-    if (image) tip(image->path.c_str());
-    const auto number = [](const char* name, const char* label, float min, float max, float value, const char* said) {
-        return model::Param{
-            .id = name, .label = label, .min = min, .max = max, .def = {value}, .unit = "", .tooltip = said};
-    };
-    static const std::vector<model::Param> lines = {
-        number("scale", "Scale", 0, 10, 1, "Multiplies the image's values"),
-        {.id = "invert",
-         .label = "Invert",
-         .type = model::ParamType::boolean,
-         .tooltip = "Dark becomes bright: one minus the image's values"},
-        {.id = "wrap",
-         .label = "Outside",
-         .type = model::ParamType::choice,
-         .choices = {"repeat", "black", "clamp"},
-         .tooltip = "What is shown beyond the image's edge"},
-        number("uscale", "Repeat across", -100, 100, 1, "How often the image fits along u, its width"),
-        number("vscale", "Repeat up", -100, 100, 1, "How often the image fits along v, its height"),
-        number("udelta", "Shift across", -1, 1, 0, "In widths of the image (u)"),
-        number("vdelta", "Shift up", -1, 1, 0, "In heights of the image (v)"),
-    };
-    for (const model::Param& line : lines) {
-        const scene::Value* set = texture.params.find(line.id);
-        const ParamAsk ask =
-            param_widget(e, line, set ? *set : scene::default_value(line), set != nullptr, mark + "." + line.id);
-        if (ask.value || ask.reset)
-            e.edit([id, name = std::string(line.id), v = ask.reset ? scene::default_value(line) : *ask.value](
-                       const scene::Scene& s) { return scene::set_param(s, id, name, v); },
-                   fmt::format("texture.{}.{}", id.value, line.id));
-    }
-    ImGui::TreePop();
 }
 
 } // namespace restage::editor

@@ -5,7 +5,9 @@
 #include "render/texture_composer.hpp"
 
 #include <fmt/format.h>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace restage::render {
 namespace {
@@ -25,12 +27,43 @@ std::string default_value(const model::Param& p) {
     }
 }
 
+struct TexturedSlot {
+    std::uint32_t word; // of the texture's id
+    std::string id; // of the parameter
+    bool color;
+    const char* use; // TEXTURE_*
+};
+
+// Puts textures' values into the parameters. One call of texture_eval() for all slots: shader compilers inline it, with
+// the code of every texture type of the scene, at each call.
+std::string look_up(const std::vector<TexturedSlot>& slots) {
+    if (slots.empty()) return "";
+    std::string words, uses, taken;
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+        const char* comma = k == 0 ? "" : ", ";
+        words += fmt::format("{}{}u", comma, slots[k].word);
+        uses += std::string(comma) + slots[k].use;
+        taken += fmt::format("    if (w.at[at + {}] != 0u) m.{} = slot_value[{}]{};\n", slots[k].word, slots[k].id, k,
+                             slots[k].color ? "" : ".x");
+    }
+    return fmt::format(R"(    const uint slot_word[{0}] = uint[{0}]({1}), slot_use[{0}] = uint[{0}]({2});
+    Spectrum slot_value[{0}];
+    for (uint i = 0u; i < {0}u; ++i) {{
+        uint id = w.at[at + slot_word[i]];
+        if (id != 0u) slot_value[i] = texture_eval(scene, id, where, slot_use[i]);
+    }}
+)",
+                       slots.size(), words, uses) +
+           taken;
+}
+
 gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage, bool stand_in,
                           ColorMode mode, std::span<const TextureType> textures = {}) {
     const model::Material& table = *type.plugin.table;
     const std::string prefix = table.prefix;
     std::string fields, fetch;
     std::uint32_t at = 0;
+    std::vector<TexturedSlot> slots;
     bool colored = false, tables = false;
     for (std::uint32_t i = 0; i < table.params.size(); ++i) {
         const model::Param& line = table.params[i];
@@ -45,16 +78,17 @@ gpu::ShaderSource compose(const MaterialType& type, const std::string& main_file
         }
         fetch += fmt::format("    m.{} = {};\n", line.id, read_value(line, at));
         if (line.texturable && type.is_textured(i)) { // otherwise omit texture code
-            const std::string id = fmt::format("w.at[at + {}]", at + n);
             const bool color = line.type == model::ParamType::color;
-            fetch += fmt::format("    if ({0} != 0u) m.{1} = {2}(scene, {0}, where{3});\n", id, line.id,
-                                 color ? "texture_eval" : "texture_number",
-                                 !color          ? ""
-                                 : line.max <= 1 ? ", TEXTURE_REFLECTANCE"
-                                                 : ", TEXTURE_UNBOUNDED");
+            slots.push_back({.word = at + n,
+                             .id = line.id,
+                             .color = color,
+                             .use = !color          ? "TEXTURE_DATA"
+                                    : line.max <= 1 ? "TEXTURE_REFLECTANCE"
+                                                    : "TEXTURE_UNBOUNDED"});
         }
         at += line_words(line);
     }
+    fetch += look_up(slots);
     if (fields.empty()) fields = "    int unused;\n", fetch = "    m.unused = 0;\n";
     const char* rng = table.stochastic ? ", rng" : "";
     const bool site = table.site;

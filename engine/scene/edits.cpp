@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/edits.hpp"
 
+#include "scene/edits_texture.hpp"
 #include "scene/uses.hpp"
 
 #include <algorithm>
@@ -262,6 +263,9 @@ Result<Edit> set_param(const Scene& scene, Id<Material> id, std::string_view par
 }
 
 Result<Edit> set_param(const Scene& scene, Id<Texture> id, std::string_view param, Value value) {
+    const Texture* operand = scene.textures.find(value.texture);
+    if (operand && contains(scene, value.texture, id))
+        return fail("texture \"" + operand->name + "\" would contain itself");
     return set_param_of(scene, id, param, std::move(value));
 }
 

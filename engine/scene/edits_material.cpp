@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edit builders for materials: change type, make unique, set an image for a parameter.
+// Edit builders for materials: change type, make unique. Images for parameters: edits_texture.cpp.
 #include "scene/edits.hpp"
 
 #include <algorithm>
@@ -85,48 +85,6 @@ Result<MadeUnique> make_unique(const Scene& scene, std::span<const Id<Instance>>
         made.edit.changes.push_back(Change<Instance>{id, scene.instances[id], std::move(after)});
     }
     return made;
-}
-
-Result<Edit> set_image_texture(const Scene& scene, Id<Material> id, std::string_view param, model::ParamType type,
-                               bool scalar, Image image) {
-    const Material* material = scene.materials.find(id);
-    if (!material) return fail("there is no material with id " + std::to_string(id.value));
-    Edit edit{material->name + ": image for " + std::string(param), {}};
-    Id<Image> image_id;
-    scene.images.each([&](Id<Image> other, const Image& i) {
-        if (!image_id && !image.path.empty() && i.path == image.path && i.encoding == image.encoding && i.data)
-            image_id = other;
-    });
-    Id<Texture> texture_id;
-    const std::string name = image.name;
-    if (image_id) {
-        scene.textures.each([&](Id<Texture> other, const Texture& t) {
-            if (!texture_id && t.type == "imagemap" && t.image == image_id && t.is_float == scalar &&
-                t.params.entries().empty())
-                texture_id = other;
-        });
-    } else {
-        image_id = scene.images.next();
-        edit.changes.push_back(Change<Image>{image_id, std::nullopt, std::move(image)});
-    }
-    if (!texture_id) {
-        std::set<std::string> taken;
-        scene.textures.each([&](auto, const Texture& t) { taken.insert(t.name); });
-        texture_id = scene.textures.next();
-        Texture texture{.name = taken.contains(name) ? next_name(name, taken) : name,
-                        .type = "imagemap",
-                        .is_float = scalar,
-                        .image = image_id};
-        edit.changes.push_back(Change<Texture>{texture_id, std::nullopt, std::move(texture)});
-    }
-    Material after = *material;
-    const Value* before = material->params.find(param);
-    Value value = before && before->type == type ? *before : Value{.type = type};
-    value.texture = texture_id;
-    after.params.set(param, std::move(value));
-    forget_edited(after.origin, param);
-    edit.changes.push_back(Change<Material>{id, *material, std::move(after)});
-    return edit;
 }
 
 } // namespace restage::scene

@@ -26,7 +26,7 @@ from ._core import (
     Action, ActionResult,
     Camera, Cameras, Cancelled, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
     Plugin, Progress, Report, ReportEntry, Selection, Session, Sky, Step, Texture, Textures,
-    load_plugins, material_types, merge, new, open, plugins, reload_plugins, sky_types,
+    load_plugins, material_types, merge, new, open, plugins, reload_plugins, sky_types, texture_types,
 )
 from .bsdf import Bsdf, BsdfSample
 from . import spread
@@ -62,5 +62,5 @@ __all__ = [
     "Bsdf", "BsdfSample", "Camera", "Cameras", "Cancelled", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
     "Object", "Objects", "Parameter", "Picture", "Plugin", "Progress", "Report", "ReportEntry", "Selection", "Session",
     "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins", "reload_plugins",
-    "sky_types", "spread",
+    "sky_types", "spread", "texture_types",
 ]

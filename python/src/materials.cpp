@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials and textures: types, and values by parameter id, checked against the plugins' tables.
+// Materials: types, and values by parameter id, checked against the plugins' tables.
 #include "values.hpp"
 
 #include "scene/uses.hpp"
@@ -14,7 +14,6 @@ using namespace scene;
 namespace {
 
 using MaterialHandle = Handle<Material>;
-using TextureHandle = Handle<Texture>;
 
 const model::Param* find_line(model::ParamTable table, const std::string& id) {
     const model::Param* line = find_param(table, id);
@@ -68,10 +67,6 @@ std::vector<std::string> param_ids(const MaterialHandle& h) { // the table's, th
     return ids;
 }
 
-struct Parameter { // of a table
-    model::Param line;
-};
-
 std::string type_name(const model::Param& line) {
     static constexpr const char* names[] = {"float", "color",    "int",     "bool", "enum",
                                             "text",  "material", "texture", "table"};
@@ -79,7 +74,7 @@ std::string type_name(const model::Param& line) {
 }
 
 void bind_parameter(nb::module_& m) {
-    nb::class_<Parameter>(m, "Parameter", "One line of a material type's parameter table.")
+    nb::class_<Parameter>(m, "Parameter", "One line of a parameter table, of a material, texture or sky.")
         .def_prop_ro(
             "id", [](const Parameter& p) { return p.line.id; }, "Its key: m[id].")
         .def_prop_ro(
@@ -107,13 +102,6 @@ void bind_parameter(nb::module_& m) {
             "tooltip", [](const Parameter& p) { return p.line.tooltip; }, "One sentence about it.")
         .def("__repr__",
              [](const Parameter& p) { return "<restage.Parameter " + p.line.id + ": " + type_name(p.line) + ">"; });
-}
-
-std::vector<Parameter> parameters(model::ParamTable table) {
-    std::vector<Parameter> out;
-    for (const model::Param& line : table)
-        out.push_back({line});
-    return out;
 }
 
 void bind_material(nb::module_& m) {
@@ -186,62 +174,10 @@ void bind_material(nb::module_& m) {
             "Removes it; refused while something uses it.");
 }
 
-void bind_texture(nb::module_& m) {
-    nb::class_<TextureHandle> c(m, "Texture",
-                                "A texture; its values are read and set like a material's: t[\"uscale\"] = 2.0.");
-    bind_handle(c, "Texture");
-    c.def_prop_ro(
-         "type", [](const TextureHandle& h) { return h.get().type; },
-         "imagemap, constant, scale, mix, checkerboard, or a type that is only kept.")
-        .def_prop_ro(
-            "scalar", [](const TextureHandle& h) { return h.get().is_float; },
-            "One channel (True) or a colour (False).")
-        .def_prop_ro(
-            "image_path",
-            [](const TextureHandle& h) -> std::optional<std::string> {
-                const Image* image = h.in->scene().images.find(h.get().image);
-                if (!image || image->path.empty()) return std::nullopt;
-                return image->path;
-            },
-            "File of its image, or None.")
-        .def(
-            "__getitem__",
-            [](const TextureHandle& h, const std::string& id) {
-                const Value* value = h.get().params.find(id);
-                if (!value)
-                    throw nb::key_error(("texture \"" + h.get().name + "\": \"" + id + "\" is not set").c_str());
-                return to_python(h.in, *value);
-            },
-            "id"_a)
-        .def(
-            "__setitem__",
-            [](const TextureHandle& h, const std::string& id, nb::handle given) {
-                const std::string who = "texture \"" + h.get().name + "\": \"" + id + "\"";
-                const model::ParamType type = guess_type(h.get().params.find(id), given);
-                h.in->edit(set_param(h.in->scene(), h.id, id, to_value(h.in.get(), type, given, who)));
-            },
-            "id"_a, "value"_a,
-            nb::sig("def __setitem__(self, id: str, value: float | bool | str | numpy.typing.ArrayLike | "
-                    "Texture) -> None"))
-        .def(
-            "keys",
-            [](const TextureHandle& h) {
-                std::vector<std::string> ids;
-                for (const auto& entry : h.get().params.entries())
-                    ids.push_back(entry.id);
-                return ids;
-            },
-            "The ids of the values that are set.")
-        .def(
-            "remove", [](const TextureHandle& h) { h.in->edit(remove(h.in->scene(), h.id)); },
-            "Removes it; refused while something uses it.");
-}
-
 } // namespace
 
 void bind_materials(nb::module_& m) {
     bind_parameter(m);
-    bind_texture(m);
     bind_material(m);
     m.def(
         "material_types",

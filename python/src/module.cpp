@@ -16,6 +16,7 @@ NB_MODULE(_core, m) {
     nb::set_leak_warnings(false); // sessions in globals live until the process ends
 
     bind_plugins(m);
+    bind_textures(m);
     bind_materials(m);
     auto object = bind_things(m);
     bind_lights(m);
@@ -27,6 +28,7 @@ NB_MODULE(_core, m) {
         "that\n"
         "undo takes back), render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
     bind_session(m, session);
+    bind_add_texture(session);
     bind_geometry(session, object);
     bind_actions(m, session);
     bind_render(m, session);

@@ -74,37 +74,6 @@ Handle<Material> add_material(const Shared& w, const std::string& name, const st
     return h;
 }
 
-using Pixels = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
-
-std::shared_ptr<const PixelData> pixels_of(nb::handle h, const char* who) {
-    const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(h, "dtype"_a = "float32");
-    Pixels view;
-    if (!nb::try_cast(array, view) || view.shape(0) == 0 || view.shape(1) == 0 ||
-        (view.shape(2) != 1 && view.shape(2) != 3 && view.shape(2) != 4))
-        throw Failure(std::string(who) + ": pixels are an array (height, width, 1, 3 or 4), linear");
-    PixelData data{.width = std::uint32_t(view.shape(1)),
-                   .height = std::uint32_t(view.shape(0)),
-                   .channels = std::uint32_t(view.shape(2)),
-                   .values = {view.data(), view.data() + view.size()}};
-    return std::make_shared<const PixelData>(std::move(data));
-}
-
-Handle<Texture> add_texture(const Shared& w, nb::handle image, const std::optional<std::string>& name, bool scalar) {
-    Image made;
-    if (const auto path = to_path(image))
-        made = read_image(*w, *path, scalar ? scene::Encoding::linear : scene::Encoding::srgb);
-    else
-        made = {.name = "image", .encoding = scene::Encoding::linear, .data = pixels_of(image, "add_texture")};
-    if (name) made.name = *name;
-    const Handle<Texture> h{w, w->scene().textures.next()};
-    Texture texture{.name = made.name, .type = "imagemap", .is_float = scalar, .image = w->scene().images.next()};
-    Edit edit{"Add texture " + made.name, {}};
-    edit.changes.push_back(Change<Image>{w->scene().images.next(), std::nullopt, std::move(made)});
-    edit.changes.push_back(Change<Texture>{h.id, std::nullopt, std::move(texture)});
-    w->edit(std::move(edit));
-    return h;
-}
-
 Handle<Light> add_light(const Shared& w, const std::string& kind, const Three& value, const std::string& name) {
     Light light{.name = name, .value = glm::vec3(vec(value))};
     const auto known = scene::light_kind(kind);
@@ -327,11 +296,6 @@ void bind_contents(nb::class_<Workspace>& c) {
             "Removes the light from all around.")
         .def("add_material", &add_material, "name"_a, "type"_a, "values"_a,
              "A new material: add_material(\"Brass\", \"conductor\", uroughness=0.2, vroughness=0.2).")
-        .def(
-            "add_texture", &add_texture, "image"_a, "name"_a = nb::none(), "scalar"_a = false,
-            "A new texture. image: path (8-bit files are sRGB, or linear if scalar), or a linear array (H, W, C).",
-            nb::sig("def add_texture(self, image: str | os.PathLike | numpy.typing.ArrayLike, name: str | None = None, "
-                    "scalar: bool = False) -> Texture"))
         .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
              "A new light at the origin. kind: point, spot or distant; value: see Light.value.")
         .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(), "options"_a = nb::none(),

@@ -114,6 +114,21 @@ std::vector<model::Param> table_of(Workspace& in, const std::string& type) {
     return entry ? entry->table->params : std::vector<model::Param>();
 }
 
+std::vector<model::Param> texture_table_of(Workspace& in, const std::string& type) {
+    const auto entry = in.host().registry().find_texture(type);
+    if (!entry) return {};
+    std::vector<model::Param> lines = entry->table->params;
+    if (entry->table->mapped) lines.insert(lines.end(), model::mapping_params().begin(), model::mapping_params().end());
+    return lines;
+}
+
+std::vector<Parameter> parameters(model::ParamTable table) {
+    std::vector<Parameter> out;
+    for (const model::Param& line : table)
+        out.push_back({line});
+    return out;
+}
+
 std::optional<std::string> to_path(nb::handle h) {
     if (!nb::isinstance<nb::str>(h) && !nb::hasattr(h, "__fspath__")) return std::nullopt;
     const auto text = nb::cast<std::string>(nb::module_::import_("os").attr("fspath")(h));
@@ -133,6 +148,21 @@ Image read_image(Workspace& in, const std::string& path, scene::Encoding encodin
             .path = path,
             .encoding = encoding,
             .data = std::move(data)};
+}
+
+using Pixels = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+std::shared_ptr<const PixelData> pixels_of(nb::handle h, const char* who) {
+    const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(h, "dtype"_a = "float32");
+    Pixels view;
+    if (!nb::try_cast(array, view) || view.shape(0) == 0 || view.shape(1) == 0 ||
+        (view.shape(2) != 1 && view.shape(2) != 3 && view.shape(2) != 4))
+        throw Failure(std::string(who) + ": pixels are an array (height, width, 1, 3 or 4), linear");
+    PixelData data{.width = std::uint32_t(view.shape(1)),
+                   .height = std::uint32_t(view.shape(0)),
+                   .channels = std::uint32_t(view.shape(2)),
+                   .values = {view.data(), view.data() + view.size()}};
+    return std::make_shared<const PixelData>(std::move(data));
 }
 
 } // namespace restage::python

@@ -141,7 +141,9 @@ void bind_handle(nb::class_<Handle<T>>& c, const char* name_of_class) {
 }
 
 nb::class_<Handle<scene::Instance>> bind_things(nb::module_&); // objects, groups, selections; the class Object
-void bind_materials(nb::module_&); // materials, textures
+void bind_materials(nb::module_&);
+void bind_textures(nb::module_&);
+void bind_add_texture(nb::class_<Workspace>&); // after the types of its arguments
 void bind_lights(nb::module_&);    // lights, cameras, the sky
 void bind_session(nb::module_&, nb::class_<Workspace>&);
 void bind_geometry(nb::class_<Workspace>&, nb::class_<Handle<scene::Instance>>&); // meshes, new cameras and groups

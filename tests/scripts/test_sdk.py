@@ -68,6 +68,29 @@ def test_plugins_from_the_templates(installed, tmp_path):
     assert info["report_counts"]["dropped"] == info["report_counts"]["approximated"] == 0
 
 
+def test_textures_from_the_templates(installed, tmp_path):
+    """JSON and C: each loads, passes the checker, with its native code if it has some, and renders the same scene."""
+    restage = installed / "bin" / "restage"
+    pictures = {}
+    for language in ("json", "c"):
+        home = tmp_path / language
+        home.mkdir()
+        run(restage, "new-plugin", "slats", "--kind", "texture", "--language", language, "--label", "Slats", cwd=home)
+        folder = home / "slats"
+        assert not [f for f in folder.iterdir() if "@" in f.read_text()], "a placeholder was left"
+        plugin = folder if language == "json" else build(folder, installed, "texture")
+        done = run(restage, "check", plugin, "--quick")
+        assert "pass  texture-params" in done.stdout
+        assert ("pass  texture-native" in done.stdout) == (language == "c")
+        scene = folder / "scene.pbrt"
+        info = json.loads(run(restage, "--plugin-path", plugin, "info", scene, "--json").stdout)
+        assert info["report_counts"]["dropped"] == info["report_counts"]["approximated"] == 0
+        pictures[language] = picture(restage, plugin, scene, home / "scene.png")
+        (home / "none").mkdir()
+        assert pictures[language] != picture(restage, home / "none", scene, home / "without.png"), "it shows nothing"
+    assert pictures["json"] == pictures["c"]
+
+
 def test_new_plugin_refuses(installed, tmp_path):
     restage = installed / "bin" / "restage"
 

@@ -194,6 +194,28 @@ def texture_choice(s):
 
 
 @state
+def texture_types(s):
+    texture_choice(s)
+    s.editor.click("material.reflectance.texture.new")
+
+
+@state
+def texture_parameters(s):
+    texture_types(s)
+    s.editor.click("material.reflectance.texture.new.mix")
+    s.show("material.reflectance.of")
+    s.editor.click("material.reflectance.of")
+    s.show("material.reflectance.of.tex2.texture")
+    s.editor.click("material.reflectance.of.tex2.texture")
+    s.editor.click("material.reflectance.of.tex2.texture.new")
+    s.editor.click("material.reflectance.of.tex2.texture.new.marble")
+    s.show("material.reflectance.of.tex2.of")
+    s.editor.click("material.reflectance.of.tex2.of")
+    s.show("material.reflectance.of.tex2.of.scale")
+    s.rest()
+
+
+@state
 def material_type_choice(s):
     s.start(DEMO)
     object_place_and_material(s)

@@ -165,7 +165,7 @@ TEST_CASE("a strict conversion refuses what the file lacks, not what is only ren
         std::filesystem::remove(out.file("out.pbrt"));
         return done ? std::string() : done.error().message;
     };
-    const std::string cubes = "Texture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" [3]\n";
+    const std::string cubes = "Texture \"t\" \"spectrum\" \"checkerboard\" \"string mapping\" \"planar\"\n";
     const std::string matte = "Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"\n";
     const std::string diffuse = "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n";
     CHECK(converted(v4_head + cubes + diffuse, "v4") == "");

@@ -7,9 +7,10 @@
 #include "param_widget.hpp"
 #include "pick_tool.hpp"
 #include "plugin/registry.hpp"
-#include "scene/edits.hpp"
+#include "scene/edits_texture.hpp"
 #include "scene/merge.hpp"
 #include "state.hpp"
+#include "texture_settings.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -154,31 +155,6 @@ void sharing(PanelContext& e, MaterialId id) {
     e.mark("material.unique");
 }
 
-void ask_image(PanelContext& e, MaterialId id, const model::Param& line, const std::string& file) {
-    // Colours are sRGB; heights, normals and roughness are data.
-    const scene::Encoding encoding =
-        line.type == model::ParamType::color ? scene::Encoding::srgb : scene::Encoding::linear;
-    const bool scalar = line.type == model::ParamType::number || std::string_view(line.id) == "bump";
-    const std::string path = std::filesystem::absolute(file).lexically_normal().string();
-    e.panel_state->loads.start(
-        {.path = path,
-         .encoding = encoding,
-         .done = [&e, id, path, encoding, scalar, param = std::string(line.id),
-                  type = model::ParamType(line.type)](Result<std::shared_ptr<const scene::PixelData>> pixels) {
-             if (!pixels) {
-                 e.notices.add(LogLevel::error, pixels.error().message);
-                 return;
-             }
-             scene::Image image{.name = std::filesystem::path(path).stem().string(),
-                                .path = path,
-                                .encoding = encoding,
-                                .data = *pixels};
-             e.edit([id, param, type, scalar, image](const scene::Scene& s) {
-                 return scene::set_image_texture(s, id, param, type, scalar, image);
-             });
-         }});
-}
-
 // Reads the file, then makes it that colour's texture.
 void give_image(PanelContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
     e.panel_state->loads.start(
@@ -201,20 +177,22 @@ void give_image(PanelContext& e, const MaterialScope& scope, const std::string& 
          }});
 }
 
+// `line`: of the material's table, or shown as a slot that only a texture fills.
 void param_row(PanelContext& e, MaterialId id, const scene::Material& material, const model::Param& line) {
+    const auto plugin = e.registry().find_material(material.type);
+    const model::Param* declared = plugin ? plugin->table->find(line.id) : nullptr;
+    const model::Param& own = declared ? *declared : line;
     const scene::Value* set = material.params.find(line.id);
-    const bool fits = set && set->type == line.type;
-    const auto plugin = line.type == model::ParamType::table ? e.registry().find_material(material.type) : std::nullopt;
-    const ParamAsk ask =
-        param_widget(e, line, fits ? *set : scene::default_value(line), set != nullptr,
-                     std::string("material.") + line.id, plugin ? plugin->source->table_reader().get() : nullptr);
-    if (!ask.image_file.empty()) ask_image(e, id, line, ask.image_file);
-    if (ask.reset || (ask.value && line.type == model::ParamType::texture && !ask.value->texture))
-        e.edit([id, param = std::string(line.id)](const scene::Scene& s) { return scene::reset_param(s, id, param); });
-    else if (ask.value)
-        e.edit([id, param = std::string(line.id),
-                v = *ask.value](const scene::Scene& s) { return scene::set_param(s, id, param, v); },
-               fmt::format("material.{}.{}", id.value, line.id));
+    const bool fits = set && set->type == own.type;
+    const scene::TextureSlot slot{.of = id,
+                                  .param = line.id,
+                                  .value = fits ? *set : scene::default_value(own),
+                                  .scalar = own.type == model::ParamType::number || line.id == "bump"};
+    const SlotRules rules{.scalar = slot.scalar, .inside = {}};
+    const bool table = line.type == model::ParamType::table && plugin;
+    const ParamAsk ask = param_widget(e, line, slot.value, set != nullptr, "material." + line.id,
+                                      table ? plugin->source->table_reader().get() : nullptr, &rules);
+    carry_out(e, slot, ask, fmt::format("material.{}.{}", id.value, line.id));
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace restage::pbrt_out {
 
@@ -99,7 +100,11 @@ class Exporter {
     // write_textures.cpp
     std::string image_file(RestageHandle image);
     std::string place_file(const std::string& path); // how the scene file names it; copied if requested
-    std::string texture(RestageHandle); // writes it and its dependencies first; its name, "" = impossible
+    // Writes it and its dependencies first, as a scalar or a colour (default: as it is declared); its name, "" =
+    // impossible.
+    std::string texture(RestageHandle, std::optional<bool> as_float = {});
+    // The Transform of a texture in space, the imported one if the values still say the same; "" = none.
+    std::string placing(const Values&, const std::string& imported, const std::string& what);
     void put_argument(Params&, const Values&, const char* id, const char* name, bool is_float, float otherwise);
     void put_image_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
     void put_mapping(Params&, const Values&, const std::string& what);
@@ -165,7 +170,9 @@ class Exporter {
     bool lossy_ = false; // something was approximated or dropped since it was set to false
     std::map<std::string, std::set<std::string>> names_; // by kind
     std::map<std::string, std::string> files_; // by path
-    std::map<RestageHandle, std::string> textures_, materials_, media_, meshes_, images_;
+    std::map<RestageHandle, std::string> materials_, media_, meshes_, images_;
+    std::map<std::pair<RestageHandle, bool>, std::string> textures_; // by kind: is it a scalar?
+    std::set<std::pair<RestageHandle, bool>> writing_; // begun
     std::map<RestageHandle, unsigned> mesh_uses_; // Shape lines that will name it
     std::map<RestageHandle, std::string> group_names_;
     std::set<RestageHandle> written_groups_;

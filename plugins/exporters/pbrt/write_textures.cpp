@@ -2,6 +2,9 @@
 // Textures and the image files they read.
 #include "exporter.hpp"
 
+#include <cmath>
+#include <sstream>
+
 namespace restage::pbrt_out {
 
 namespace fs = std::filesystem;
@@ -17,6 +20,20 @@ std::string extension_of(const std::string& path) {
 
 bool is_float_file(const std::string& extension) {
     return extension == ".exr" || extension == ".pfm" || extension == ".hdr";
+}
+
+// Types whose coordinates are a point in space.
+bool in_space(const std::string& type) {
+    return type == "fbm" || type == "wrinkled" || type == "windy" || type == "marble" || type == "checkerboard3d";
+}
+
+// Of "Transform [ ... ]"; none of "".
+std::optional<std::array<double, 16>> transform_of(const std::string& line) {
+    std::istringstream words(line.substr(std::min(line.size(), line.find('[') + 1)));
+    std::array<double, 16> m{};
+    for (double& x : m)
+        if (!(words >> x)) return std::nullopt;
+    return m;
 }
 
 } // namespace
@@ -75,9 +92,7 @@ std::string Exporter::image_file(RestageHandle handle) {
 void Exporter::put_argument(Params& params, const Values& values, const char* id, const char* name, bool is_float,
                             float otherwise) {
     if (const RestageHandle handle = values.ref(id)) {
-        RestageTexture t{};
-        const bool fits = in_.texture(in_.ctx, handle, &t) && (t.is_float != 0) == is_float;
-        if (const std::string texture_name = fits ? texture(handle) : ""; !texture_name.empty()) {
+        if (const std::string texture_name = texture(handle, is_float); !texture_name.empty()) {
             params.add("texture", name, quote(texture_name));
             return;
         }
@@ -170,13 +185,57 @@ std::array<float, 3> Exporter::average(RestageHandle handle, int depth) {
         const auto a = part("tex", 1), b = part("scale", 1);
         return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
     }
-    if (type == "mix" || type == "checkerboard") {
+    if (type == "mix" || type == "checkerboard" || type == "checkerboard3d") {
         const bool mix = type == "mix";
         const auto a = part("tex1", mix ? 0.f : 1.f), b = part("tex2", mix ? 1.f : 0.f);
         const float w = mix && !values.ref("amount") ? values.number("amount", 0.5f) : 0.5f;
         return {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), a[2] + w * (b[2] - a[2])};
     }
-    return values.color("average", grey); // an imagemap's mean is unknown here
+    if (type == "bilerp") {
+        std::array<float, 3> sum{};
+        for (const auto& corner : {part("v00", 0), part("v01", 1), part("v10", 0), part("v11", 1)})
+            for (std::size_t k = 0; k < 3; ++k)
+                sum[k] += corner[k] / 4;
+        return sum;
+    }
+    if (const RestageValue* known = values.find("average")) return {known->v[0], known->v[1], known->v[2]};
+    if (type == "dots") return part("inside", 1);
+    if (type == "marble") return {0.52f, 0.52f, 0.56f}; // of its nine colours
+    return grey; // an imagemap's mean is unknown here
+}
+
+std::string Exporter::placing(const Values& values, const std::string& imported, const std::string& what) {
+    static constexpr const char* ids[3][4] = {{"x_from_x", "x_from_y", "x_from_z", "origin_x"},
+                                              {"y_from_x", "y_from_y", "y_from_z", "origin_y"},
+                                              {"z_from_x", "z_from_y", "z_from_z", "origin_z"}};
+    std::array<double, 16> to_texture{};
+    to_texture[15] = 1;
+    bool any = false;
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) {
+            any = any || values.find(ids[row][column]);
+            to_texture[4 * column + row] =
+                static_cast<double>(values.number(ids[row][column], row == column ? 1.f : 0.f));
+        }
+    if (!any) return imported;
+    if (const auto before = transform_of(imported))
+        if (const auto same = inverse(before->data())) {
+            bool equal = true;
+            for (std::size_t k = 0; k < 16; ++k)
+                equal = equal && std::abs((*same)[k] - to_texture[k]) <= 1e-6 * std::max(1.0, std::abs(to_texture[k]));
+            if (equal) return imported;
+        }
+    const auto to_scene = inverse(to_texture.data());
+    if (!to_scene) {
+        approximated(what,
+                     "its coordinates lie in a plane or on a line, which no transform of pbrt's gives; the "
+                     "scene's are written");
+        return "";
+    }
+    std::string line = "Transform [";
+    for (const double m : *to_scene)
+        line += " " + number(m);
+    return line + " ]\n";
 }
 
 // uscale and so on; or the kinds of mapping that are not rendered here.
@@ -211,7 +270,8 @@ bool Exporter::put_procedural(Params& params, const RestageTexture& t, const Val
             one = !one;
         }
     };
-    if (type == "checkerboard") {
+    if (type == "checkerboard" || type == "checkerboard3d") {
+        type = "checkerboard";
         params.add_int("dimension", 3);
         put_all({"tex1", "tex2"}, true);
     } else if (type == "dots") {
@@ -245,11 +305,13 @@ bool Exporter::put_procedural(Params& params, const RestageTexture& t, const Val
     return true;
 }
 
-std::string Exporter::texture(RestageHandle handle) {
-    if (const auto it = textures_.find(handle); it != textures_.end()) return it->second;
+std::string Exporter::texture(RestageHandle handle, std::optional<bool> as_float) {
     RestageTexture t{};
     if (!in_.texture(in_.ctx, handle, &t)) return "";
-    textures_[handle] = ""; // breaks cycles
+    const bool is_float = as_float.value_or(t.is_float != 0), other_kind = is_float != (t.is_float != 0);
+    t.is_float = is_float ? 1 : 0;
+    std::string& known = textures_.try_emplace({handle, is_float}).first->second;
+    if (!known.empty() || !writing_.insert({handle, is_float}).second) return known; // breaks cycles
     const std::string what = std::string("texture \"") + t.name + "\"", type = t.type;
     std::string place, rest; // its transform means the same to both versions
     for (const std::string& line : lines(t.origin->verbatim))
@@ -260,12 +322,20 @@ std::string Exporter::texture(RestageHandle handle) {
                          .values = t.origin->values},
                         what);
     const Values values(t.values, t.value_count);
-    const bool is_float = t.is_float != 0;
+    if (in_space(type)) place = placing(values, place, what);
     Params params;
     std::string written = type;
     if (type == "constant") {
         put_argument(params, values, "value", "value", is_float, 1);
+    } else if (type == "imagemap" && !t.image) {
+        written = "constant";
+        approximated(what, "it has no image; the grey that it shades is written");
+        put_argument(params, values, "average", "value", is_float, 0.5f);
     } else if (type == "imagemap") {
+        if (other_kind && is_float) // is_float: the first channel here
+            approximated(what,
+                         "it is a colour where one number is needed; pbrt takes the mean of red, green and blue, "
+                         "and not the red");
         put_image_texture(params, t, values, what);
         put_mapping(params, values, what);
     } else if (type == "scale") {
@@ -280,10 +350,14 @@ std::string Exporter::texture(RestageHandle handle) {
         put_mapping(params, values, what);
     } else if (!put_procedural(params, t, values, what, written) && k.lines.empty()) {
         if (std::string_view(t.origin->format) != format()) {
-            written = "constant"; // the other version's: its average is the best available
+            written = "constant"; // of the other version or a plugin's: its average is the best available
             approximated(what + " (" + type + ")",
                          std::string(format()) + " has no such texture; its average is written");
-            put_argument(params, values, "average", "value", is_float, 0.5f);
+            const auto mean = average(handle);
+            if (is_float)
+                params.add_float("value", mean[0]);
+            else
+                params.add_rgb("value", mean);
         } else { // of a plugin: it goes out as it came
             for (std::uint32_t i = 0; i < t.value_count; ++i) {
                 const RestageValue& v = RESTAGE_AT(RestageValue, t.values, i);
@@ -310,7 +384,7 @@ std::string Exporter::texture(RestageHandle handle) {
         text_ += "Texture " + quote(name) + " \"spectrum\" \"scale\" \"rgb tex\" [ 1 1 1 ] \"texture scale\" [ " +
                  quote(scalar) + " ]\n";
     if (!place.empty()) text_ += std::string(block) + "End\n";
-    return textures_[handle] = name;
+    return known = name;
 }
 
 } // namespace restage::pbrt_out

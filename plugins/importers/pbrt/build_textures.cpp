@@ -208,10 +208,12 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     std::string kept; // what the renderer cannot show
     bool placed = false; // depends on the transform it is defined in
     std::uint32_t count = 0;
-    const RestageParam* const table = texture_table(import_.out, d.third, count);
+    const bool cubes = d.third == "checkerboard" && d.params.integer("dimension", 2) == 3; // a type of its own here
+    const std::string own_type = cubes ? "checkerboard3d" : d.third;
+    const RestageParam* const table = texture_table(import_.out, own_type, count);
     const bool type_is_rendered =
-        d.third == "checkerboard" ? d.params.integer("dimension", 2) == 2 : d.third == "imagemap" || table != nullptr;
-    RestageTexture out{.type = d.third.c_str(), .is_float = is_float ? 1u : 0u};
+        cubes ? table != nullptr : d.third == "checkerboard" || d.third == "imagemap" || table != nullptr;
+    RestageTexture out{.type = cubes && !table ? d.third.c_str() : own_type.c_str(), .is_float = is_float ? 1u : 0u};
     const auto argument = [&](const char* name, Rgb otherwise) {
         return is_float ? float_argument(d, name, otherwise.r) : color_argument(d, name, Role::albedo, otherwise);
     };
@@ -248,7 +250,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         values.color("average", average);
         if (!type_is_rendered) import_.approximated(d.at, what + " (" + d.third + ")", note);
     };
-    const auto put_noise = [&](bool has_octaves) { // in space: placed by the texture's transform
+    const auto put_in_space = [&](bool has_octaves) { // placed by the texture's transform
         placed = true;
         if (const auto to_texture = table ? inverse(ctm(d)) : std::nullopt; to_texture && !(*to_texture == Matrix{})) {
             const char* const ids[3][4] = {{"x_from_x", "x_from_y", "x_from_z", "origin_x"},
@@ -281,7 +283,10 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         put("tex1", "tex1", zero);
         put("tex2", "tex2", one);
         put_float(values, "amount", d, "amount", 0.5);
-    } else if (type == "checkerboard" && d.params.integer("dimension", 2) == 2) {
+    } else if (type == "checkerboard" && !cubes) {
+        if (const int n = d.params.integer("dimension", 2); n != 2)
+            import_.warned(d.at, what,
+                           "a checkerboard has the dimension 2 or 3, not " + std::to_string(n) + "; 2 is taken");
         put("tex1", "tex1", one);
         put("tex2", "tex2", zero);
         put_mapping();
@@ -317,10 +322,9 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
             average = average + part.value * (1.0 / static_cast<double>(ids.size()));
         }
         put_average(average, "shades as the average of its colours");
-        if (type == "checkerboard") {
-            values.integer("dimension", 3);
-            d.params.find("dimension");
-            placed = true;
+        if (cubes) {
+            if (!table) values.integer("dimension", 3);
+            put_in_space(false);
         } else if (type == "directionmix") {
             const auto v = d.params.triple("dir", {0, 1, 0});
             values.color("dir", {v[0], v[1], v[2]});
@@ -330,7 +334,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         }
     } else if (type == "marble") { // the mean of its nine colours (pbrt-v3 marble.cpp)
         put_average({0.52, 0.52, 0.56}, "shades as its average colour");
-        put_noise(true);
+        put_in_space(true);
         values.number("scale", d.params.number("scale", 1));
         values.number("variation", d.params.number("variation", 0.2));
     } else if (type == "uv") {
@@ -338,7 +342,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         put_mapping();
     } else if (type == "fbm" || type == "wrinkled" || type == "windy") {
         put_average(half, "shades as a grey of 0.5");
-        put_noise(type != "windy");
+        put_in_space(type != "windy");
     } else if (table) { // of a plugin that pbrt does not know: by its table
         for (std::uint32_t i = 0; i < count; ++i) {
             const RestageParam& line = RESTAGE_AT(RestageParam, table, i);
