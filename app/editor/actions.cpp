@@ -180,7 +180,7 @@ void select_all(Editor& e) {
 }
 
 // Actions that need no more of the editor than panels have.
-template <void (*what)(PanelContext&)>
+template <auto what>
 void run(Editor& e) {
     what(e);
 }
@@ -393,35 +393,39 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         run([&](ImGuiKeyChord key) { return key == one; });
 }
 
-void menu_item(PanelContext& editor, std::string_view id) {
+EditContext::ActionState Editor::action_state(std::string_view id) const {
+    const Action* action = find_action(id);
+    if (!action) return {};
+    return {.enabled = !action->enabled || action->enabled(*this),
+            .checked = action->checked && action->checked(*this),
+            .label = label_of(*this, *action),
+            .key = key_text(key_of(*action, view.keys))};
+}
+
+void menu_item(EditContext& editor, std::string_view id) {
     const Action* action = find_action(id);
     if (!action) return;
-    const bool enabled = !action->enabled || action->enabled(editor);
-    const std::string key = key_text(key_of(*action, editor.view.keys));
-    if (ImGui::MenuItem((label_of(editor, *action) + "###" + action->id).c_str(), key.c_str(),
-                        action->checked && action->checked(editor), enabled))
+    const auto state = editor.action_state(id);
+    if (ImGui::MenuItem((state.label + "###" + action->id).c_str(), state.key.c_str(), state.checked, state.enabled))
         editor.run(id);
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
         ImGui::SetTooltip("%s", action->tooltip);
     editor.mark(action->id);
 }
 
-bool action_button(PanelContext& editor, std::string_view id, const char* label) {
+bool action_button(EditContext& editor, std::string_view id, const char* label) {
     const Action* action = find_action(id);
     if (!action) return false;
-    const bool on = action->checked && action->checked(editor);
-    const bool enabled = !action->enabled || action->enabled(editor);
-    ImGui::BeginDisabled(!enabled);
-    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    const auto state = editor.action_state(id);
+    ImGui::BeginDisabled(!state.enabled);
+    if (state.checked) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
     const bool pressed = ImGui::Button(label ? label : action->label);
-    if (on) ImGui::PopStyleColor();
+    if (state.checked) ImGui::PopStyleColor();
     ImGui::EndDisabled();
     editor.mark(action->id);
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled)) {
-        const std::string key = key_text(key_of(*action, editor.view.keys));
-        ImGui::SetTooltip("%s%s%s%s\n%s", action->label, key.empty() ? "" : " (", key.c_str(), key.empty() ? "" : ")",
-                          action->tooltip);
-    }
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s%s%s%s\n%s", action->label, state.key.empty() ? "" : " (", state.key.c_str(),
+                          state.key.empty() ? "" : ")", action->tooltip);
     if (pressed) editor.run(id);
     return pressed;
 }

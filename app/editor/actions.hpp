@@ -13,6 +13,7 @@
 
 namespace restage::editor {
 
+class EditContext;
 class Editor;
 class PanelContext;
 
@@ -37,7 +38,7 @@ std::string label_of(const PanelContext& editor, const Action& action); // with 
 // Editor::frame.
 void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys);
 // A menu entry, or a button, of that action, with its shortcut and tooltip.
-void menu_item(PanelContext& editor, std::string_view id);
-bool action_button(PanelContext& editor, std::string_view id, const char* label = nullptr);
+void menu_item(EditContext& editor, std::string_view id);
+bool action_button(EditContext& editor, std::string_view id, const char* label = nullptr);
 
 } // namespace restage::editor

@@ -17,7 +17,7 @@ namespace restage::editor {
 
 namespace {
 
-void copy(PanelContext& e, const document::Selected& selected, const std::string& what) {
+void copy(SelectContext& e, const document::Selected& selected, const std::string& what) {
     const auto text = document::copy_text(e.session(), selected);
     if (!text) {
         e.notices.add(LogLevel::error, text.error().message);
@@ -54,7 +54,7 @@ void add(Editor& e, const document::Copy& copied) {
 
 } // namespace
 
-void copy_selected(PanelContext& e) {
+void copy_selected(SelectContext& e) {
     const auto& ids = e.selection.instances();
     if (const scene::Light* light = e.scene().lights.find(e.selection.light()))
         copy(e, {.light = e.selection.light()}, light->name);
@@ -63,12 +63,12 @@ void copy_selected(PanelContext& e) {
              ids.size() == 1 ? e.scene().instances[ids[0]].name : std::to_string(ids.size()) + " objects");
 }
 
-void copy_material(PanelContext& e, scene::Id<scene::Material> id) {
+void copy_material(SelectContext& e, scene::Id<scene::Material> id) {
     if (const scene::Material* material = e.scene().materials.find(id))
         copy(e, {.material = id}, "material " + material->name);
 }
 
-bool newer_in_clipboard(const PanelContext& e) {
+bool newer_in_clipboard(const SelectContext& e) {
     const char* held = ImGui::GetClipboardText();
     return held && document::is_copy(held) && e.copied.text != held;
 }
@@ -110,7 +110,7 @@ void paste(Editor& e) {
         });
 }
 
-glm::dvec3 aside(const PanelContext& e, const scene::Bounds& bounds) {
+glm::dvec3 aside(const SelectContext& e, const scene::Bounds& bounds) {
     const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
     int axis = 0;
     for (int i = 1; i < 3; ++i)

@@ -12,7 +12,7 @@
 namespace restage::editor {
 
 class Editor;
-class PanelContext;
+class SelectContext;
 
 // What this window put into the clipboard last, to recognise it.
 struct Copied {
@@ -20,12 +20,12 @@ struct Copied {
     std::vector<std::pair<scene::Id<scene::Instance>, scene::Instance>> instances; // as they were
 };
 
-void copy_selected(PanelContext& editor);
-void copy_material(PanelContext& editor, scene::Id<scene::Material> material);
+void copy_selected(SelectContext& editor);
+void copy_material(SelectContext& editor, scene::Id<scene::Material> material);
 // Objects and lights are put where they were, beside existing ones; a material goes to what is selected.
 void paste(Editor& editor);
-bool newer_in_clipboard(const PanelContext& editor); // something from another window
+bool newer_in_clipboard(const SelectContext& editor); // something from another window
 // To the right of something as large as this, seen from the camera, along a world axis: where a copy of it is visible.
-glm::dvec3 aside(const PanelContext& editor, const scene::Bounds& bounds);
+glm::dvec3 aside(const SelectContext& editor, const scene::Bounds& bounds);
 
 } // namespace restage::editor

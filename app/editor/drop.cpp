@@ -52,7 +52,7 @@ InstanceId target_at(const PanelContext& e, glm::dvec2 film) {
     return hits.empty() ? InstanceId{} : hits[0].instance;
 }
 
-const scene::Material* material_of(const PanelContext& e, InstanceId id) {
+const scene::Material* material_of(const DocumentContext& e, InstanceId id) {
     const scene::Instance* instance = e.scene().instances.find(id);
     return instance ? e.scene().materials.find(instance->material) : nullptr;
 }
@@ -100,7 +100,7 @@ bool takes_table(const PanelContext& e, const std::string& extension, InstanceId
 }
 
 void drop_table(PanelContext& e, const fs::path& path, InstanceId on) {
-    ask_scope(e, {on}, path.filename().string(), [path](PanelContext& editor, const MaterialScope& scope) {
+    ask_scope(e, {on}, path.filename().string(), [path](SelectContext& editor, const MaterialScope& scope) {
         editor.edit([scope, file = path.string(), &registry = editor.registry()](const scene::Scene& s) {
             return edit_in_scope(
                 s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) -> Result<scene::Edit> {
@@ -115,7 +115,7 @@ void drop_table(PanelContext& e, const fs::path& path, InstanceId on) {
 }
 
 // Reads it on a thread, then calls `with` on the main one.
-void with_image(PanelContext& e, const fs::path& path,
+void with_image(PanelUi& e, const fs::path& path,
                 std::function<void(PanelContext&, std::shared_ptr<const scene::PixelData>)> with) {
     e.files().jobs.start({.title = "Reading " + path.filename().string()},
                          [path, with = std::move(with)](BackgroundJob&) -> std::function<void(PanelContext&)> {
@@ -136,7 +136,7 @@ void drop_image(PanelContext& e, const fs::path& path, InstanceId on) {
                 return Result<scene::Edit>(scene::image_sky(s, path.string(), data, up));
             });
         });
-    ask_scope(e, {on}, path.filename().string(), [path](PanelContext& editor, const MaterialScope& scope) {
+    ask_scope(e, {on}, path.filename().string(), [path](SelectContext& editor, const MaterialScope& scope) {
         with_image(editor, path, [path, scope](PanelContext& ed, std::shared_ptr<const scene::PixelData> data) {
             ed.edit([path, scope, data = std::move(data), &registry = ed.registry()](const scene::Scene& s) {
                 return edit_in_scope(s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) {
@@ -203,8 +203,8 @@ void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
     }
 }
 
-void ask_scope(PanelContext& e, const std::vector<InstanceId>& objects, const std::string& what,
-               std::function<void(PanelContext&, const MaterialScope&)> then) {
+void ask_scope(SelectContext& e, const std::vector<InstanceId>& objects, const std::string& what,
+               std::function<void(SelectContext&, const MaterialScope&)> then) {
     const scene::Material* material = objects.empty() ? nullptr : material_of(e, objects.back());
     const auto id = material ? e.scene().instances[objects.back()].material : scene::Id<scene::Material>{};
     std::vector<InstanceId> mine; // those that have it

@@ -15,6 +15,7 @@
 namespace restage::editor {
 
 class PanelContext;
+class SelectContext;
 
 // While it is dragged over that point: outlines its target object and says what a drop would do.
 void preview_drop(PanelContext& editor, const std::filesystem::path& path, ImVec2 screen);
@@ -25,8 +26,8 @@ struct MaterialScope {
     bool alone = false; // a copy for these objects
     std::vector<InstanceId> objects;
 };
-void ask_scope(PanelContext& editor, const std::vector<InstanceId>& objects, const std::string& what,
-               std::function<void(PanelContext&, const MaterialScope&)> then);
+void ask_scope(SelectContext& editor, const std::vector<InstanceId>& objects, const std::string& what,
+               std::function<void(SelectContext&, const MaterialScope&)> then);
 
 // `build` makes an edit of the material of `scope`, on a scene in which it was made unique if the user wants that.
 Result<scene::Edit> edit_in_scope(

@@ -112,7 +112,7 @@ void Editor::frame(const std::vector<int>* keys) {
     panel_state->loads.poll();
     panel_state->balls.poll();
     follow_sky(*this);
-    follow_convergence(*this);
+    follow_convergence(*this, *this);
     run_shortcuts(*this, keys);
     draw_panels();
     files_->jobs.update(*this);
@@ -436,7 +436,9 @@ void Editor::draw_panels() {
         const std::string title = panel_title(*panel.table);
         bool& open = panels_open_[title];
         if (!open) continue;
-        ImGui::SetNextWindowSize({340 * scale, 460 * scale}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize(
+            {std::min(340 * scale, main->WorkSize.x * 0.9f), std::min(460 * scale, main->WorkSize.y * 0.9f)},
+            ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowPos(main->GetCenter(), ImGuiCond_FirstUseEver, {0.5f, 0.5f});
         const bool visible = ImGui::Begin(title.c_str(), &open);
         marks_.tab("tab." + panel.table->id);

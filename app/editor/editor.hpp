@@ -35,6 +35,7 @@ class Editor final : public PanelContext {
     void open(const std::filesystem::path& path) override;
     void insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point = {}) override;
     void configure_renderer(const render::RendererOptions& renderer) override;
+    ActionState action_state(std::string_view action) const override;
     void open_now(Opening::Request request) { opening_->start(std::move(request)); } // asks nothing
     void adopt_scene(scene::Scene scene); // one made in the program becomes the document
     document::Session& session_for_changes() { return *session_; } // only inside later() and actions

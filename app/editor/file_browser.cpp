@@ -107,7 +107,7 @@ fs::path home() {
 
 class Browser {
   public:
-    Browser(PanelContext& e, BrowseOptions options)
+    Browser(EditContext& e, BrowseOptions options)
         : options_(std::move(options)), wake_(e.options().wake), typed_(options_.name) {
         const auto& folders = e.files().recent.folders();
         std::error_code none;
@@ -498,7 +498,7 @@ std::string completion(const std::string& typed, const std::vector<FileEntry>& n
     return common.substr(typed.size()) + (one && first->folder ? "/" : "");
 }
 
-void browse(PanelContext& editor, BrowseOptions options) {
+void browse(EditContext& editor, BrowseOptions options) {
     const std::string title = options.title;
     auto browser = std::make_shared<Browser>(editor, std::move(options));
     editor.show_modal(title, [browser](PanelContext& e) { return browser->draw(e); });

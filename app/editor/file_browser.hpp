@@ -12,6 +12,7 @@
 
 namespace restage::editor {
 
+class EditContext;
 class PanelContext;
 
 struct FileFilter {
@@ -33,7 +34,7 @@ struct BrowseOptions {
 };
 
 // Shows it as a modal.
-void browse(PanelContext& editor, BrowseOptions options);
+void browse(EditContext& editor, BrowseOptions options);
 
 struct FileEntry {
     std::string name;

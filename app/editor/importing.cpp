@@ -33,7 +33,7 @@ std::optional<plugin::ImporterEntry> importer_with_options(const plugin::Registr
     return std::nullopt;
 }
 
-std::optional<plugin::ImporterEntry> importer_of_document(const PanelContext& e) {
+std::optional<plugin::ImporterEntry> importer_of_document(const DocumentContext& e) {
     const document::Base& base = e.session().base();
     if (base.file.empty()) return std::nullopt;
     auto entry = e.registry().find_importer(base.format);
@@ -41,7 +41,7 @@ std::optional<plugin::ImporterEntry> importer_of_document(const PanelContext& e)
 }
 
 // A row for each option; true = one was changed. Values that the table no longer takes are shown as its default.
-bool option_rows(PanelContext& e, const model::Importer& importer, scene::ParamSet& values, bool focus) {
+bool option_rows(EditContext& e, const model::Importer& importer, scene::ParamSet& values, bool focus) {
     bool changed = false;
     for (const model::Param& line : importer.options) {
         const scene::Value* set = values.find(line.id);
@@ -70,7 +70,7 @@ scene::ParamSet fitting(const model::Importer& importer, const scene::ParamSet& 
 
 } // namespace
 
-void import_options_part(PanelContext& e, const fs::path& file, bool focus) {
+void import_options_part(EditContext& e, const fs::path& file, bool focus) {
     const auto entry = importer_with_options(e.registry(), file);
     if (!entry) return;
     const model::Importer& importer = *entry->table;
@@ -88,7 +88,7 @@ void import_options_part(PanelContext& e, const fs::path& file, bool focus) {
     if (open) option_rows(e, importer, values, focus);
 }
 
-std::optional<scene::ParamSet> import_options_for(const PanelContext& e, const fs::path& file) {
+std::optional<scene::ParamSet> import_options_for(const DocumentContext& e, const fs::path& file) {
     const auto entry = importer_with_options(e.registry(), file);
     const auto& options = e.panel_state->importing.options;
     const auto found = entry ? options.find(entry->table->format) : options.end();
@@ -96,12 +96,12 @@ std::optional<scene::ParamSet> import_options_for(const PanelContext& e, const f
     return fitting(*entry->table, found->second);
 }
 
-std::string why_not_import_again(const PanelContext& e) {
+std::string why_not_import_again(const DocumentContext& e) {
     if (e.session().base().file.empty()) return "The scene was not read from a file";
     return importer_of_document(e) ? "" : "Its importer has no options";
 }
 
-std::string import_options_text(const PanelContext& e) {
+std::string import_options_text(const DocumentContext& e) {
     std::string text;
     for (const auto& [id, value] : e.session().base().options.entries())
         text += (text.empty() ? "" : ", ") + id + "=" + io::option_text(value);

@@ -11,19 +11,20 @@
 
 namespace restage::editor {
 
+class DocumentContext;
+class EditContext;
 class Editor;
-class PanelContext;
 
 // The part of the file browser for a file of this name; nothing where its importer has no options. `focus`: the first
 // one gets the keyboard.
-void import_options_part(PanelContext& e, const std::filesystem::path& file, bool focus);
+void import_options_part(EditContext& e, const std::filesystem::path& file, bool focus);
 // As they stand there for a file that has been chosen.
-std::optional<scene::ParamSet> import_options_for(const PanelContext& e, const std::filesystem::path& file);
+std::optional<scene::ParamSet> import_options_for(const DocumentContext& e, const std::filesystem::path& file);
 
 // "" or why there is nothing to choose: the importer of the document's scene has no options.
-std::string why_not_import_again(const PanelContext& e);
+std::string why_not_import_again(const DocumentContext& e);
 // "units=cm, up=z" of the document's scene; "" = none are set.
-std::string import_options_text(const PanelContext& e);
+std::string import_options_text(const DocumentContext& e);
 // Asks for options, and opens the document anew with them.
 void import_again(Editor& e);
 

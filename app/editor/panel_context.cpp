@@ -15,37 +15,58 @@
 
 namespace restage::editor {
 
-PanelContext::PanelContext(plugin::Registry& registry, Log& log, Notices& shown, EditorOptions options)
-    : viewport_(std::make_unique<Viewport>()),
-      viewport(*viewport_),
-      notices(shown),
+PanelUi::PanelUi(Log& log, Notices& shown, EditorOptions options)
+    : notices(shown),
       panel_state(std::make_unique<PanelState>(options.wake)),
       options_(std::move(options)),
       log_(log),
-      registry_(registry),
-      session_(std::make_unique<document::Session>(registry)),
-      live_(std::make_unique<view::LiveView>(registry, log, options_.renderer, options_.wake)),
-      opening_(std::make_unique<Opening>(registry, options_.wake, options_.isolate)),
       files_(std::make_unique<Files>(options_.config_dir, options_.autosave_seconds, options_.wake)) {}
 
-PanelContext::~PanelContext() = default;
+PanelUi::~PanelUi() = default;
 
-const scene::Scene& PanelContext::scene() const { return session_->scene(); }
+DocumentContext::DocumentContext(plugin::Registry& registry, Log& log, Notices& shown, EditorOptions options)
+    : PanelUi(log, shown, std::move(options)),
+      registry_(registry),
+      session_(std::make_unique<document::Session>(registry)) {}
 
-const scene::Camera& PanelContext::camera() const {
+DocumentContext::~DocumentContext() = default;
+
+PictureView::PictureView(plugin::Registry& registry, Log& log, const EditorOptions& options)
+    : viewport_(std::make_unique<Viewport>()),
+      viewport(*viewport_),
+      live_(std::make_unique<view::LiveView>(registry, log, options.renderer, options.wake)) {}
+
+PictureView::~PictureView() = default;
+
+PanelContext::PanelContext(plugin::Registry& registry, Log& log, Notices& shown, EditorOptions options)
+    : SelectContext(registry, log, shown, std::move(options)),
+      PictureView(registry, log, options_),
+      opening_(std::make_unique<Opening>(registry, options_.wake, options_.isolate)) {}
+
+PanelContext::~PanelContext() { files_.reset(); } // ends its jobs before anything they use
+
+const scene::Scene& DocumentContext::scene() const { return session_->scene(); }
+
+scene::Id<scene::Camera> DocumentContext::camera_id() const { return scene().active_camera.value; }
+
+const scene::Camera* DocumentContext::opened_camera() const {
+    return original_ ? original_->cameras.find(original_->active_camera.value) : nullptr;
+}
+
+const scene::Camera& SelectContext::camera() const {
     if (!views.now()) return scene_camera();
     seen_from_ = scene_camera();
     seen_from_.camera_to_world = *views.now();
     return seen_from_;
 }
 
-const scene::Camera& PanelContext::scene_camera() const {
+const scene::Camera& DocumentContext::scene_camera() const {
     static const scene::Camera none;
     const scene::Camera* found = scene().cameras.find(camera_id());
     return found ? *found : none;
 }
 
-double PanelContext::film_aspect() const {
+double DocumentContext::film_aspect() const {
     const scene::Film& film = scene().film.value;
     return double(std::max(film.width, 1u)) / std::max(film.height, 1u);
 }
@@ -55,13 +76,13 @@ std::shared_ptr<const view::Frame> PanelContext::shown_frame() const {
     return frame && frame->document == document_ ? frame : nullptr; // another scene has been opened in this very frame
 }
 
-void PanelContext::edit(Builder builder, std::string gesture) {
+void EditContext::edit(Builder builder, std::string gesture) {
     pending_.push_back({.builder = std::move(builder), .gesture = std::move(gesture)});
 }
 
-void PanelContext::later(std::function<void()> work) { pending_.push_back({.work = std::move(work)}); }
+void EditContext::later(std::function<void()> work) { pending_.push_back({.work = std::move(work)}); }
 
-void PanelContext::change(std::function<void(document::Session&)> work) {
+void EditContext::change(std::function<void(document::Session&)> work) {
     later([this, work = std::move(work)] { work(*session_); });
 }
 
@@ -81,7 +102,7 @@ void PanelContext::look_from(const glm::dmat4& camera_to_world, const std::strin
         gesture);
 }
 
-void PanelContext::show_modal(std::string title, std::function<bool(PanelContext&)> body) {
+void EditContext::show_modal(std::string title, std::function<bool(PanelContext&)> body) {
     modals_.push_back({std::move(title), std::move(body)});
 }
 

@@ -67,7 +67,7 @@ bool enum_combo(const model::Param& line, scene::Value& v) {
     return changed;
 }
 
-bool material_combo(PanelContext& e, scene::Value& v, const std::string& mark) {
+bool material_combo(EditContext& e, scene::Value& v, const std::string& mark) {
     const scene::Material* current = e.scene().materials.find(v.material);
     bool changed = false;
     if (!ImGui::BeginCombo("##value", current ? current->name.c_str() : "None")) return false;
@@ -83,7 +83,7 @@ bool material_combo(PanelContext& e, scene::Value& v, const std::string& mark) {
 }
 
 // The types that plugins bring, by name.
-void new_texture_menu(PanelContext& e, ParamAsk& ask, const std::string& mark) {
+void new_texture_menu(EditContext& e, ParamAsk& ask, const std::string& mark) {
     const bool open = ImGui::BeginMenu("New texture");
     e.mark(mark);
     if (!open) return;
@@ -97,7 +97,7 @@ void new_texture_menu(PanelContext& e, ParamAsk& ask, const std::string& mark) {
 }
 
 // Everything a slot can hold: the scene's textures, a new one, a file, nothing.
-void texture_popup(PanelContext& e, const scene::Value& value, bool scalar, const SlotRules* rules, ParamAsk& ask,
+void texture_popup(EditContext& e, const scene::Value& value, bool scalar, const SlotRules* rules, ParamAsk& ask,
                    const std::string& mark) {
     if (!ImGui::BeginPopup("texture")) return;
     if (value.texture) {
@@ -144,7 +144,7 @@ std::optional<std::string> dropped_path() {
 }
 
 // The name of a table's file, a drop target and file chooser. Beneath it, what is wrong with it.
-bool table_field(PanelContext& e, const model::Param& line, scene::Value& v, const plugin::TableReader* reader,
+bool table_field(EditContext& e, const model::Param& line, scene::Value& v, const plugin::TableReader* reader,
                  const std::string& mark) {
     const std::filesystem::path path(v.text);
     const std::string problem = reader ? reader->problem(line.id, v.text) : "";
@@ -167,7 +167,7 @@ bool table_field(PanelContext& e, const model::Param& line, scene::Value& v, con
         browse(e, {.title = "Choose a file",
                    .filters = std::move(filters),
                    .start = path.empty() ? document.parent_path() : path.parent_path(),
-                   .done = [mark](PanelContext& editor, const std::filesystem::path& file) {
+                   .done = [mark](PanelUi& editor, const std::filesystem::path& file) {
                        editor.panel_state->image_choice = {mark, file.string()};
                    }});
     }
@@ -184,14 +184,14 @@ void accept_image(ParamAsk& ask) {
 
 } // namespace
 
-void image_file_item(PanelContext& e, const std::string& mark) {
+void image_file_item(EditContext& e, const std::string& mark) {
     if (ImGui::MenuItem("Image file...")) {
         const std::filesystem::path document(e.session().path());
         browse(e,
                {.title = "Choose an image",
                 .filters = {{"Images", {"png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "pfm"}}, {"All files", {}}},
                 .start = document.parent_path(),
-                .done = [mark](PanelContext& editor, const std::filesystem::path& path) {
+                .done = [mark](PanelUi& editor, const std::filesystem::path& path) {
                     editor.panel_state->image_choice = {mark, path.string()};
                 }});
     }
@@ -199,7 +199,7 @@ void image_file_item(PanelContext& e, const std::string& mark) {
     e.mark(mark + ".file");
 }
 
-std::string chosen_image_file(PanelContext& e, const std::string& mark) {
+std::string chosen_image_file(PanelUi& e, const std::string& mark) {
     auto& [asked_by, path] = e.panel_state->image_choice;
     return asked_by == mark ? std::exchange(path, {}) : "";
 }
@@ -216,7 +216,7 @@ bool color_field(const char* id, float* linear, bool hdr) {
     return true;
 }
 
-ParamAsk param_widget(PanelContext& e, const model::Param& line, const scene::Value& value, bool is_set,
+ParamAsk param_widget(EditContext& e, const model::Param& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader, const SlotRules* rules) {
     ParamAsk ask;
     scene::Value v = value;

@@ -13,7 +13,8 @@ class TableReader;
 
 namespace restage::editor {
 
-class PanelContext;
+class EditContext;
+class PanelUi;
 
 struct ParamAsk { // the user's request; mostly empty
     std::optional<scene::Value> value;
@@ -30,7 +31,7 @@ struct SlotRules { // of a slot that new textures may be made for
 // A row: label, range, unit and tooltip are the table's. A right click offers the default. `mark` names it for tests.
 // `reader`: of the files of model::ParamType::table parameters, for what is wrong with one. `rules`: null if the caller
 // takes neither new textures nor image files.
-ParamAsk param_widget(PanelContext& editor, const model::Param& line, const scene::Value& value, bool is_set,
+ParamAsk param_widget(EditContext& editor, const model::Param& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader = nullptr,
                       const SlotRules* rules = nullptr);
 
@@ -38,8 +39,8 @@ ParamAsk param_widget(PanelContext& editor, const model::Param& line, const scen
 bool color_field(const char* id, float* linear, bool hdr = false);
 
 // A menu entry that asks for an image file in the file browser, which replaces the menu.
-void image_file_item(PanelContext& editor, const std::string& mark);
+void image_file_item(EditContext& editor, const std::string& mark);
 // The file that was chosen there for this mark, once; else "".
-std::string chosen_image_file(PanelContext& editor, const std::string& mark);
+std::string chosen_image_file(PanelUi& editor, const std::string& mark);
 
 } // namespace restage::editor

@@ -44,7 +44,7 @@ bool run_pick_tool(PanelContext& e, bool over) {
     return true;
 }
 
-PickTool material_eyedropper(const PanelContext& editor) {
+PickTool material_eyedropper(const SelectContext& editor) {
     return {"Click the object whose material to take",
             [to = editor.selection.instances()](PanelContext& e, InstanceId id, ImVec2) {
                 const scene::Instance* from = e.scene().instances.find(id);

@@ -12,6 +12,7 @@ struct ImVec2;
 namespace restage::editor {
 
 class PanelContext;
+class SelectContext;
 
 // What the next click in the picture is for, instead of selecting. Esc cancels it.
 struct PickTool {
@@ -28,7 +29,7 @@ InstanceId picked_at(const PanelContext& editor, ImVec2 screen);
 bool run_pick_tool(PanelContext& editor, bool over);
 
 // The material of what is clicked goes to the objects that are selected now.
-PickTool material_eyedropper(const PanelContext& editor);
+PickTool material_eyedropper(const SelectContext& editor);
 // What is clicked becomes sharp: the camera's focus distance.
 PickTool focus_picker();
 

@@ -3,17 +3,19 @@
 
 #include "document/actions.hpp"
 #include "files.hpp"
+#include "panel_context.hpp"
 #include "panels/state.hpp"
 #include "param_widget.hpp"
 #include "widgets.hpp"
 
 #include <imgui.h>
+#include <algorithm>
 
 namespace restage::editor {
 
 namespace {
 
-void tell(PanelContext& e, const std::string& label, const io::Report& report) {
+void tell(SelectContext& e, const std::string& label, const io::Report& report) {
     for (const io::ReportEntry& line : report.entries) {
         const bool kept = line.fate == io::Fate::kept;
         e.notices.add(kept ? LogLevel::info : LogLevel::warning,
@@ -22,7 +24,7 @@ void tell(PanelContext& e, const std::string& label, const io::Report& report) {
 }
 
 // [main] The document may have changed since, or be another one.
-void take(PanelContext& e, std::uint64_t document, io::ActionResult result) {
+void take(SelectContext& e, std::uint64_t document, io::ActionResult result) {
     if (e.document() != document) {
         e.notices.add(LogLevel::info, result.edit.label + ": its document is no longer open");
         return;
@@ -38,13 +40,13 @@ void take(PanelContext& e, std::uint64_t document, io::ActionResult result) {
 
 } // namespace
 
-std::string why_not_now(const PanelContext& e, const model::Action& action) {
+std::string why_not_now(const SelectContext& e, const model::Action& action) {
     if (const auto running = e.panel_state->plugins.running.lock()) return *running + " still runs";
     if (action.needs_selection && e.selection.instances().empty()) return "Select objects first";
     return "";
 }
 
-void start_action(PanelContext& e, const plugin::ActionEntry& entry, scene::ParamSet values) {
+void start_action(SelectContext& e, const plugin::ActionEntry& entry, scene::ParamSet values) {
     if (const std::string why = why_not_now(e, *entry.table); !why.empty())
         return e.notices.add(LogLevel::info, entry.table->label + ": " + why);
     const auto running = std::make_shared<const std::string>(entry.table->label);
@@ -57,7 +59,7 @@ void start_action(PanelContext& e, const plugin::ActionEntry& entry, scene::Para
             run.progress = [&job](float done, std::string_view what) { return job.report(double(done), what); };
             auto result = io::run_action(scene, registry, entry, run);
             return [document, running,
-                    result = std::make_shared<Result<io::ActionResult>>(std::move(result))](PanelContext& now) {
+                    result = std::make_shared<Result<io::ActionResult>>(std::move(result))](SelectContext& now) {
                 if (*result)
                     take(now, document, std::move(**result));
                 else if (!result->error().cancelled())
@@ -66,9 +68,9 @@ void start_action(PanelContext& e, const plugin::ActionEntry& entry, scene::Para
         });
 }
 
-void ask_for_action(PanelContext& e, const plugin::ActionEntry& entry) {
+void ask_for_action(SelectContext& e, const plugin::ActionEntry& entry) {
     if (entry.table->params.empty()) return start_action(e, entry, {});
-    e.show_modal(entry.table->label, [id = entry.table->id](PanelContext& editor) {
+    e.show_modal(entry.table->label, [id = entry.table->id, height = 0.f](SelectContext& editor) mutable {
         const auto found = document::find_action(editor.registry(), id); // it may have been reloaded
         if (!found) return false;
         const model::Action& action = *found->table;
@@ -86,6 +88,14 @@ void ask_for_action(PanelContext& e, const plugin::ActionEntry& entry) {
             if (ask.reset) fitting.remove(line.id);
             if (ask.value) fitting.set(line.id, *ask.value);
         };
+        // Where the window is small the rows scroll, and the buttons stay in sight.
+        const float line_height = ImGui::GetFrameHeightWithSpacing();
+        const float above = ImGui::GetCursorScreenPos().y - ImGui::GetWindowPos().y;
+        const float room =
+            std::max(ImGui::GetMainViewport()->WorkSize.y * 0.96f - above - 2 * line_height, 3 * line_height);
+        const bool scrolls = height > room;
+        if (scrolls) ImGui::BeginChild("rows", {0, room}); // rows are drawn even if it is clipped
+        const float top = ImGui::GetCursorPosY();
         bool advanced = false, unfolded = false;
         for (const model::Param& line : action.params)
             if (line.advanced)
@@ -104,6 +114,8 @@ void ask_for_action(PanelContext& e, const plugin::ActionEntry& entry) {
                 fitting.set(line.id, *set);
         }
         if (unfolded) ImGui::TreePop();
+        height = ImGui::GetCursorPosY() - top;
+        if (scrolls) ImGui::EndChild();
         values = fitting;
         ImGui::Spacing();
         bool stay = true;
@@ -123,7 +135,7 @@ void ask_for_action(PanelContext& e, const plugin::ActionEntry& entry) {
     });
 }
 
-void tools_menu(PanelContext& e) {
+void tools_menu(SelectContext& e) {
     const auto catalogue = e.registry().catalogue();
     if (catalogue->actions.empty()) return;
     const bool shown = ImGui::BeginMenu("Tools");

@@ -2,7 +2,7 @@
 #include "texture_settings.hpp"
 
 #include "model/texture.hpp"
-#include "panel_context.hpp"
+#include "contexts.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
 #include "theme.hpp"
@@ -19,7 +19,7 @@ namespace {
 using TextureId = scene::Id<scene::Texture>;
 
 // Reads the file on another thread, then asks for the edit that `with` builds.
-void read_image(PanelContext& e, const std::string& file, scene::Encoding encoding,
+void read_image(EditContext& e, const std::string& file, scene::Encoding encoding,
                 std::function<Result<scene::Edit>(const scene::Scene&, scene::Image)> with) {
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
     e.panel_state->loads.start(
@@ -38,7 +38,7 @@ void read_image(PanelContext& e, const std::string& file, scene::Encoding encodi
          }});
 }
 
-void image_rows(PanelContext& e, TextureId id, const scene::Texture& texture, const std::string& mark) {
+void image_rows(EditContext& e, TextureId id, const scene::Texture& texture, const std::string& mark) {
     const scene::Image* image = e.scene().images.find(texture.image);
     form_row("Image", image && !image->path.empty() ? image->path.c_str() : "The picture that it looks up");
     const std::string name = image ? image->name : "Choose...";
@@ -62,7 +62,7 @@ void image_rows(PanelContext& e, TextureId id, const scene::Texture& texture, co
         warning_note(image ? "The image is missing; it shades grey." : "It has no image yet; it shades grey.");
 }
 
-void type_row(PanelContext& e, TextureId id, const scene::Texture& texture,
+void type_row(EditContext& e, TextureId id, const scene::Texture& texture,
               const std::optional<plugin::TextureEntry>& plugin, const std::string& mark) {
     form_row("Type", plugin ? plugin->table->tooltip.c_str() : "What kind of texture it is");
     if (ImGui::BeginCombo("##type", (plugin ? plugin->table->label : texture.type).c_str(),
@@ -82,7 +82,7 @@ void type_row(PanelContext& e, TextureId id, const scene::Texture& texture,
 }
 
 // A parameter that is an operand may hold a texture, whose rows follow.
-void param_row(PanelContext& e, TextureId id, const scene::Texture& texture, const model::Param& line,
+void param_row(EditContext& e, TextureId id, const scene::Texture& texture, const model::Param& line,
                const std::string& mark) {
     const scene::Value* set = texture.params.find(line.id);
     const bool fits = set && set->type == line.type;
@@ -117,7 +117,7 @@ std::size_t slots_with(const scene::Scene& scene, TextureId id) {
 
 } // namespace
 
-void carry_out(PanelContext& e, const scene::TextureSlot& slot, const ParamAsk& ask, const std::string& gesture) {
+void carry_out(EditContext& e, const scene::TextureSlot& slot, const ParamAsk& ask, const std::string& gesture) {
     if (!ask.image_file.empty()) // colours are sRGB; heights, normals and roughness are data
         read_image(
             e, ask.image_file,
@@ -138,7 +138,7 @@ void carry_out(PanelContext& e, const scene::TextureSlot& slot, const ParamAsk& 
         slot.of);
 }
 
-void texture_settings(PanelContext& e, TextureId id, const std::string& mark) {
+void texture_settings(EditContext& e, TextureId id, const std::string& mark) {
     const scene::Texture& texture = e.scene().textures[id];
     const auto plugin = e.registry().find_texture(texture.type);
     const bool open = ImGui::TreeNodeEx("settings", ImGuiTreeNodeFlags_SpanAvailWidth, "%s",

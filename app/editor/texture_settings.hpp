@@ -8,10 +8,10 @@
 namespace restage::editor {
 
 // Rows that ask for edits themselves.
-void texture_settings(PanelContext& editor, scene::Id<scene::Texture> texture, const std::string& mark);
+void texture_settings(EditContext& editor, scene::Id<scene::Texture> texture, const std::string& mark);
 
 // Asks for the edit of what the user asked of a parameter. `gesture`: of changes of its value, which are one step
 // until released.
-void carry_out(PanelContext& editor, const scene::TextureSlot& slot, const ParamAsk& ask, const std::string& gesture);
+void carry_out(EditContext& editor, const scene::TextureSlot& slot, const ParamAsk& ask, const std::string& gesture);
 
 } // namespace restage::editor

@@ -54,7 +54,8 @@ bool section_header(const char* label, bool open_at_first) {
 void tip(const char* text) {
     if (text && *text && ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled)) {
         if (!ImGui::BeginTooltip()) return;
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+        ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 24,
+                                        ImGui::GetMainViewport()->WorkSize.x - 3 * ImGui::GetStyle().WindowPadding.x));
         ImGui::TextUnformatted(text);
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();

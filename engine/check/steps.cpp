@@ -133,7 +133,9 @@ const std::vector<Step>& exporter_steps() {
 
 const std::vector<Step>& action_steps() {
     static const std::vector<Step> steps = {
-        {"act", "any scene, selection and parameters: twice the same edits, sound, and undo takes all of them back",
+        {"act",
+         "any scene, selection and parameters: twice the same edits, others with another seed, sound; undo takes all "
+         "of them back",
          check_act,
          "handles of the selection that are taken for granted, meshes without triangles, a failure without error(), or "
          "random numbers without a seed",

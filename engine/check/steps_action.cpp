@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions: over scenes with something of everything and with nothing, each size of a selection and any parameters,
-// twice the same sound edits that undo takes back; a stop at every call of progress(); a hundred runs. Panels: drawn
+// Actions: over scenes with something of everything, a surface with objects to put on it, and nothing; each size of a
+// selection and any parameters: twice the same sound edits, another one with another seed, which undo takes back and
+// redo repeats; a stop at every call of progress(); a hundred runs. Panels: drawn
 // against widgets that answer anything a user might do.
-#include "check/export_scenes.hpp"
+#include "check/action_scenes.hpp"
 #include "check/fake_ui.hpp"
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
@@ -70,125 +71,167 @@ bool same(const Scene& a, const Scene& b) {
     return equal;
 }
 
-struct Sample {
-    Scene scene;
-    const char* name;
-};
-std::vector<Sample> samples() {
-    return {{everything_scene(), "a scene with something of everything"}, {empty_scene(), "a scene without objects"}};
-}
-
-Ids objects_of(const Scene& scene) {
-    Ids ids;
-    scene.instances.each([&](Id<Instance> id, const Instance&) { ids.push_back(id); });
-    return ids;
-}
-
-std::string attempt(const char* scene, std::size_t selected, const ParamSet& values) {
+std::string attempt(const std::string& scene, std::size_t selected, const ParamSet& values) {
     return fmt::format("{}, {} objects selected, {}", scene, selected, describe(values));
 }
 
-// Selections of several sizes that the action takes, each of another choice.
-std::vector<Ids> selections(Engine& e, const model::Action& action, const Ids& all) {
-    std::vector<Ids> found;
-    for (std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{2}, all.size()}) {
-        if (size > all.size() || (size == 0 && action.needs_selection)) continue;
-        Ids ids = all;
-        for (std::size_t i = ids.size(); i > 1; --i)
-            std::swap(ids[i - 1], ids[e() % i]);
-        ids.resize(size);
-        if (std::ranges::find(found, ids) == found.end()) found.push_back(std::move(ids));
-    }
+// What the action takes of them.
+std::vector<Ids> selections(const model::Action& action, const ActionScene& of) {
+    std::vector<Ids> found = of.selections;
+    if (action.needs_selection) std::erase_if(found, [](const Ids& ids) { return ids.empty(); });
     return found;
+}
+
+// By convention, what random numbers depend on (docs/plugins.md). Null if it has none, or if it can be but one.
+const model::Param* seed_of(const model::Action& action) {
+    const model::Param* seed = action.find("seed");
+    return seed && seed->type == model::ParamType::integer && seed->int_min < seed->int_max ? seed : nullptr;
+}
+
+struct Totals {
+    std::size_t runs = 0, changed = 0, refused = 0, most_added = 0, seeds = 0;
+};
+
+// "" or what is wrong with two runs of the same, their edit, undo and redo.
+std::string judge_run(Subject& s, const Scene& scene, const io::ActionRun& run, Totals& totals) {
+    document::Session session(s.registry());
+    session.adopt(scene);
+    const Scene before = session.scene();
+    auto first = io::run_action(before, s.registry(), s.action, run);
+    const auto second = io::run_action(before, s.registry(), s.action, run);
+    s.alive();
+    ++totals.runs;
+    if (first.has_value() != second.has_value()) return "running it twice, one fails and one does not";
+    if (!first) {
+        const std::string& message = first.error().message;
+        if (message.find(io::no_reason) != std::string::npos) return "run() returns 0, and error() was not called";
+        if (message.find(io::threw) != std::string::npos || message.find(io::unsound) != std::string::npos)
+            return message;
+        ++totals.refused;
+        return "";
+    }
+    if (!alike(first->edit, second->edit)) return "running it twice gives two different edits";
+    if (const model::Param* seed = seed_of(*s.action.table);
+        seed && !first->edit.changes.empty() && run.values.entries().empty()) {
+        io::ActionRun other = run;
+        const Value now = default_value(*seed);
+        other.values.set(seed->id, Value::integer(now.i < seed->int_max ? now.i + 1 : now.i - 1));
+        const auto third = io::run_action(before, s.registry(), s.action, other);
+        if (third && alike(first->edit, third->edit)) return "another \"seed\" gives the same edit";
+        ++totals.seeds;
+    }
+    const auto done = document::apply_action(session, std::move(*first));
+    if (!done) return done.error().message;
+    totals.changed += done->changed;
+    const Scene after = session.scene();
+    totals.most_added = std::max<std::size_t>(
+        totals.most_added, after.instances.live() - std::min(after.instances.live(), before.instances.live()));
+    if (done->changed && (session.history().size() != 1 || !session.undo())) return "it is not one step of the history";
+    if (!same(before, session.scene())) return "undo does not restore the scene";
+    if (done->changed && (!session.redo() || !same(after, session.scene()))) return "redo does not repeat it";
+    return "";
 }
 
 } // namespace
 
 Result<StepResult> check_act(Subject& s) {
     Engine e = s.random("act");
-    std::size_t runs = 0, changed = 0, refused = 0;
-    const auto start = std::chrono::steady_clock::now();
+    Totals totals;
+    std::size_t added = 0; // by the first run over the surface of the meadow
     const auto patience = std::chrono::seconds(s.size(40, 8)); // for random parameters, which may ask for much
-    for (const Sample& sample : samples()) {
-        const Ids all = objects_of(sample.scene);
+    for (const ActionScene& sample : action_scenes(e)) {
+        const auto start = std::chrono::steady_clock::now();
         for (std::size_t k = 0; k < s.size(60, 24); ++k) {
-            if (k > 1 && std::chrono::steady_clock::now() - start > patience) break;
+            if (k > 1 && std::chrono::steady_clock::now() - start > patience / 3) break;
             const ParamSet values = k == 0 ? ParamSet() : random_values(s.action.table->params, e);
-            for (const Ids& selection : selections(e, *s.action.table, all)) {
+            for (const Ids& selection : selections(*s.action.table, sample)) {
                 const std::string what = attempt(sample.name, selection.size(), values);
-                const io::ActionRun run{.selection = selection, .values = values, .progress = {}};
-                document::Session session(s.registry());
-                session.adopt(sample.scene);
-                const Scene before = session.scene();
                 s.doing("run() on " + what);
-                auto first = io::run_action(before, s.registry(), s.action, run);
-                auto second = io::run_action(before, s.registry(), s.action, run);
-                s.alive();
-                ++runs;
-                if (first.has_value() != second.has_value())
-                    return StepResult::failed(what + ": running it twice, one fails and one does not");
-                if (!first) {
-                    const std::string& message = first.error().message;
-                    if (message.ends_with("gave up and did not say why"))
-                        return StepResult::failed(what + ": run() returns 0, and error() was not called");
-                    if (message.find("what it returns cannot be taken") != std::string::npos)
-                        return StepResult::failed(what + ": " + message);
-                    ++refused;
-                    continue;
-                }
-                if (!alike(first->edit, second->edit))
-                    return StepResult::failed(what + ": running it twice gives two different edits");
-                const auto done = document::apply_action(session, std::move(*first));
-                if (!done) return StepResult::failed(what + ": " + done.error().message);
-                changed += done->changed;
-                if (done->changed && (session.history().size() != 1 || !session.undo()))
-                    return StepResult::failed(what + ": it is no one step of the history");
-                if (!same(before, session.scene()))
-                    return StepResult::failed(what + ": undo does not give the scene back");
+                const io::ActionRun run{.selection = selection, .values = values, .progress = {}};
+                totals.most_added = k == 0 ? 0 : totals.most_added;
+                if (const std::string wrong = judge_run(s, sample.scene, run, totals); !wrong.empty())
+                    return StepResult::failed(what + ": " + wrong);
+                if (k == 0) added = std::max(added, totals.most_added);
             }
         }
     }
-    return StepResult::passed(
-        {{"runs", double(runs)}, {"changed something", double(changed)}, {"refused", double(refused)}},
-        changed == 0 ? "it never changed anything here" : "");
+    return StepResult::passed({{"runs", double(totals.runs)},
+                               {"changed something", double(totals.changed)},
+                               {"refused", double(totals.refused)},
+                               {"seeds compared", double(totals.seeds)},
+                               {"objects added by default, at most", double(added)}},
+                              totals.changed == 0 ? "it never changed anything here" : "");
 }
+
+namespace {
+
+// Parameters with which it asks progress() often enough to be stopped in its middle, if there are any.
+ParamSet busy_values(Subject& s, Engine& e, const ActionScene& sample, const Ids& selection) {
+    ParamSet busy;
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < 12; ++k) {
+        ParamSet values = k == 0 ? ParamSet() : random_values(s.action.table->params, e);
+        std::size_t calls = 0;
+        s.doing("run() on " + attempt(sample.name, selection.size(), values));
+        (void)io::run_action(sample.scene, s.registry(), s.action,
+                             {.selection = selection, .values = values, .progress = [&](float, std::string_view) {
+                                  return ++calls < 64;
+                              }});
+        s.alive();
+        if (calls > most) most = calls, busy = std::move(values);
+        if (most >= 8) break;
+    }
+    return busy;
+}
+
+} // namespace
 
 Result<StepResult> check_act_stop(Subject& s) {
     constexpr std::uint64_t patience = 100; // changes after the first "stop"
     std::size_t calls_in_all = 0, stops = 0;
     Engine e = s.random("act-stop");
-    const Sample sample = samples()[0];
-    for (const Ids& selection : selections(e, *s.action.table, objects_of(sample.scene))) {
-        std::size_t calls = 0, stop_at = ~std::size_t{0};
-        std::uint64_t late = 0;
-        io::ActionRun run{.selection = selection, .values = {}, .progress = {}, .jobs = nullptr, .late = &late};
-        run.progress = [&](float, std::string_view) { return ++calls < stop_at; };
-        s.doing("run() on " + attempt(sample.name, selection.size(), {}));
-        (void)io::run_action(sample.scene, s.registry(), s.action, run);
-        const std::size_t all = calls;
-        calls_in_all += all;
-        for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / s.size(64, 16), 1)) {
-            calls = 0, stop_at = k, ++stops;
-            const std::string what =
-                fmt::format("{}, stopped at call {} of progress()", attempt(sample.name, selection.size(), {}), k);
-            s.doing("run() on " + what);
-            const auto done = io::run_action(sample.scene, s.registry(), s.action, run);
-            s.alive();
-            if (done || !done.error().cancelled())
-                return StepResult::failed(what + ": run() goes on and returns something else than a stop");
-            if (late > patience)
-                return StepResult::failed(
-                    fmt::format("{}: after progress() said stop, run() made {} changes more", what, late));
+    for (const ActionScene& sample : action_scenes(e))
+        for (const Ids& selection : selections(*s.action.table, sample)) {
+            std::size_t calls = 0, stop_at = 1024; // what goes on for longer is stopped there
+            std::uint64_t late = 0;
+            io::ActionRun run{.selection = selection,
+                              .values = busy_values(s, e, sample, selection),
+                              .progress = {},
+                              .jobs = nullptr,
+                              .late = &late};
+            run.progress = [&](float, std::string_view) { return ++calls < stop_at; };
+            const std::string attempted = attempt(sample.name, selection.size(), run.values);
+            s.doing("run() on " + attempted);
+            (void)io::run_action(sample.scene, s.registry(), s.action, run);
+            const std::size_t all = calls;
+            calls_in_all += all;
+            for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / s.size(64, 16), 1)) {
+                calls = 0, stop_at = k, ++stops;
+                const std::string what = fmt::format("{}, stopped at call {} of progress()", attempted, k);
+                s.doing("run() on " + what);
+                document::Session session(s.registry());
+                session.adopt(sample.scene);
+                const Scene before = session.scene();
+                const auto done = document::run_action(session, s.action.table->id, run);
+                s.alive();
+                if (done || !done.error().cancelled())
+                    return StepResult::failed(what + ": run() goes on and returns something else than a stop");
+                if (session.history().size() != 0 || session.version() != before.clock ||
+                    !same(before, session.scene()))
+                    return StepResult::failed(what + ": the scene has changed");
+                if (late > patience)
+                    return StepResult::failed(
+                        fmt::format("{}: after progress() said stop, run() made {} changes more", what, late));
+            }
         }
-    }
     return StepResult::passed({{"calls of progress()", double(calls_in_all)}, {"stopped", double(stops)}},
                               calls_in_all == 0 ? "it never asks progress(): nobody can stop it" : "");
 }
 
 Result<StepResult> check_act_leaks(Subject& s) {
     Engine e = s.random("act-leaks");
-    const Sample sample = samples()[0];
-    const std::vector<Ids> chosen = selections(e, *s.action.table, objects_of(sample.scene));
+    const ActionScene sample = std::move(action_scenes(e)[0]);
+    const std::vector<Ids> chosen = selections(*s.action.table, sample);
     std::size_t runs = 0;
     return check_nothing_left("runs", [&]() -> Result<> {
         const Ids& selection = chosen[runs % chosen.size()];
@@ -221,8 +264,9 @@ Result<StepResult> check_panel(Subject& s) {
         const std::string what =
             fmt::format("draw() number {}, {} objects selected, with {}", i + 1, ui.selection, describe(ui.values));
         s.doing(what);
-        plugin::draw_panel(s.panel, ui);
+        const auto drawn = plugin::draw_panel(s.panel, ui);
         s.alive();
+        if (!drawn) return StepResult::failed(drawn.error().message + "\n  in " + what);
         shown += ui.widgets, sets += ui.sets;
         ui.widgets = ui.sets = 0;
         if (ui.problem.empty() && !ui.groups.empty()) ui.note("draw() returns with a group that is open: end_group()");

@@ -6,12 +6,26 @@
 #include "scene/validate.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <set>
 
 namespace restage::io {
 
 using namespace scene;
+
+namespace {
+
+// "Scatter: failed and gave no reason": the user cannot mend that.
+std::string fault(const plugin::ActionEntry& entry, std::string_view what, const std::string& detail = {}) {
+    const std::string& version = entry.plugin->manifest.version;
+    return entry.table->label + ": " + std::string(what) + (detail.empty() ? "" : ": " + detail) +
+           ". Nothing was changed. This is a bug in the plugin " + entry.plugin->name() +
+           (version.empty() ? "" : " " + version) +
+           ": please report it to its author, with the scene, the selection and the parameters";
+}
+
+} // namespace
 
 std::string new_error(const Scene& before, const Scene& after) {
     auto now = validate(after);
@@ -70,19 +84,28 @@ Result<ActionResult> run_action(const Scene& scene, const plugin::Registry& regi
     SceneReader reader(result.base, registry, run.progress);
     EditWriter writer(result.base, registry, run.progress);
     std::optional<CrashNote> note(std::in_place, entry.plugin->blame("while it ran \"" + action.label + "\""));
-    const bool done = entry.native->run(&reader.table(), &selection, values.empty() ? nullptr : values.data(),
-                                        static_cast<std::uint32_t>(values.size()), &writer.edits()) != 0;
+    bool done = false;
+    std::optional<std::string> thrown;
+    try {
+        done = entry.native->run(&reader.table(), &selection, values.empty() ? nullptr : values.data(),
+                                 static_cast<std::uint32_t>(values.size()), &writer.edits()) != 0;
+    } catch (const std::exception& e) {
+        thrown = e.what();
+    } catch (...) {
+        thrown = "";
+    }
     note.reset();
+    if (thrown) return fail(fault(entry, threw, *thrown));
     if (run.late) *run.late = writer.late();
     const std::string who = action.label + ": ";
     if (writer.cancelled() || reader.cancelled()) return cancelled(who + "stopped on request");
     if (!writer.error().empty()) return fail(who + writer.error());
     if (!reader.error().empty()) return fail(who + reader.error());
-    if (!done) return fail(who + "gave up and did not say why");
+    if (!done) return fail(fault(entry, no_reason));
     std::optional<Jobs> own;
     Jobs& jobs = run.jobs ? *run.jobs : own.emplace(1);
     auto edit = writer.finish(jobs, action.label);
-    if (!edit) return fail(who + "what it returns cannot be taken", edit.error());
+    if (!edit) return fail(fault(entry, unsound, edit.error().message));
     result.edit = std::move(*edit);
     result.selection = writer.selection();
     result.report = std::move(writer.report);

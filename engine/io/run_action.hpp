@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace restage::io {
@@ -29,10 +30,15 @@ struct ActionResult {
     scene::Scene base; // what the action has read
 };
 
+// Parts of errors that are the plugin's fault, not the user's.
+inline constexpr std::string_view no_reason = "failed and gave no reason";
+inline constexpr std::string_view threw = "threw an exception";
+inline constexpr std::string_view unsound = "what it returns is not a sound scene";
+
 // Why the action cannot run with this selection and these values; checked by run_action, too.
 Result<> check_action_run(const scene::Scene&, const model::Action&, const ActionRun&);
 
-// [worker] or [main].
+// [worker] or [main]. An exception of the plugin becomes an error.
 Result<ActionResult> run_action(const scene::Scene&, const plugin::Registry&, const plugin::ActionEntry&,
                                 const ActionRun&);
 

@@ -8,6 +8,8 @@
 #include <restage/action.h>
 #include <restage/inspector.h>
 #include <algorithm>
+#include <exception>
+#include <string>
 #include <vector>
 
 namespace restage::plugin {
@@ -90,8 +92,15 @@ Result<Inspector> Inspector::read(const RestageInspector1& given) {
 
 void Inspector::draw(Widgets& widgets) const { table_->draw(&table, &widgets); }
 
-void draw_panel(const PanelEntry& panel, PanelWidgets& widgets) {
-    panel.native->draw(&table, static_cast<Widgets*>(&widgets));
+Result<> draw_panel(const PanelEntry& panel, PanelWidgets& widgets) {
+    try {
+        panel.native->draw(&table, static_cast<Widgets*>(&widgets));
+    } catch (const std::exception& e) {
+        return fail("draw() threw an exception: " + std::string(e.what()));
+    } catch (...) {
+        return fail("draw() threw an exception");
+    }
+    return {};
 }
 
 } // namespace restage::plugin

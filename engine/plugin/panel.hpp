@@ -16,6 +16,7 @@ class PanelWidgets : public Widgets {
     ~PanelWidgets() = default;
 };
 
-void draw_panel(const PanelEntry&, PanelWidgets&);
+// An exception of the plugin becomes an error; groups it has begun stay open.
+Result<> draw_panel(const PanelEntry&, PanelWidgets&);
 
 } // namespace restage::plugin

@@ -76,6 +76,7 @@ Json measure_rays(const Options&);
 Json measure_cutouts(const Options&);
 Json measure_edits(const Options&);
 Json measure_copies(const Options&);
+Json measure_actions(const Options&);
 Json measure_features(const Options&, const std::string& variant);
 Json measure_multiscatter(const Options&);
 Json measure_first_image(const std::string& scene);

@@ -23,6 +23,9 @@ int main(int argc, char** argv) {
     program.add_subcommand("copies", "Copies of a scene of many objects, and a frame of a drag")->callback([&] {
         result = measure_copies(o);
     });
+    program.add_subcommand("actions", "Copies scattered over a large surface by an action")->callback([&] {
+        result = measure_actions(o);
+    });
     std::string variant, scene, folder, half1, half2;
     std::uint32_t reference_spp = 256;
     auto* features = program.add_subcommand("features", "The Cornell box and what else its scene uses");

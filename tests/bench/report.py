@@ -67,6 +67,17 @@ def copies(f):
     return "## Copies of a scene\n\nThe live picture follows a copy of the scene.\n\n" + table(["", *head], rows)
 
 
+def actions(f):
+    names = {"run": "run, on a worker", "apply": "taken into the document", "undo": "undo", "redo": "redo",
+             "sync": "renderer's scene brought up to date", "sync_undo": "the same after undo"}
+    head = [f"{r['copies']:,} copies, ms" for r in f["rows"]]
+    rows = [[name, *(spread([1000 * x for x in column(r["runs"], key)], "{:.1f}") for r in f["rows"])] for key, name in names.items()]
+    rows += [[name, *(spread([x / 2**20 for x in column(r["runs"], key)], "{:.1f}") for r in f["rows"])]
+             for key, name in {"peak_bytes": "memory at most, MiB", "history_bytes": "in the history, MiB"}.items()]
+    return (f"## Actions\n\nScatter puts copies of a sphere over hills of {f['triangles']:,} triangles. Targets for 10,000: run "
+            f"{f['target_run']:.0f} s, undo {1000 * f['target_undo']:.0f} ms.\n\n" + table(["", *head], rows))
+
+
 def features(f):
     base = statistics.median(column(f["alone"]["seconds_a_sample"], "cpu"))
     names = {"alone": "Cornell box alone", "types": "and every material type, where no ray goes",
@@ -167,7 +178,7 @@ def editor(f):
             f"Frames of the window while it renders: median {ui['median']:.0f} ms, 99 % {ui['p99']:.0f} ms (target 50 ms).\n")
 
 
-SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "editor": editor}
+SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "editor": editor}
 
 
 def machine_line(m):

@@ -65,6 +65,10 @@ def copies(bench):
     return bench.measure("copies")
 
 
+def actions(bench):
+    return bench.measure("actions")
+
+
 def features(bench):
     """Each variant with a cold cache once, for its machine code, and then measured warm; variants take turns."""
     rows = {}
@@ -122,7 +126,7 @@ def editor_latency(bench):
     return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
 
 
-ROWS = {"rays": rays, "edits": edits, "copies": copies, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
+ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
 
 
 def main():

@@ -8,6 +8,9 @@
 static const RestageParam params[] = {
     RESTAGE_INT_PARAM("copies", "Copies", 0, 20, 3, 0, "", "Of each object."),
     RESTAGE_FLOAT_PARAM("step", "Step", -10, 10, 1, 0, "", "From one to the next."),
+#if defined(ACTION_DEAF_SEED)
+    RESTAGE_INT_PARAM("seed", "Seed", 0, 100, 1, 0, "", "Of nothing."),
+#endif
 };
 
 #if defined(ACTION_CRASHES)
@@ -19,8 +22,8 @@ static void* volatile kept;
 
 static int run(const RestageSceneReader1* scene, const RestageSelection1* selection, const RestageValue* values,
                uint32_t count, RestageEditWriter1* edits) {
-    const int copies = count == 2 ? RESTAGE_AT(RestageValue, values, 0).i : 0;
-    float step = count == 2 ? RESTAGE_AT(RestageValue, values, 1).v[0] : 0;
+    const int copies = count >= 2 ? RESTAGE_AT(RestageValue, values, 0).i : 0;
+    float step = count >= 2 ? RESTAGE_AT(RestageValue, values, 1).v[0] : 0;
     uint32_t i;
     int k;
 #if defined(ACTION_VARIES)
@@ -67,7 +70,8 @@ static int run(const RestageSceneReader1* scene, const RestageSelection1* select
 }
 
 static const RestageAction1 action = {
-    sizeof(RestageAction1), "stack", "Stack", "Copies of what is selected, one after the other.", params, 2, 0, run};
+    sizeof(RestageAction1), "stack", "Stack", "Copies of what is selected, one after the other.", params,
+    RESTAGE_COUNT(params),  0,       run};
 
 static void draw(const RestageUi1* ui, void* ctx) {
     RestageValue value;
@@ -94,6 +98,6 @@ static void draw(const RestageUi1* ui, void* ctx) {
 #endif
 }
 
-static const RestagePanel1 panel = {sizeof(RestagePanel1), "stack", "Stack", params, 2, draw};
+static const RestagePanel1 panel = {sizeof(RestagePanel1), "stack", "Stack", params, RESTAGE_COUNT(params), draw};
 
 RESTAGE_PLUGIN("org.example.broken", "1.0.0", {RESTAGE_ACTION1, &action}, {RESTAGE_PANEL1, &panel})

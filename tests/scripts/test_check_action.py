@@ -35,7 +35,10 @@ def test_a_sound_one_passes(tmp_path):
     ("action_crashes", "act", ["crashed: SIGSEGV", "run() on a scene with something of everything", "a bug in run()"]),
     ("action_silent", "act", ["run() returns 0, and error() was not called"]),
     ("action_varies", "act", ["running it twice gives two different edits"]),
-    ("action_unsound", "act", ["what it returns cannot be taken"]),
+    ("action_unsound", "act", ["what it returns is not a sound scene"]),
+    ("action_deaf_seed", "act", ['another "seed" gives the same edit']),
+    ("action_throws", "act", ["threw an exception: no room on the stack"]),
+    ("action_throws", "panel", ["draw() threw an exception: nothing to draw with"]),
     ("action_stubborn", "act-stop", ["after progress() said stop, run() made", "changes more"]),
     ("action_leaks", "act-leaks", ["times runs leave", "bytes allocated"]),
     ("panel_range", "panel", ['set() of "copies": 21', "out of its range"]),
@@ -54,3 +57,6 @@ def test_the_shipped_scatter_passes():
                           text=True, timeout=240)
     steps = json.loads(done.stdout)[0]["steps"]
     assert done.returncode == 0 and all(s["verdict"] == "pass" for s in steps), steps
+    act, stop = ({f["name"]: f["value"] for f in s["figures"]} for name in ("act", "act-stop") for s in steps if s["step"] == name)
+    assert act["objects added by default, at most"] >= 100 and act["seeds compared"] >= 2, act  # its default count, over hills
+    assert act["changed something"] >= 6 and stop["stopped"] > 40 and stop["calls of progress()"] > 100, (act, stop)

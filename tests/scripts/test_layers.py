@@ -89,3 +89,39 @@ def test_the_engine_names_no_concrete_plugin():
     wrong = [f"{path}:{line}: {name}" for module in MODULES for path, line, name in includes(ENGINE / module)
              if any(part in plugins for part in pathlib.PurePath(name).parts[:-1])]
     assert not wrong, "\n".join(wrong)
+
+
+# The levels of app/editor/contexts.hpp, and what each adds: a file that names one uses something of it, or calls
+# something that takes it.
+LEVELS = {
+    "PanelUi": "notices preferences panel_state files options log mark",
+    "DocumentContext": "session scene registry camera_id scene_camera film_aspect up document original opened_camera",
+    "EditContext": "edit later change end_gesture run action_state open insert show_modal",
+    "SelectContext": "selection hovered locked pick_tool material_clipboard copied views camera",
+}
+# Panels over the whole: the picture itself. Others may only hand it to a callback: std::function<void(PanelContext&)>.
+WHOLE = {"panels.cpp", "panels.hpp", "assets_panel.cpp"}
+
+
+def functions_taking(level, text):
+    return re.findall(rf"(\w+)\((?:const )?{level}& ", text)
+
+
+def test_panels_take_the_least_of_the_context_that_they_use():
+    editor = ROOT / "app/editor"
+    declared = "\n".join(p.read_text() for p in editor.rglob("*.hpp") if p.name != "contexts.hpp")
+    wrong = []
+    for path in sorted((editor / "panels").glob("*.cpp")):
+        text = path.read_text()
+        if path.name not in WHOLE and re.search(r"PanelContext& \w", text):
+            wrong.append(f"{path.name}: takes all of PanelContext: name the parts it uses (contexts.hpp)")
+        for function, level, name, body in re.findall(
+                r"^[\w:<>&\* ]*?\b(\w+)\((?:const )?(\w+Context|PanelUi)& (\w+)[^;{]*\{\n(.*?)^\}", text, re.M | re.S):
+            if level not in LEVELS:
+                continue
+            uses = {m for m in re.findall(rf"\b{name}\.(\w+)", body)} | {m for m in re.findall(rf"\b{name}\.\w+\(\)\.(\w+)", body)}
+            hands_on = {f for at in (declared, text) for f in functions_taking(level, at)} - {function}
+            calls = set(re.findall(rf"\b(\w+)\((?:{name}\b|\{{\.editor = {name})", body)) & hands_on
+            if not uses & set(LEVELS[level].split()) and not calls and f".editor = {name}" not in body:
+                wrong.append(f"{path.name}: {function}() takes {level} and uses nothing of it: a lower level suffices")
+    assert not wrong, "\n".join(wrong)

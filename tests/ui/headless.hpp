@@ -28,11 +28,13 @@ namespace restage::tests {
 
 class Headless {
   public:
-    // `config`: where preferences and the list of assets are; none = nothing is remembered.
+    // `config`: where preferences and the list of assets are; none = nothing is remembered. `more`: a folder of plugins
+    // beside those of the build.
     explicit Headless(const std::string& scene, float scale = 1, ImVec2 size = {1500, 1000},
-                      const std::filesystem::path& config = {}) {
-        const plugin::SearchPath plugins{restage::test::build_dir() / "lib/restage/plugins", true};
-        registry_.scan({&plugins, 1});
+                      const std::filesystem::path& config = {}, const std::filesystem::path& more = {}) {
+        std::vector<plugin::SearchPath> plugins{{restage::test::build_dir() / "lib/restage/plugins", true}};
+        if (!more.empty()) plugins.push_back({more, true});
+        registry_.scan(plugins);
         ImGui::CreateContext();
         ImPlot::CreateContext();
         ImGuiIO& io = ImGui::GetIO();

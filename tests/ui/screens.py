@@ -97,6 +97,16 @@ class Screens:
             self.desk.xdotool("click", 5)
             time.sleep(0.12)
 
+    def wheel(self, over, mark, lowest):
+        """Scrolls the menu or dialog at the widget `over` until `mark` is above `lowest`, a fraction of the window's height."""
+        self.editor.move(over)
+        for _ in range(30):
+            found = self.editor.wait(lambda t: mark in t["marks"], mark)["marks"][mark]
+            if found[3] < self.size[1] * lowest:
+                return
+            self.desk.xdotool("click", 5)
+            time.sleep(0.12)
+
     def top(self):
         tab = self.editor.point("tab.Scene")
         self.desk.xdotool("mousemove", tab[0], self.size[1] * 0.45, "click", "--repeat", 60, "--delay", 5, 4)
@@ -444,6 +454,47 @@ def recovery(s):
     s.start(config="crash", settle=False, recover=True)
     s.editor.wait(lambda t: t["modal"] == "Unsaved work was found", "the offer")
     s.rest()
+
+
+@state
+def tools_menu(s):
+    s.start(DEMO)
+    s.tab("Outliner")
+    s.editor.key("ctrl+a")
+    s.editor.wait(lambda t: len(t["selection"]) > 1, "a selection")
+    s.editor.click("menu.tools")
+
+
+@state
+def plugin_action(s):
+    tools_menu(s)
+    s.editor.click("tools.scatter")
+    s.editor.wait(lambda t: "action.run" in t["marks"], "the dialog")
+
+
+@state
+def plugin_action_advanced(s):
+    plugin_action(s)
+    s.wheel("action.scatter.count", "action.scatter.advanced", 0.7)
+    s.editor.click("action.scatter.advanced")
+    s.wheel("action.scatter.offset", "action.scatter.group", 0.7)
+
+
+@state
+def panels_menu(s):
+    s.stop()
+    s.start(DEMO, config="plugin panel")
+    s.editor.click("menu.panels")
+    s.editor.wait(lambda t: "panels.scatter" in t["marks"], "the menu")
+
+
+@state
+def plugin_panel(s):
+    panels_menu(s)
+    s.wheel("panels.Scene", "panels.scatter", 0.95)
+    s.editor.click("panels.scatter")
+    s.editor.wait(lambda t: "panel.scatter.count" in t["marks"], "the panel")
+    s.editor.key("Escape")
 
 
 @state

@@ -14,6 +14,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <functional>
+#include <stdexcept>
 
 using namespace restage;
 using namespace restage::scene;
@@ -290,7 +291,14 @@ TEST_CASE("an action that fails, is stopped or makes the scene unsound changes n
                }).message,
                ContainsSubstring("Test: no floor: make one"));
     CHECK_THAT(message([](auto&, auto&, auto*, auto, auto&) { return 0; }).message,
-               ContainsSubstring("did not say why"));
+               ContainsSubstring("Test: failed and gave no reason. Nothing was changed. This is a bug in the plugin "));
+    CHECK_THAT(message([&](auto&, auto&, auto*, auto, auto& w) -> int {
+                   w.set_transform(w.ctx, r.chair.value, &at(2)[0][0]);
+                   throw std::runtime_error("lost count");
+               }).message,
+               ContainsSubstring("Test: threw an exception: lost count. Nothing was changed."));
+    CHECK_THAT(message([](auto&, auto&, auto*, auto, auto&) -> int { throw 7; }).message,
+               ContainsSubstring("Test: threw an exception. Nothing was changed."));
     CHECK_THAT(message([](auto& scene, auto&, auto*, auto, auto&) {
                    scene.error(scene.ctx, "file", "broken");
                    return 1;

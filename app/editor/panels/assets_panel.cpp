@@ -7,6 +7,7 @@
 #include "file_browser.hpp"
 #include "inspector.hpp"
 #include "io/image_file.hpp"
+#include "panel_context.hpp"
 #include "scene_panel.hpp"
 #include "state.hpp"
 #include "theme.hpp"
@@ -28,11 +29,11 @@ constexpr std::uint32_t thumbnail_pixels = 128;
 constexpr std::size_t most_thumbnails = 800; // the window has 1024 texture descriptors
 constexpr const char* kind_names[] = {"All", "Scenes", "Skies", "Textures", "Meshes"};
 
-fs::path own_config(const PanelContext& e) {
+fs::path own_config(const PanelUi& e) {
     return e.options().config_dir.empty() ? fs::path() : e.options().config_dir / "assets.json";
 }
 
-void load(PanelContext& e, AssetsState& state) {
+void load(PanelUi& e, AssetsState& state) {
     if (state.loaded) return;
     state.loaded = true;
     state.entries.clear();
@@ -54,7 +55,7 @@ void load(PanelContext& e, AssetsState& state) {
     }
 }
 
-void ask_thumbnail(PanelContext& e, AssetsState::Thumbnail& thumbnail, const std::string& file) {
+void ask_thumbnail(PanelUi& e, AssetsState::Thumbnail& thumbnail, const std::string& file) {
     thumbnail.asked = true;
     e.panel_state->loads.start(
         {.path = file,
@@ -82,7 +83,7 @@ void ask_thumbnail(PanelContext& e, AssetsState::Thumbnail& thumbnail, const std
          }});
 }
 
-void apply(PanelContext& e, const Asset& asset) {
+void apply(SelectContext& e, const Asset& asset) {
     switch (asset.kind) {
         case AssetKind::scene:
             e.open(asset.path);
@@ -102,7 +103,7 @@ void apply(PanelContext& e, const Asset& asset) {
     }
 }
 
-void cell(PanelContext& e, const Asset& asset, float side) {
+void cell(SelectContext& e, const Asset& asset, float side) {
     ImGui::PushID(asset.path.c_str());
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -149,7 +150,7 @@ void cell(PanelContext& e, const Asset& asset, float side) {
     ImGui::PopID();
 }
 
-void add_folder(PanelContext& e, const fs::path& folder) {
+void add_folder(PanelUi& e, const fs::path& folder) {
     if (own_config(e).empty())
         e.notices.add(LogLevel::error, "There is no settings folder to remember it in");
     else if (auto added = add_asset_folder(own_config(e), folder); !added)
@@ -160,12 +161,12 @@ void add_folder(PanelContext& e, const fs::path& folder) {
 
 } // namespace
 
-std::vector<std::string> assets_of(PanelContext& e, AssetKind kind) {
+std::vector<std::string> assets_of(PanelUi& e, AssetKind kind) {
     load(e, e.panel_state->assets);
     return e.panel_state->assets.files_of(kind);
 }
 
-const AssetsState::Thumbnail& thumbnail_of(PanelContext& e, const std::string& file) {
+const AssetsState::Thumbnail& thumbnail_of(PanelUi& e, const std::string& file) {
     AssetsState& state = e.panel_state->assets;
     AssetsState::Thumbnail& thumbnail = state.thumbnails[file];
     if (!thumbnail.asked && state.thumbnails.size() < most_thumbnails) ask_thumbnail(e, thumbnail, file);
@@ -187,7 +188,7 @@ void accept_asset(PanelContext& e) {
     ImGui::EndDragDropTarget();
 }
 
-void draw_assets(PanelContext& e) {
+void draw_assets(SelectContext& e) {
     AssetsState& state = e.panel_state->assets;
     load(e, state);
     const float scale = ImGui::GetStyle().FontScaleMain;

@@ -3,6 +3,7 @@
 // picture for comparison, and the error at which rendering stops.
 #include "panels.hpp"
 
+#include "panel_context.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
@@ -15,9 +16,9 @@
 
 namespace restage::editor {
 
-void follow_convergence(PanelContext& e) {
+void follow_convergence(PanelUi& e, const PictureView& picture) {
     ConvergenceState& state = e.panel_state->convergence;
-    const auto frame = e.live().frame();
+    const auto frame = picture.live().frame();
     if (!frame || frame->divider != 1 || frame->relative_error >= 1e29) return;
     if (frame->request != state.current.request) {
         // Pictures abandoned after a moment, while something moved, are not worth comparing.
@@ -32,7 +33,7 @@ void follow_convergence(PanelContext& e) {
     curve.error.push_back(frame->relative_error * 100);
 }
 
-void draw_convergence(PanelContext& e) {
+void draw_convergence(PanelUi& e, const PictureView& picture) {
     ConvergenceState& state = e.panel_state->convergence;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Error against");
@@ -47,7 +48,7 @@ void draw_convergence(PanelContext& e) {
         ImGui::SameLine();
         ImGui::TextDisabled("%.2f %% after %.0f samples a pixel, %.1f s; %.2f million samples a second",
                             now.error.back(), now.samples.back(), now.seconds.back(),
-                            e.live().status().samples_per_second * 1e-6);
+                            picture.live().status().samples_per_second * 1e-6);
         tip("The estimated relative error of the picture before denoising");
     }
     if (now.error.empty() && state.previous.error.empty()) {
@@ -84,7 +85,7 @@ void draw_convergence(PanelContext& e) {
     };
     line("Previous picture", state.previous, colors::dim);
     line("This picture", now, colors::accent);
-    if (const double target = e.view.error * 100; target > 0) {
+    if (const double target = picture.view.error * 100; target > 0) {
         ImPlotSpec spec;
         spec.LineColor = colors::good;
         spec.Flags = ImPlotInfLinesFlags_Horizontal;

@@ -3,6 +3,7 @@
 #include "panels.hpp"
 
 #include "actions.hpp"
+#include "panel_context.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -61,17 +62,18 @@ bool begin_half(const char* id) {
 
 } // namespace
 
-void draw_help(PanelContext& e) {
+void draw_help(PanelUi& e, PictureView& picture) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Keys as in");
     ImGui::SameLine();
-    if (ImGui::RadioButton("Unity, Maya", e.view.keys == KeyPreset::standard)) e.view.keys = KeyPreset::standard;
+    if (ImGui::RadioButton("Unity, Maya", picture.view.keys == KeyPreset::standard))
+        picture.view.keys = KeyPreset::standard;
     e.mark("help.standard");
     ImGui::SameLine();
-    if (ImGui::RadioButton("Blender", e.view.keys == KeyPreset::blender)) e.view.keys = KeyPreset::blender;
+    if (ImGui::RadioButton("Blender", picture.view.keys == KeyPreset::blender)) picture.view.keys = KeyPreset::blender;
     e.mark("help.blender");
     ImGui::Separator();
-    const bool blender = e.view.keys == KeyPreset::blender;
+    const bool blender = picture.view.keys == KeyPreset::blender;
     if (!ImGui::BeginTable("halves", 2,
                            ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV))
         return;
@@ -87,7 +89,7 @@ void draw_help(PanelContext& e) {
         std::string_view last;
         for (const Action& action : all_actions()) {
             const std::string_view id = action.id, menu = id.substr(0, id.find('.'));
-            const std::string key = key_text(key_of(action, e.view.keys));
+            const std::string key = key_text(key_of(action, picture.view.keys));
             if (key.empty()) continue;
             if (menu != last) {
                 std::string title(menu);

@@ -13,7 +13,7 @@
 
 namespace restage::editor {
 
-void draw_history(PanelContext& e) {
+void draw_history(EditContext& e) {
     const scene::History& history = e.session().history();
     const auto go = [&e](std::size_t position) {
         e.change([position](document::Session& s) {

@@ -7,6 +7,7 @@
 #include "files.hpp"
 #include "importing.hpp"
 #include "io/import.hpp"
+#include "panel_context.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
 #include "scene/placeholder.hpp"
@@ -28,7 +29,7 @@ using ImageId = scene::Id<scene::Image>;
 using MeshId = scene::Id<scene::Mesh>;
 
 // Selects what an entry is about: 'material "oak"' = the objects that have it.
-bool select_named(PanelContext& e, const std::string& what) {
+bool select_named(SelectContext& e, const std::string& what) {
     const std::size_t open = what.find('"'), close = what.rfind('"');
     if (open == std::string::npos || close <= open) return false;
     const std::string name = what.substr(open + 1, close - open - 1);
@@ -52,7 +53,7 @@ bool select_named(PanelContext& e, const std::string& what) {
 }
 
 // Reads the images from these places and, when all were read, makes them the scene's: one step of the history.
-void relink(PanelContext& e, std::vector<std::pair<ImageId, std::string>> places) {
+void relink(EditContext& e, std::vector<std::pair<ImageId, std::string>> places) {
     struct Gathering {
         std::size_t left;
         std::vector<std::tuple<ImageId, std::string, std::shared_ptr<const scene::PixelData>>> read;
@@ -90,7 +91,7 @@ void relink(PanelContext& e, std::vector<std::pair<ImageId, std::string>> places
 }
 
 // Reads the meshes from these files, each the first of its file, and makes them the scene's: one step of the history.
-void relink(PanelContext& e, std::vector<std::pair<MeshId, std::string>> places) {
+void relink(DocumentContext& e, std::vector<std::pair<MeshId, std::string>> places) {
     if (places.empty()) return;
     const std::string title = places.size() == 1 ? "Reading " + places[0].second : "Reading missing meshes";
     e.files().jobs.start(
@@ -111,7 +112,7 @@ void relink(PanelContext& e, std::vector<std::pair<MeshId, std::string>> places)
                 else
                     problems.push_back(imported ? path + ": holds no mesh" : imported.error().message);
             }
-            return [read, problems](PanelContext& editor) {
+            return [read, problems](EditContext& editor) {
                 for (const std::string& problem : problems)
                     editor.notices.add(LogLevel::error, problem);
                 if (read.empty()) return;
@@ -130,7 +131,7 @@ void relink(PanelContext& e, std::vector<std::pair<MeshId, std::string>> places)
 }
 
 // The files of these names anywhere in the folder.
-void relink_from_folder(PanelContext& e, const std::vector<ImageId>& missing, const std::vector<MeshId>& meshes,
+void relink_from_folder(EditContext& e, const std::vector<ImageId>& missing, const std::vector<MeshId>& meshes,
                         const std::string& folder) {
     std::map<std::string, std::string> files; // name -> path
     std::error_code error;
@@ -156,7 +157,7 @@ void relink_from_folder(PanelContext& e, const std::vector<ImageId>& missing, co
     relink(e, std::move(mesh_places));
 }
 
-void missing_files(PanelContext& e) {
+void missing_files(EditContext& e) {
     std::vector<ImageId> missing;
     e.scene().images.each([&](ImageId id, const scene::Image& image) {
         if (!image.data && !image.path.empty()) missing.push_back(id);
@@ -188,7 +189,7 @@ void missing_files(PanelContext& e) {
         browse(e, {.title = "The folder they are in",
                    .folder = true,
                    .start = document.parent_path(),
-                   .done = [missing, meshes](PanelContext& editor, const std::filesystem::path& folder) {
+                   .done = [missing, meshes](SelectContext& editor, const std::filesystem::path& folder) {
                        relink_from_folder(editor, missing, meshes, folder.string());
                    }});
     tip("Finds files of the same names in that folder and all within it");
@@ -204,7 +205,7 @@ void missing_files(PanelContext& e) {
                        .filters = {{"Images", {"png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "pfm"}},
                                    {"All files", {}}},
                        .start = document.parent_path(),
-                       .done = [id](PanelContext& editor, const std::filesystem::path& path) {
+                       .done = [id](SelectContext& editor, const std::filesystem::path& path) {
                            if (editor.scene().images.find(id)) relink(editor, {{id, path.string()}});
                        }});
         tip("Choose the file to use instead");
@@ -223,7 +224,7 @@ void missing_files(PanelContext& e) {
             browse(e, {.title = "Find " + file,
                        .filters = {{"Meshes", {"ply", "obj", "stl", "glb", "gltf"}}, {"All files", {}}},
                        .start = document.parent_path(),
-                       .done = [id](PanelContext& editor, const std::filesystem::path& path) {
+                       .done = [id](SelectContext& editor, const std::filesystem::path& path) {
                            if (editor.scene().meshes.find(id)) relink(editor, {{id, path.string()}});
                        }});
         tip("Choose the file to use instead");
@@ -236,7 +237,7 @@ void missing_files(PanelContext& e) {
 
 } // namespace
 
-void draw_import_report(PanelContext& e) {
+void draw_import_report(SelectContext& e) {
     ReportState& state = e.panel_state->report;
     if (why_not_import_again(e).empty()) {
         if (ImGui::Button("Import again...")) e.run("file.import_again");

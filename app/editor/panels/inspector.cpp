@@ -17,7 +17,7 @@ namespace restage::editor {
 namespace {
 
 // Flags of the selected objects: a click gives all of them the active one's new value.
-void object_section(PanelContext& e, InstanceId id) {
+void object_section(SelectContext& e, InstanceId id) {
     if (!section_header("Object")) {
         e.mark("inspector.object");
         return;
@@ -71,7 +71,7 @@ void object_section(PanelContext& e, InstanceId id) {
 
 } // namespace
 
-void draw_inspector(PanelContext& e) {
+void draw_inspector(SelectContext& e) {
     if (e.selection.light()) {
         light_section(e, e.selection.light());
         return;

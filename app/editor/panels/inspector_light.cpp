@@ -26,7 +26,7 @@ constexpr double pi = 3.14159265358979323846;
 double luminance(const glm::vec3& c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 // In world units; walking a large mesh takes a while, so it is cached.
-double area_of(PanelContext& e, InstanceId id) {
+double area_of(DocumentContext& e, InstanceId id) {
     auto& known = e.panel_state->inspector.area;
     const scene::Instance& instance = e.scene().instances[id];
     if (known.of == id && known.transform == instance.object_to_world) return known.value;
@@ -41,7 +41,7 @@ double area_of(PanelContext& e, InstanceId id) {
     return known.value;
 }
 
-void ask_emission(PanelContext& e, InstanceId id, std::optional<scene::Emission> emission, const char* gesture) {
+void ask_emission(EditContext& e, InstanceId id, std::optional<scene::Emission> emission, const char* gesture) {
     e.edit([id, emission](const scene::Scene& s) { return scene::set_emission(s, id, emission); }, gesture);
 }
 
@@ -71,7 +71,7 @@ glm::dmat4 turned(const glm::dmat4& light_to_world, const Angles& angles, const 
 
 } // namespace
 
-bool light_value_rows(PanelContext& e, glm::vec3& value, const char* strength_label, const char* unit,
+bool light_value_rows(PanelUi& e, glm::vec3& value, const char* strength_label, const char* unit,
                       const std::string& mark) {
     float strength = std::max({value.x, value.y, value.z});
     glm::vec3 color = strength > 0 ? value / strength : glm::vec3(1);
@@ -104,7 +104,7 @@ bool light_value_rows(PanelContext& e, glm::vec3& value, const char* strength_la
     return changed;
 }
 
-void emission_section(PanelContext& e, InstanceId id) {
+void emission_section(EditContext& e, InstanceId id) {
     const bool shown = section_header("Light");
     e.mark("inspector.light");
     if (!shown) return;
@@ -144,7 +144,7 @@ void emission_section(PanelContext& e, InstanceId id) {
     ImGui::PopID();
 }
 
-void light_section(PanelContext& e, scene::Id<scene::Light> id) {
+void light_section(EditContext& e, scene::Id<scene::Light> id) {
     const scene::Light* found = e.scene().lights.find(id);
     if (!found) return;
     scene::Light light = *found;

@@ -3,6 +3,7 @@
 #include "copy_paste.hpp"
 #include "drop.hpp"
 #include "inspector.hpp"
+#include "panel_context.hpp"
 #include "panels/plugin_ui.hpp"
 #include "param_widget.hpp"
 #include "pick_tool.hpp"
@@ -31,7 +32,7 @@ scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
 }
 
 // Its ball; its main colour until that is rendered.
-void swatch(PanelContext& e, MaterialId id, ImVec2 at, float size) {
+void swatch(DocumentContext& e, MaterialId id, ImVec2 at, float size) {
     const Texture* ball = e.panel_state->balls.ball({e.registry(), e.log(), e.options().renderer}, e.scene(), id);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImVec2 end(at.x + size, at.y + size);
@@ -45,7 +46,7 @@ void swatch(PanelContext& e, MaterialId id, ImVec2 at, float size) {
 }
 
 // Assigns, copies, creates. `current` may be none.
-void material_choice(PanelContext& e, MaterialId current) {
+void material_choice(SelectContext& e, MaterialId current) {
     const auto selected = e.selection.instances();
     const scene::Material* material = e.scene().materials.find(current);
     const auto assign = [&](MaterialId to) {
@@ -128,7 +129,7 @@ void material_choice(PanelContext& e, MaterialId current) {
     }
 }
 
-void sharing(PanelContext& e, MaterialId id) {
+void sharing(SelectContext& e, MaterialId id) {
     std::size_t users = 0, chosen = 0;
     e.scene().instances.each([&](InstanceId, const scene::Instance& i) { users += i.material == id; });
     for (const InstanceId one : e.selection.instances())
@@ -156,7 +157,7 @@ void sharing(PanelContext& e, MaterialId id) {
 }
 
 // Reads the file, then makes it that colour's texture.
-void give_image(PanelContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
+void give_image(EditContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
     e.panel_state->loads.start(
         {.path = path,
          .encoding = scene::Encoding::srgb,
@@ -178,7 +179,7 @@ void give_image(PanelContext& e, const MaterialScope& scope, const std::string& 
 }
 
 // `line`: of the material's table, or shown as a slot that only a texture fills.
-void param_row(PanelContext& e, MaterialId id, const scene::Material& material, const model::Param& line) {
+void param_row(EditContext& e, MaterialId id, const scene::Material& material, const model::Param& line) {
     const auto plugin = e.registry().find_material(material.type);
     const model::Param* declared = plugin ? plugin->table->find(line.id) : nullptr;
     const model::Param& own = declared ? *declared : line;
@@ -197,7 +198,7 @@ void param_row(PanelContext& e, MaterialId id, const scene::Material& material, 
 
 } // namespace
 
-void texture_for_selected(PanelContext& e, const std::string& file) {
+void texture_for_selected(SelectContext& e, const std::string& file) {
     const scene::Instance* instance = e.scene().instances.find(e.selection.active());
     const scene::Material* material = instance ? e.scene().materials.find(instance->material) : nullptr;
     if (!material) return;
@@ -206,7 +207,7 @@ void texture_for_selected(PanelContext& e, const std::string& file) {
         if (line.type == model::ParamType::color && line.texturable) {
             const std::string path = std::filesystem::absolute(file).lexically_normal().string();
             ask_scope(e, e.selection.instances(), std::filesystem::path(path).filename().string(),
-                      [path, param = std::string(line.id)](PanelContext& editor, const MaterialScope& scope) {
+                      [path, param = std::string(line.id)](SelectContext& editor, const MaterialScope& scope) {
                           give_image(editor, scope, param, path);
                       });
             return;
@@ -214,7 +215,7 @@ void texture_for_selected(PanelContext& e, const std::string& file) {
     e.notices.add(LogLevel::info, material->name + " has no colour that a texture could replace");
 }
 
-glm::vec3 swatch_color(const PanelContext& e, const scene::Material& material) {
+glm::vec3 swatch_color(const DocumentContext& e, const scene::Material& material) {
     glm::vec3 seen(0.5f);
     const auto plugin = e.registry().find_material(material.type);
     for (const model::Param& line : table_of(plugin)) {
@@ -228,7 +229,7 @@ glm::vec3 swatch_color(const PanelContext& e, const scene::Material& material) {
     return seen;
 }
 
-void material_section(PanelContext& e, MaterialId id) {
+void material_section(SelectContext& e, MaterialId id) {
     const bool open = section_header("Material", true);
     e.mark("inspector.material");
     if (!open) return;

@@ -72,7 +72,7 @@ bool three(const char* id, glm::dvec3& v, double speed, const char* format) {
     return ImGui::DragScalarN(id, ImGuiDataType_Double, &v.x, 3, float(speed), nullptr, nullptr, format);
 }
 
-void ask_transform(PanelContext& e, InstanceId id, const glm::dmat4& m, const char* verb, const char* gesture) {
+void ask_transform(EditContext& e, InstanceId id, const glm::dmat4& m, const char* verb, const char* gesture) {
     e.edit(
         [id, m, verb](const scene::Scene& s) {
             auto edit = scene::set_transform(s, id, m);
@@ -82,7 +82,7 @@ void ask_transform(PanelContext& e, InstanceId id, const glm::dmat4& m, const ch
         gesture);
 }
 
-void uniform_button(PanelContext& e) { // beside the fields of a scale
+void uniform_button(SelectContext& e) { // beside the fields of a scale
     InspectorState& state = e.panel_state->inspector;
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (icon_button("##uniform", state.uniform_scale ? Icon::lock : Icon::lock_open, state.uniform_scale,
@@ -92,7 +92,7 @@ void uniform_button(PanelContext& e) { // beside the fields of a scale
     e.mark("inspector.uniform");
 }
 
-void one_object(PanelContext& e, InstanceId id) {
+void one_object(SelectContext& e, InstanceId id) {
     InspectorState& state = e.panel_state->inspector;
     const scene::Scene& s = e.scene();
     const scene::Instance& instance = s.instances[id];
@@ -165,7 +165,7 @@ void one_object(PanelContext& e, InstanceId id) {
     e.mark("inspector.as_opened");
 }
 
-void several_objects(PanelContext& e) {
+void several_objects(SelectContext& e) {
     auto& r = e.panel_state->inspector.relative;
     const scene::Bounds bounds = e.selection.bounds(e.scene());
     const double size = bounds.empty() ? 1 : std::max(bounds.radius(), 1e-6);
@@ -220,7 +220,7 @@ void several_objects(PanelContext& e) {
 
 } // namespace
 
-void place_section(PanelContext& e) {
+void place_section(SelectContext& e) {
     const bool open = section_header("Place", true);
     e.mark("inspector.place");
     if (!open) return;

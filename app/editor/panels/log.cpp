@@ -12,7 +12,7 @@
 
 namespace restage::editor {
 
-void draw_log(PanelContext& e) {
+void draw_log(PanelUi& e) {
     LogState& state = e.panel_state->log;
     const auto filter = [&e](const char* label, bool& on, const char* tooltip, const char* mark, bool first = false) {
         if (!first) flow(check_width(label));

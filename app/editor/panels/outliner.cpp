@@ -23,7 +23,7 @@ namespace {
 
 using Row = OutlinerState::Row;
 
-void click(PanelContext& e, std::span<const InstanceId> ids) {
+void click(SelectContext& e, std::span<const InstanceId> ids) {
     const ImGuiIO& io = ImGui::GetIO();
     e.selection.set(ids, io.KeyCtrl    ? Selection::Mode::toggle
                          : io.KeyShift ? Selection::Mode::add
@@ -31,7 +31,7 @@ void click(PanelContext& e, std::span<const InstanceId> ids) {
 }
 
 template <class T>
-void rename_field(PanelContext& e, OutlinerState& state, scene::Id<T> id) {
+void rename_field(EditContext& e, OutlinerState& state, scene::Id<T> id) {
     if (std::exchange(state.focus_name, false)) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-3 * ImGui::GetFrameHeight());
     ImGui::InputText("##rename", &state.new_name, ImGuiInputTextFlags_AutoSelectAll);
@@ -47,7 +47,7 @@ bool renaming(const OutlinerState& state, const Row& row) {
     return state.renaming.id == row.id && state.renaming.kind == row.kind;
 }
 
-void ask_hidden(PanelContext& e, std::vector<InstanceId> ids, bool hidden) {
+void ask_hidden(EditContext& e, std::vector<InstanceId> ids, bool hidden) {
     e.edit([ids = std::move(ids), hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
 }
 
@@ -75,7 +75,7 @@ struct RightIcons {
     bool lock = false, eye = false; // pressed
 };
 // `locked`: none = not lockable.
-RightIcons right_icons(PanelContext& e, std::optional<bool> locked, bool visible, const std::string& name) {
+RightIcons right_icons(PanelUi& e, std::optional<bool> locked, bool visible, const std::string& name) {
     RightIcons pressed;
     const float size = ImGui::GetFrameHeight();
     const ImVec2 top = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
@@ -99,7 +99,7 @@ RightIcons right_icons(PanelContext& e, std::optional<bool> locked, bool visible
     return pressed;
 }
 
-void instance_menu(PanelContext& e, OutlinerState& state, const Row& row) {
+void instance_menu(SelectContext& e, OutlinerState& state, const Row& row) {
     const InstanceId id{row.id};
     const scene::Instance& instance = e.scene().instances[id];
     if (!e.selection.contains(id)) {
@@ -125,13 +125,13 @@ void instance_menu(PanelContext& e, OutlinerState& state, const Row& row) {
     e.mark("outliner.menu.material");
 }
 
-void drop_target(PanelContext& e, GroupId group) {
+void drop_target(SelectContext& e, GroupId group) {
     if (!ImGui::BeginDragDropTarget()) return;
     if (ImGui::AcceptDragDropPayload("restage.objects")) move_to_group(e, group);
     ImGui::EndDragDropTarget();
 }
 
-void instance_row(PanelContext& e, OutlinerState& state, const Row& row) {
+void instance_row(SelectContext& e, OutlinerState& state, const Row& row) {
     const InstanceId id{row.id};
     const scene::Instance* instance = e.scene().instances.find(id);
     if (!instance) return;
@@ -166,7 +166,7 @@ void instance_row(PanelContext& e, OutlinerState& state, const Row& row) {
     if (pressed.eye) ask_hidden(e, {id}, !instance->hidden);
 }
 
-void group_row(PanelContext& e, OutlinerState& state, const Row& row) {
+void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
     const GroupId id{row.id};
     const scene::Group* group = e.scene().groups.find(id);
     if (!group || row.id >= state.members.size()) return;
@@ -234,7 +234,7 @@ void group_row(PanelContext& e, OutlinerState& state, const Row& row) {
     if (pressed.eye) ask_hidden(e, instances_in(e.scene(), id), !hidden);
 }
 
-void light_row(PanelContext& e, OutlinerState& state, const Row& row) {
+void light_row(SelectContext& e, OutlinerState& state, const Row& row) {
     const scene::Id<scene::Light> id{row.id};
     const scene::Light* light = e.scene().lights.find(id);
     if (!light) return;
@@ -259,7 +259,7 @@ void light_row(PanelContext& e, OutlinerState& state, const Row& row) {
         e.edit([id, hidden = !light->hidden](const scene::Scene& s) { return scene::set_hidden(s, id, hidden); });
 }
 
-void camera_row(PanelContext& e, OutlinerState& state, const Row& row) {
+void camera_row(EditContext& e, OutlinerState& state, const Row& row) {
     const scene::Id<scene::Camera> id{row.id};
     const scene::Camera* camera = e.scene().cameras.find(id);
     if (!camera) return;
@@ -281,7 +281,7 @@ void camera_row(PanelContext& e, OutlinerState& state, const Row& row) {
     }
 }
 
-void draw_row(PanelContext& e, OutlinerState& state, const Row& row) {
+void draw_row(SelectContext& e, OutlinerState& state, const Row& row) {
     ImGui::PushID(int(row.kind));
     ImGui::PushID(int(row.id));
     const float indent = float(row.depth) * ImGui::GetStyle().IndentSpacing;
@@ -320,7 +320,7 @@ void draw_row(PanelContext& e, OutlinerState& state, const Row& row) {
 
 } // namespace
 
-void draw_outliner(PanelContext& e) {
+void draw_outliner(SelectContext& e) {
     OutlinerState& state = e.panel_state->outliner;
     if (e.scene().instances.live() == 0) {
         empty_note("Nothing is open yet. Open a scene, or drop a file onto the window.");

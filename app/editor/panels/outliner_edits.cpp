@@ -8,7 +8,7 @@
 
 namespace restage::editor {
 
-void move_to_group(PanelContext& e, GroupId group) {
+void move_to_group(SelectContext& e, GroupId group) {
     e.edit([ids = e.selection.instances(), group](const scene::Scene& s) {
         const scene::Group* to = s.groups.find(group);
         scene::Edit edit{to ? "Move to " + to->name : "Take out of group", {}};
@@ -21,7 +21,7 @@ void move_to_group(PanelContext& e, GroupId group) {
     });
 }
 
-void group_selected(PanelContext& e) {
+void group_selected(SelectContext& e) {
     e.edit([ids = e.selection.instances()](const scene::Scene& s) {
         std::set<std::string> taken;
         s.groups.each([&](auto, const scene::Group& g) { taken.insert(g.name); });
@@ -36,7 +36,7 @@ void group_selected(PanelContext& e) {
     });
 }
 
-void ungroup(PanelContext& e, GroupId id) {
+void ungroup(EditContext& e, GroupId id) {
     e.edit([id](const scene::Scene& s) {
         const scene::Group* gone = s.groups.find(id);
         if (!gone) return Result<scene::Edit>(fail("the group no longer exists"));

@@ -12,7 +12,7 @@ using Row = OutlinerState::Row;
 
 bool same_row(const Row& a, const Row& b) { return a.kind == b.kind && a.id == b.id; }
 
-void select_row(PanelContext& e, OutlinerState& state, const Row& row, bool add) {
+void select_row(SelectContext& e, OutlinerState& state, const Row& row, bool add) {
     state.cursor = row;
     const auto mode = add ? Selection::Mode::add : Selection::Mode::replace;
     if (row.kind == Row::Kind::instance) {
@@ -27,7 +27,7 @@ void select_row(PanelContext& e, OutlinerState& state, const Row& row, bool add)
 }
 
 // The key cursor's row: what was clicked last, else the active object.
-void rename_row(PanelContext& e, OutlinerState& state) {
+void rename_row(SelectContext& e, OutlinerState& state) {
     const scene::Scene& s = e.scene();
     const auto start = [&](const auto* item) {
         if (item) start_renaming(state, state.cursor, item->name);
@@ -51,7 +51,7 @@ void start_renaming(OutlinerState& state, const Row& row, const std::string& nam
     state.focus_name = true;
 }
 
-void outliner_keys(PanelContext& e, OutlinerState& state) {
+void outliner_keys(SelectContext& e, OutlinerState& state) {
     const ImGuiIO& io = ImGui::GetIO();
     if (!ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) || state.rows.empty() || io.KeyAlt || io.KeyCtrl)
         return;

@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panels.hpp"
 
+#include "panel_context.hpp"
+
 #include <array>
 
 namespace restage::editor {
 
 namespace {
 
+// Calls the panel with those parts of the context that its parameters name.
+template <auto draw>
+void give(PanelContext& e) {
+    [&]<class... Parts>(void (*panel)(Parts&...)) { panel(static_cast<Parts&>(e)...); }(draw);
+}
+
 constexpr auto panels = std::to_array<Panel>({
     {"Viewport", draw_viewport, Dock::center, true, "The picture"},
-    {"Outliner", draw_outliner, Dock::left, true, "Everything in the scene, by name"},
-    {"Inspector", draw_inspector, Dock::right, true, "What is selected: its place, material and light"},
-    {"Scene", draw_scene_settings, Dock::right, true, "Sky, camera, film and how it is rendered"},
-    {"History", draw_history, Dock::bottom, true, "Every change, to go back to"},
-    {"Import report", draw_import_report, Dock::bottom, true, "What was kept, approximated or dropped when opening"},
-    {"Convergence", draw_convergence, Dock::bottom, true, "Estimated error against time and samples"},
-    {"Plugins", draw_plugins, Dock::bottom, false, "What is loaded, from where, and what is not and why"},
-    {"Assets", draw_assets, Dock::bottom, true, "Scenes, skies, textures and meshes to bring in"},
-    {"Log", draw_log, Dock::bottom, true, "What happened"},
-    {"Help", draw_help, Dock::floating, false, "Every shortcut, and how to get around"},
+    {"Outliner", give<draw_outliner>, Dock::left, true, "Everything in the scene, by name"},
+    {"Inspector", give<draw_inspector>, Dock::right, true, "What is selected: its place, material and light"},
+    {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and how it is rendered"},
+    {"History", give<draw_history>, Dock::bottom, true, "Every change, to go back to"},
+    {"Import report", give<draw_import_report>, Dock::bottom, true,
+     "What was kept, approximated or dropped when opening"},
+    {"Convergence", give<draw_convergence>, Dock::bottom, true, "Estimated error against time and samples"},
+    {"Plugins", give<draw_plugins>, Dock::bottom, false, "What is loaded, from where, and what is not and why"},
+    {"Assets", give<draw_assets>, Dock::bottom, true, "Scenes, skies, textures and meshes to bring in"},
+    {"Log", give<draw_log>, Dock::bottom, true, "What happened"},
+    {"Help", give<draw_help>, Dock::floating, false, "Every shortcut, and how to get around"},
 });
 
 } // namespace

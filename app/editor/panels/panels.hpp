@@ -1,38 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panels: functions that draw the editor's state into a Dear ImGui window of their own and ask it for changes. To
-// add one: a file here, a line here, a line in the table of panels.cpp.
+// The panels: functions that draw the editor's state into a Dear ImGui window of their own and ask it for changes. Each
+// takes the parts of the context that it uses (contexts.hpp). To add one: a file here, a line here, a line in the table
+// of panels.cpp.
 #pragma once
 
 #include "assets.hpp"
-#include "panel_context.hpp"
+#include "contexts.hpp"
 
 #include <span>
 
 namespace restage::editor {
 
+class PictureView;
+
 void draw_viewport(PanelContext& editor);
-void draw_outliner(PanelContext& editor);
-void draw_inspector(PanelContext& editor);
-void draw_scene_settings(PanelContext& editor);
-void draw_import_report(PanelContext& editor);
-void draw_convergence(PanelContext& editor);
-void draw_plugins(PanelContext& editor);
-void draw_log(PanelContext& editor);
-void draw_history(PanelContext& editor);
-void draw_assets(PanelContext& editor);
-void draw_help(PanelContext& editor);
+void draw_outliner(SelectContext& editor);
+void draw_inspector(SelectContext& editor);
+void draw_scene_settings(SelectContext& editor, PictureView& picture);
+void draw_import_report(SelectContext& editor);
+void draw_convergence(PanelUi& editor, const PictureView& picture);
+void draw_plugins(DocumentContext& editor);
+void draw_log(PanelUi& editor);
+void draw_history(EditContext& editor);
+void draw_assets(SelectContext& editor);
+void draw_help(PanelUi& editor, PictureView& picture);
 
 // The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
 // a scene.
 void accept_asset(PanelContext& editor);
 // All assets of a kind, whether the panel was shown or not.
-std::vector<std::string> assets_of(PanelContext& editor, AssetKind kind);
+std::vector<std::string> assets_of(PanelUi& editor, AssetKind kind);
 // A small picture of that file; it is read on first use.
-const AssetsState::Thumbnail& thumbnail_of(PanelContext& editor, const std::string& file);
+const AssetsState::Thumbnail& thumbnail_of(PanelUi& editor, const std::string& file);
 // Records the error of the live picture, whether the panel is shown or not; once a frame.
-void follow_convergence(PanelContext& editor);
+void follow_convergence(PanelUi& editor, const PictureView& picture);
 // Takes over the sky that a plugin has made meanwhile; once a frame.
-void follow_sky(PanelContext& editor);
+void follow_sky(EditContext& editor);
 
 enum class Dock { center, left, right, bottom, floating };
 

@@ -8,6 +8,7 @@
 #include "plugin_actions.hpp"
 #include "plugin_ui.hpp"
 #include "state.hpp"
+#include "widgets.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -19,10 +20,10 @@ namespace restage::editor {
 
 namespace {
 
-std::filesystem::path file_of(const PanelContext& e) { return e.options().config_dir / "plugin_panels.json"; }
+std::filesystem::path file_of(const PanelUi& e) { return e.options().config_dir / "plugin_panels.json"; }
 
 // {"scatter": {"seed": [3], "align": "up"}}: numbers as lists, words as text.
-void read_values(PanelContext& e) {
+void read_values(PanelUi& e) {
     PluginState& state = e.panel_state->plugins;
     if (std::exchange(state.panels_read, true) || e.options().config_dir.empty()) return;
     const auto text = read_file(file_of(e));
@@ -42,7 +43,7 @@ void read_values(PanelContext& e) {
     }
 }
 
-void write_values(PanelContext& e) {
+void write_values(PanelUi& e) {
     if (e.options().config_dir.empty()) return;
     nlohmann::json json = nlohmann::json::object();
     for (const auto& [panel, values] : e.panel_state->plugins.remembered)
@@ -80,8 +81,14 @@ scene::ParamSet untyped(const scene::ParamSet& values) {
     return result;
 }
 
+bool set_aside(const PluginState& state, const plugin::PanelEntry& panel) {
+    const auto found = state.broken.find(panel.table->id);
+    return found != state.broken.end() && !found->second.owner_before(panel.library) &&
+           !panel.library.owner_before(found->second);
+}
+
 // Of the panel's values those the action has, too.
-bool run(PanelContext& e, const plugin::PanelEntry& panel, const std::string& id, const scene::ParamSet& values) {
+bool run(SelectContext& e, const plugin::PanelEntry& panel, const std::string& id, const scene::ParamSet& values) {
     const auto action = document::find_action(e.registry(), id);
     if (!action || action->plugin->manifest.id != panel.plugin->manifest.id) {
         e.notices.add(LogLevel::error,
@@ -100,10 +107,20 @@ bool run(PanelContext& e, const plugin::PanelEntry& panel, const std::string& id
 
 std::string panel_title(const model::Panel& panel) { return panel.label + "###plugin." + panel.id; }
 
-void draw_panel(PanelContext& e, const plugin::PanelEntry& panel) {
+void draw_panel(SelectContext& e, const plugin::PanelEntry& panel) {
     read_values(e);
     PluginState& state = e.panel_state->plugins;
     const model::Panel& table = *panel.table;
+    if (set_aside(state, panel)) {
+        error_note((panel.plugin->name() +
+                    " failed while it drew this panel, which is off until the plugin is rebuilt. "
+                    "The log has its error.")
+                       .c_str());
+        e.mark("panel." + table.id + ".broken");
+        if (ImGui::Button("Try again")) state.broken.erase(table.id);
+        e.mark("panel." + table.id + ".again");
+        return;
+    }
     const auto [found, fresh] = state.panels.try_emplace(table.id);
     scene::ParamSet& values = found->second;
     if (fresh) values = typed(table.params, state.remembered[table.id]);
@@ -112,28 +129,34 @@ void draw_panel(PanelContext& e, const plugin::PanelEntry& panel) {
         if (const model::Param* line = table.find(id); !line || !misfit(*line, value).empty()) values.remove(id);
     const std::string mark = "panel." + table.id;
     const scene::ParamSet shown = values; // while the plugin draws
-    draw_plugin_panel(panel,
-                      {.editor = e,
-                       .table = table.params,
-                       .values = shown,
-                       .mark = mark,
-                       .who = panel.plugin->name() + ": its panel",
-                       .blame = panel.plugin->blame("while it drew its panel"),
-                       .row =
-                           [&](const model::Param& line) {
-                               const scene::Value* set = shown.find(line.id);
-                               const ParamAsk ask = param_widget(e, line, set ? *set : scene::default_value(line),
-                                                                 set != nullptr, mark + "." + line.id);
-                               if (ask.reset) values.remove(line.id);
-                               if (ask.value) values.set(line.id, *ask.value);
-                           },
-                       .change = [&](const model::Param& line, scene::Value v) { values.set(line.id, std::move(v)); },
-                       .set =
-                           [&](const std::string&, std::vector<std::pair<std::string, scene::Value>> several) {
-                               for (auto& [id, v] : several)
-                                   values.set(id, std::move(v));
-                           },
-                       .run = [&](const std::string& action) { return run(e, panel, action, values); }});
+    const auto drawn = draw_plugin_panel(
+        panel, {.editor = e,
+                .table = table.params,
+                .values = shown,
+                .mark = mark,
+                .who = panel.plugin->name() + ": its panel",
+                .blame = panel.plugin->blame("while it drew its panel"),
+                .row =
+                    [&](const model::Param& line) {
+                        const scene::Value* set = shown.find(line.id);
+                        const ParamAsk ask = param_widget(e, line, set ? *set : scene::default_value(line),
+                                                          set != nullptr, mark + "." + line.id);
+                        if (ask.reset) values.remove(line.id);
+                        if (ask.value) values.set(line.id, *ask.value);
+                    },
+                .change = [&](const model::Param& line, scene::Value v) { values.set(line.id, std::move(v)); },
+                .set =
+                    [&](const std::string&, std::vector<std::pair<std::string, scene::Value>> several) {
+                        for (auto& [id, v] : several)
+                            values.set(id, std::move(v));
+                    },
+                .run = [&](const std::string& action) { return run(e, panel, action, values); }});
+    if (!drawn) { // what it has set meanwhile does not count
+        values = shown;
+        state.broken[table.id] = panel.library;
+        e.notices.add(LogLevel::error, table.label + ": " + drawn.error().message);
+        return;
+    }
     if (scene::ParamSet now = untyped(values); !ImGui::IsAnyItemActive() && now != state.remembered[table.id]) {
         state.remembered[table.id] = std::move(now);
         write_values(e);

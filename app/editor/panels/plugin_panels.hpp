@@ -3,7 +3,7 @@
 // configuration folder.
 #pragma once
 
-#include "panel_context.hpp"
+#include "contexts.hpp"
 #include "plugin/registry.hpp"
 
 #include <string>
@@ -12,6 +12,6 @@ namespace restage::editor {
 
 // Of its window, and in the table of those that are open: another plugin's may have the same label.
 std::string panel_title(const model::Panel& panel);
-void draw_panel(PanelContext& editor, const plugin::PanelEntry& panel); // between Begin and End
+void draw_panel(SelectContext& editor, const plugin::PanelEntry& panel); // between Begin and End
 
 } // namespace restage::editor

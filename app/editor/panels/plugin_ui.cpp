@@ -28,7 +28,7 @@ class HostWidgets final : public plugin::PanelWidgets {
     int widgets = 0; // so far: names those without a parameter
     std::string held; // of the last get()
 
-    PanelContext& editor() const { return ui.editor; }
+    SelectContext& editor() const { return ui.editor; }
     const model::Param* line(const char* id) const { return id ? model::find_param(ui.table, id) : nullptr; }
     // Notes that the parameter is shown; null, and a line in the log, if none has this id and one of these kinds.
     const model::Param* claim(const char* id, std::initializer_list<model::ParamType> types) {
@@ -284,8 +284,10 @@ std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, 
     return show(ui, [&](HostWidgets& widgets) { inspector.draw(widgets); });
 }
 
-void draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui) {
-    show(ui, [&](HostWidgets& widgets) { plugin::draw_panel(panel, widgets); });
+Result<> draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui) {
+    Result<> drawn;
+    show(ui, [&](HostWidgets& widgets) { drawn = plugin::draw_panel(panel, widgets); });
+    return drawn;
 }
 
 } // namespace restage::editor

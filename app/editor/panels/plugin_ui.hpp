@@ -3,7 +3,7 @@
 // widgets that name parameters; where their values are is the caller's.
 #pragma once
 
-#include "panel_context.hpp"
+#include "contexts.hpp"
 #include "plugin/registry.hpp"
 #include "scene/params.hpp"
 
@@ -16,7 +16,7 @@
 namespace restage::editor {
 
 struct PluginUi {
-    PanelContext& editor;
+    SelectContext& editor;
     model::ParamTable table;
     const scene::ParamSet& values;
     std::string mark; // what widgets are called in tests: "material"
@@ -30,6 +30,7 @@ struct PluginUi {
 
 // Draws what the plugin has to show. Returns the ids of the parameters it showed.
 std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, const PluginUi& ui);
-void draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui);
+// An error if the plugin threw an exception.
+Result<> draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui);
 
 } // namespace restage::editor

@@ -6,6 +6,7 @@
 #include "check/report.hpp"
 #include "check/supervise.hpp"
 #include "files.hpp"
+#include "panel_context.hpp"
 #include "plugin/registry.hpp"
 #include "state.hpp"
 #include "theme.hpp"
@@ -19,7 +20,7 @@ namespace restage::editor {
 namespace {
 
 // "restage check" of this one, while the user keeps working.
-void start_check(PanelContext& e, const plugin::Entry& entry) {
+void start_check(PanelUi& e, const plugin::Entry& entry) {
     e.files().jobs.start(
         {.title = "Checking " + entry.name()},
         [name = entry.name(), folder = entry.folder](BackgroundJob& job) -> std::function<void(PanelContext&)> {
@@ -37,7 +38,7 @@ void start_check(PanelContext& e, const plugin::Entry& entry) {
                 return check::check_plugin(s);
             }();
             if (cancel) return {};
-            return [name, ran](PanelContext& editor) {
+            return [name, ran](PanelUi& editor) {
                 if (!ran) return editor.notices.add(LogLevel::error, ran.error().message);
                 const bool passed = ran->passed();
                 editor.notices.add(passed ? LogLevel::info : LogLevel::error, name + ": " + check::verdict_line(*ran));
@@ -57,7 +58,7 @@ void check_result(const check::PluginReport& report) {
                 fmt::format("{}: {}{}{}", step.step, step.text, step.cause.empty() ? "" : "\n", step.cause).c_str());
 }
 
-void buttons(PanelContext& e, const plugin::Entry& entry) {
+void buttons(DocumentContext& e, const plugin::Entry& entry) {
     if (entry.quarantined) {
         if (ImGui::SmallButton("Enable")) {
             const auto released = e.registry().quarantine().release(entry.manifest.id);
@@ -76,7 +77,7 @@ void buttons(PanelContext& e, const plugin::Entry& entry) {
 
 } // namespace
 
-void draw_plugins(PanelContext& e) {
+void draw_plugins(DocumentContext& e) {
     const auto entries = e.registry().entries();
     std::size_t refused = 0;
     for (const plugin::Entry* entry : entries)

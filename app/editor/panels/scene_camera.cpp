@@ -42,7 +42,7 @@ constexpr Size sizes[] = {{"640 × 360", 640, 360},
                           {"1080 × 1920 (upright)", 1080, 1920},
                           {"2480 × 3508 (A4, 300 dpi)", 2480, 3508}};
 
-void ask_film(PanelContext& e, const scene::Film& film, const char* label, const char* gesture) {
+void ask_film(EditContext& e, const scene::Film& film, const char* label, const char* gesture) {
     e.edit(
         [film, label](const scene::Scene& s) {
             scene::Edit edit = scene::set_film(s, film, label);
@@ -69,7 +69,7 @@ void ask_film(PanelContext& e, const scene::Film& film, const char* label, const
         gesture);
 }
 
-void filter_rows(PanelContext& e, scene::Film film) {
+void filter_rows(EditContext& e, scene::Film film) {
     static constexpr const char* kinds[] = {"Box", "Triangle", "Gaussian", "Mitchell", "Sinc"};
     int kind = int(film.filter.kind);
     form_row("Pixel filter",
@@ -104,14 +104,14 @@ void filter_rows(PanelContext& e, scene::Film film) {
     if (changed) ask_film(e, film, "Pixel filter", "film.filter");
 }
 
-void ask_camera(PanelContext& e, const scene::Camera& camera) {
+void ask_camera(EditContext& e, const scene::Camera& camera) {
     e.edit([camera](
                const scene::Scene& s) { return scene::set_camera(s, s.active_camera.value, camera, "Change camera"); },
            "scene.camera");
 }
 
 // How it maps the world to the picture, and how much of the world. True: changed.
-bool projection_rows(PanelContext& e, scene::Camera& camera) {
+bool projection_rows(DocumentContext& e, scene::Camera& camera) {
     static constexpr const char* kinds[] = {"Perspective", "Orthographic", "Panorama", "Panorama, equal areas"};
     form_row("Projection",
              "How the world becomes a picture: as the eye sees it, without vanishing points, or all around");
@@ -156,7 +156,7 @@ bool projection_rows(PanelContext& e, scene::Camera& camera) {
 
 } // namespace
 
-void camera_section(PanelContext& e) {
+void camera_section(SelectContext& e) {
     const bool open = section_header("Camera", true);
     e.mark("scene.camera");
     if (!open) return;
@@ -227,7 +227,7 @@ void camera_section(PanelContext& e) {
     ImGui::PopID();
 }
 
-void film_section(PanelContext& e) {
+void film_section(EditContext& e) {
     const bool open = section_header("Picture");
     e.mark("scene.film");
     if (!open) return;

@@ -28,7 +28,7 @@ struct Place {
     double height = 1;
 };
 
-Place place_for_light(const PanelContext& e) {
+Place place_for_light(const SelectContext& e) {
     const scene::Bounds all = scene::world_bounds(e.scene());
     Place place;
     const double size = all.empty() ? 1 : std::max(all.radius(), 1e-6);
@@ -50,7 +50,7 @@ glm::dmat4 aimed(const glm::dvec3& at, const glm::dvec3& direction) {
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(at, 1)};
 }
 
-void add_light(PanelContext& e, const scene::LightKindRow& row) {
+void add_light(SelectContext& e, const scene::LightKindRow& row) {
     const Place place = place_for_light(e);
     const auto h2 = float(place.height * place.height);
     scene::Light light{.kind = row.kind, .light_to_world = aimed(place.above, -e.up())};
@@ -73,7 +73,7 @@ void add_light(PanelContext& e, const scene::LightKindRow& row) {
     });
 }
 
-void add_area_light(PanelContext& e) {
+void add_area_light(SelectContext& e) {
     const Place place = place_for_light(e);
     auto square = std::make_shared<scene::MeshData>(); // faces +z
     square->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
@@ -112,7 +112,7 @@ void add_area_light(PanelContext& e) {
 
 } // namespace
 
-void lights_section(PanelContext& e) {
+void lights_section(SelectContext& e) {
     const bool open = section_header("Lights");
     e.mark("scene.lights");
     if (!open) return;

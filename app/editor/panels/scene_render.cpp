@@ -4,6 +4,7 @@
 #include "scene_panel.hpp"
 
 #include "base/jobs.hpp"
+#include "panel_context.hpp"
 #include "plugin/registry.hpp"
 #include "render/tracers.hpp"
 #include "scene/edits.hpp"
@@ -22,7 +23,7 @@ namespace restage::editor {
 
 namespace {
 
-void scene_rows(PanelContext& e) {
+void scene_rows(EditContext& e) {
     scene::Settings settings = e.scene().settings.value;
     bool changed = false;
     int samples = int(settings.samples), depth = int(settings.max_depth);
@@ -69,7 +70,7 @@ void scene_rows(PanelContext& e) {
 }
 
 // Loaded denoisers by name; the choice is kept over restarts.
-void denoiser_row(PanelContext& e) {
+void denoiser_row(EditContext& e, PictureView& picture) {
     const auto denoisers = e.registry().denoisers();
     const std::string& now = e.preferences.denoiser;
     std::string shown = now.empty() ? "Built-in" : now + " (not loaded)";
@@ -81,9 +82,9 @@ void denoiser_row(PanelContext& e) {
     if (!open) return;
     const auto choice = [&](const char* label, const std::string& name) {
         if (ImGui::Selectable(label, now == name))
-            e.later([&e, name] {
+            e.later([&e, &picture, name] {
                 e.preferences.denoiser = name;
-                e.live().denoise_by(name);
+                picture.live().denoise_by(name);
             });
         e.mark("render.denoiser." + name);
     };
@@ -93,40 +94,40 @@ void denoiser_row(PanelContext& e) {
     ImGui::EndCombo();
 }
 
-void live_rows(PanelContext& e) {
+void live_rows(EditContext& e, PictureView& picture) {
     ImGui::SeparatorText("Live picture");
     form_row("Denoise", "Shows the picture without its noise");
-    ImGui::BeginDisabled(!e.live().denoiser_missing().empty());
-    ImGui::Checkbox("##denoise", &e.view.denoise);
+    ImGui::BeginDisabled(!picture.live().denoiser_missing().empty());
+    ImGui::Checkbox("##denoise", &picture.view.denoise);
     ImGui::EndDisabled();
-    if (!e.live().denoiser_missing().empty()) tip(e.live().denoiser_missing().c_str());
+    if (!picture.live().denoiser_missing().empty()) tip(picture.live().denoiser_missing().c_str());
     e.mark("render.denoise");
-    denoiser_row(e);
-    int samples = int(e.view.samples);
+    denoiser_row(e, picture);
+    int samples = int(picture.view.samples);
     form_row("Stop at samples", "Of the live picture. 0 = at the scene's number of samples");
     if (ImGui::DragInt("##live samples", &samples, 1, 0, 1 << 20, samples ? "%d a pixel" : "As above",
                        ImGuiSliderFlags_AlwaysClamp))
-        e.view.samples = std::uint32_t(samples);
+        picture.view.samples = std::uint32_t(samples);
     e.mark("render.live_samples");
-    auto seconds = float(e.view.seconds), error = float(e.view.error * 100);
+    auto seconds = float(picture.view.seconds), error = float(picture.view.error * 100);
     form_row("Stop after", "Time for each picture. 0 = no limit");
     if (ImGui::DragFloat("##seconds", &seconds, 0.5f, 0, 86400, seconds > 0 ? "%.0f s" : "No limit",
                          ImGuiSliderFlags_AlwaysClamp))
-        e.view.seconds = double(seconds);
+        picture.view.seconds = double(seconds);
     e.mark("render.seconds");
     form_row("Stop at error", "Stop at this noise: the estimated relative error before denoising. 0 = no target");
     if (ImGui::DragFloat("##error", &error, 0.02f, 0, 100, error > 0 ? "%.2f %%" : "No target",
                          ImGuiSliderFlags_AlwaysClamp))
-        e.view.error = double(error) / 100;
+        picture.view.error = double(error) / 100;
     e.mark("render.error");
     form_row("Resolution", "Less is faster and coarser: pixels of the live picture per screen pixel");
-    ImGui::SliderFloat("##resolution", &e.view.resolution, 0.1f, 2, "%.2f×", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("##resolution", &picture.view.resolution, 0.1f, 2, "%.2f×", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.resolution");
 }
 
-void machine_rows(PanelContext& e) {
+void machine_rows(EditContext& e, PictureView& picture) {
     ImGui::SeparatorText("This machine");
-    const view::ViewStatus status = e.live().status();
+    const view::ViewStatus status = picture.live().status();
     render::RendererOptions options = e.options().renderer;
     SceneState& state = e.panel_state->scene;
     std::vector<const char*> labels{"Automatic"};
@@ -140,7 +141,7 @@ void machine_rows(PanelContext& e) {
     form_row("Ray tracing", help.c_str());
     if (ImGui::Combo("##tracer", &tracer, labels.data(), int(labels.size()))) {
         options.tracer = tracer > 0 ? render::tracer_kinds()[std::size_t(tracer - 1)].name : "";
-        e.later([&e, options] { e.configure_renderer(options); });
+        e.later([&picture, options] { picture.configure_renderer(options); });
     }
     if (!status.tracer.empty()) tip(("In use: " + status.tracer).c_str());
     e.mark("render.tracer");
@@ -149,7 +150,7 @@ void machine_rows(PanelContext& e) {
     ImGui::InputTextWithHint("##device", status.device.empty() ? "The best" : status.device.c_str(), &state.device);
     if (ImGui::IsItemDeactivatedAfterEdit() && state.device != options.device) {
         options.device = state.device;
-        e.later([&e, options] { e.configure_renderer(options); });
+        e.later([&picture, options] { picture.configure_renderer(options); });
     }
     e.mark("render.device");
     int threads = int(options.threads);
@@ -159,7 +160,7 @@ void machine_rows(PanelContext& e) {
                      ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemDeactivatedAfterEdit() && state.threads != threads) { // reopens the renderer: not during a drag
         options.threads = unsigned(state.threads);
-        e.later([&e, options] { e.configure_renderer(options); });
+        e.later([&picture, options] { picture.configure_renderer(options); });
     } else if (!ImGui::IsItemActive()) {
         state.threads = threads;
     }
@@ -174,14 +175,14 @@ void machine_rows(PanelContext& e) {
 
 } // namespace
 
-void render_section(PanelContext& e) {
+void render_section(EditContext& e, PictureView& picture) {
     const bool open = section_header("Rendering");
     e.mark("scene.render");
     if (!open) return;
     ImGui::PushID("render");
     scene_rows(e);
-    live_rows(e);
-    machine_rows(e);
+    live_rows(e, picture);
+    machine_rows(e, picture);
     ImGui::PopID();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene panel, sky: what is visible, and emits light, where the scene ends.
 #include "document/session.hpp"
+#include "panel_context.hpp"
 #include "panels.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
@@ -41,14 +42,14 @@ double twist(const glm::dmat4& m, const glm::dvec3& axis) {
 
 double wrapped(double degrees) { return degrees - 360 * std::floor((degrees + 180) / 360); }
 
-void ask_sky(PanelContext& e, std::optional<Environment> sky, const char* label, const char* gesture = "") {
+void ask_sky(EditContext& e, std::optional<Environment> sky, const char* label, const char* gesture = "") {
     e.edit([sky = std::move(sky),
             label](const scene::Scene& s) { return Result<scene::Edit>(scene::set_environment(s, sky, label)); },
            gesture);
 }
 
 // Candidate files: assets, and the scene's images. Bump maps and the like are left out.
-std::vector<std::string> known_skies(PanelContext& e) {
+std::vector<std::string> known_skies(DocumentContext& e) {
     std::vector<std::string> known;
     const auto add = [&](const std::string& path) {
         if (!path.empty() && std::find(known.begin(), known.end(), path) == known.end()) known.push_back(path);
@@ -73,7 +74,7 @@ std::vector<std::string> known_skies(PanelContext& e) {
     return known;
 }
 
-void image_row(PanelContext& e, const Environment& sky) {
+void image_row(EditContext& e, const Environment& sky) {
     const scene::Image* image = e.scene().images.find(sky.image);
     form_row("Image", image ? image->path.c_str() : "A panorama that shines from all around: HDR or EXR is best");
     if (ImGui::Button(image ? (image->name + "###image").c_str() : "Choose...###image", {ImGui::CalcItemWidth(), 0}))
@@ -129,11 +130,11 @@ void image_row(PanelContext& e, const Environment& sky) {
 // --- skies that plugins make
 // -----------------------------------------------------------------------------------------------------------
 
-void ask_made_sky(PanelContext& e, const plugin::SkyEntry& sky, scene::ParamSet values, std::string gesture) {
+void ask_made_sky(DocumentContext& e, const plugin::SkyEntry& sky, scene::ParamSet values, std::string gesture) {
     e.panel_state->skies.ask({sky, std::move(values), std::move(gesture)}, e.scene().environment.value);
 }
 
-void sky_param(PanelContext& e, const plugin::SkyEntry& sky, const scene::ParamSet& values, const model::Param& line) {
+void sky_param(EditContext& e, const plugin::SkyEntry& sky, const scene::ParamSet& values, const model::Param& line) {
     const scene::Value* set = values.find(line.id);
     const bool fits = set && set->type == line.type;
     const ParamAsk ask =
@@ -147,7 +148,7 @@ void sky_param(PanelContext& e, const plugin::SkyEntry& sky, const scene::ParamS
     ask_made_sky(e, sky, std::move(changed), "sky.made." + line.id);
 }
 
-void sky_params(PanelContext& e, const Environment& now) {
+void sky_params(EditContext& e, const Environment& now) {
     const auto sky = io::find_sky(e.registry(), now.sky);
     if (!sky)
         return warning_note(fmt::format("No plugin provides \"{}\". Its picture stays, coarse where it was saved "
@@ -173,7 +174,7 @@ void sky_params(PanelContext& e, const Environment& now) {
 
 } // namespace
 
-void follow_sky(PanelContext& e) {
+void follow_sky(EditContext& e) {
     SkyMaking& skies = e.panel_state->skies;
     auto made = skies.take(e.scene().environment.value);
     if (!made) return;
@@ -191,15 +192,15 @@ void follow_sky(PanelContext& e) {
         gesture);
 }
 
-bool has_light(const PanelContext& e) { return document::has_light(e.scene(), e.registry()); }
+bool has_light(const DocumentContext& e) { return document::has_light(e.scene(), e.registry()); }
 
-void light_with_studio(PanelContext& e) {
+void light_with_studio(EditContext& e) {
     e.edit([&registry = e.registry()](const scene::Scene& s) {
         return Result<scene::Edit>(document::light_studio(s, registry));
     });
 }
 
-void use_as_sky(PanelContext& e, const std::string& file) {
+void use_as_sky(EditContext& e, const std::string& file) {
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
     e.panel_state->loads.start({.path = path,
                                 .encoding = scene::Encoding::srgb,
@@ -214,7 +215,7 @@ void use_as_sky(PanelContext& e, const std::string& file) {
                                 }});
 }
 
-void sky_section(PanelContext& e) {
+void sky_section(EditContext& e) {
     const bool open = section_header("Sky", true);
     e.mark("scene.sky");
     if (!open) return;
@@ -304,12 +305,12 @@ void sky_section(PanelContext& e) {
     ImGui::PopID();
 }
 
-void draw_scene_settings(PanelContext& e) {
+void draw_scene_settings(SelectContext& e, PictureView& picture) {
     sky_section(e);
     camera_section(e);
     film_section(e);
     lights_section(e);
-    render_section(e);
+    render_section(e, picture);
 }
 
 } // namespace restage::editor

@@ -44,7 +44,15 @@ struct OutlinerState {
         std::uint32_t id = 0; // of that kind
         int depth = 0;
     };
-    std::vector<Row> rows;
+    struct Seen { // of an object, by which its row is there
+        std::uint32_t group = 0;
+        bool live = false, hidden = false, listed = false;
+        bool operator==(const Seen&) const = default;
+    };
+    std::vector<Row> rows; // objects and groups, then lights and cameras
+    std::size_t object_rows = 0;
+    std::vector<Seen> seen; // by id - 1
+    std::size_t lists = 0; // how often object rows were listed, for tests
     scene::Version made_for = ~std::uint64_t(0);
     std::string made_search;
     scene::Id<scene::Material> made_material;
@@ -92,6 +100,8 @@ struct PluginState { // actions and panels of plugins
     std::map<std::string, scene::ParamSet> asked; // of the dialog of an action, as it was left
     std::map<std::string, scene::ParamSet> panels, remembered; // of each panel; `remembered` is on the disk
     bool panels_read = false;
+    // Libraries whose panel threw an exception: it is not drawn until they are reloaded.
+    std::map<std::string, std::weak_ptr<const void>> broken;
     std::weak_ptr<const std::string> running; // what the action that runs is called; its job holds it
 };
 
